@@ -1,0 +1,75 @@
+# `make run` shows the 2013 test and the model's answer to it; `make test` runs every check.
+# Both set up what they need by themselves, once.
+
+# Another Python: make PYTHON=python3.12 run
+PYTHON ?= python3
+# Test processes at a time.
+JOBS ?= 2
+# Cases that `make prove` takes: ci is 24 of the development set.
+SET ?= ci
+
+OUT := out
+BIN := .venv/bin
+PYTEST := -m pytest -n $(JOBS) --dist loadfile
+
+# The environment is complete in itself: what a sourced ROS installation, or a Python that is already
+# inside such an environment, left in the variables must not leak in.
+unexport PYTHONPATH AMENT_PREFIX_PATH _ROS_WHEELS_BOOTSTRAP_COMPLETE
+
+.DEFAULT_GOAL := help
+.PHONY: help run test test-ros-all prove bench docs clean distclean
+
+help:
+	@echo "make run           simulate the 2013 blowout test, compare the model with it: $(OUT)/"
+	@echo "make test          every check: tests, style, types, architecture"
+	@echo "make test-ros-all  the node tests with ROS 2 kilted, then with jazzy"
+	@echo "make prove         concealed effects, diagnosed and scored: $(OUT)/proof (SET=ci|dev|test)"
+	@echo "make bench         speed of the model beside a peer, cost of the nodes"
+	@echo "make docs          redraw the pictures under docs/"
+	@echo "make clean         remove what was made; make distclean: the environments too"
+
+run: .venv/ready
+	@echo "1. The scenario, simulated: a bag in $(OUT)/steer_axle_blowout"
+	$(BIN)/truck-blowout run steer_axle_blowout -o $(OUT)/steer_axle_blowout
+	@echo; echo "2. The test's record beside the model: a page in $(OUT)/comparison"
+	$(BIN)/truck-blowout compare test_2013_steer_blowout -o $(OUT)/comparison
+	@echo; echo "3. The same run over ROS 2, in real time: bag and page in $(OUT)/over_dds"
+	scripts/run_over_dds.sh $(OUT)/over_dds
+
+test: .venv/ready
+	$(BIN)/python $(PYTEST)
+
+test-ros-all: .venv/ready .venv-jazzy/ready
+	$(BIN)/python $(PYTEST) test/nodes
+	.venv-jazzy/bin/python $(PYTEST) test/nodes
+
+prove: .venv/ready
+	$(BIN)/truck-blowout prove --set $(SET) --workers $(JOBS) -o $(OUT)/proof
+
+bench: .venv/ready-for-bench
+	$(BIN)/python -m benchmarks
+	$(BIN)/python -m benchmarks.nodes
+
+docs: .venv/ready
+	$(BIN)/python scripts/draw_architecture.py
+	$(BIN)/truck-blowout compare test_2013_steer_blowout -o $(OUT)/comparison
+	cp $(OUT)/comparison/figures/yaw_rate_tractor.png docs/steer_axle_blowout.png
+
+# requirements/<distribution>.txt pins everything; a newer file there sets up anew.
+.venv/ready: requirements/kilted.txt setup.py setup.cfg
+	@PYTHON="$(PYTHON)" scripts/set_up_environment.sh .venv requirements/kilted.txt
+
+.venv/ready-for-bench: requirements/bench.txt .venv/ready
+	@$(BIN)/python -m pip install --quiet --quiet --disable-pip-version-check -r requirements/bench.txt
+	@touch $@
+
+.venv-jazzy/ready: requirements/jazzy.txt setup.py setup.cfg
+	@PYTHON="$(PYTHON)" scripts/set_up_environment.sh .venv-jazzy requirements/jazzy.txt
+
+clean:
+	rm -rf $(OUT) build dist install log *.egg-info .pytest_cache .mypy_cache .ruff_cache \
+		.hypothesis .import_linter_cache
+	find . -name __pycache__ -not -path './.venv*' -prune -exec rm -rf {} +
+
+distclean: clean
+	rm -rf .venv .venv-jazzy

@@ -1,0 +1,32 @@
+"""Write the parameter tables of the nodes into docs/ros.md, between their markers."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+from truck_blowout_sim.nodes import lane_keeper, player_parameters, simulator_parameters
+from truck_blowout_sim.nodes.parameters import markdown
+
+PAGE = Path(__file__).resolve().parents[1] / "docs" / "ros.md"
+TABLES = {
+    "simulator": simulator_parameters.SPECS,
+    "player": player_parameters.SPECS,
+    "lane_keeper": lane_keeper.SPECS,
+}
+
+
+def main() -> None:
+    text = PAGE.read_text(encoding="utf-8")
+    for name, specs in TABLES.items():
+        begin, end = f"<!-- parameters of {name} -->\n", f"<!-- end of {name} -->"
+        pattern = re.compile(re.escape(begin) + ".*?" + re.escape(end), re.DOTALL)
+        table = f"{begin}\n{markdown(specs)}\n{end}"
+        text, count = pattern.subn(lambda _, table=table: table, text)
+        if count != 1:
+            raise SystemExit(f"docs/ros.md has {count} places for the parameters of {name}")
+    PAGE.write_text(text, encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()
