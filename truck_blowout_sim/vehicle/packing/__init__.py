@@ -1,0 +1,5 @@
+"""From a vehicle to the flat vectors the compiled core works on."""
+
+from truck_blowout_sim.vehicle.packing.packed import Packed, pack
+
+__all__ = ["Packed", "pack"]

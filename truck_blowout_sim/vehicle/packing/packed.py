@@ -1,0 +1,114 @@
+"""The packed vehicle: parameters, topology, and where each named parameter sits."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from truck_blowout_sim.vehicle.document import Place
+from truck_blowout_sim.vehicle.packing import chassis, running_gear
+from truck_blowout_sim.vehicle.packing.names import (
+    Names,
+    names_of,
+    parameter_index,
+    unknown_parameter,
+)
+from truck_blowout_sim.vehicle.packing.tables import Tables
+from truck_blowout_sim.vehicle.packing.topology import topology_of
+from truck_blowout_sim.vehicle.statics import StaticLoads, static_loads
+from truck_blowout_sim.vehicle.vehicle import Vehicle
+
+
+@dataclass(frozen=True, eq=False)
+class Packed:
+    """A vehicle ready to be stepped.
+
+    Attributes:
+        params: float64[n], blocks of `physics.layout`, tables behind them.
+        topology: int64[m], `layout.Topology`, then per axle and per tire entries.
+        index: position in `params` of each named parameter, such as
+            `hub.trailer_2_left.brake_gain`.
+        vehicle: what was packed.
+        names: names of units, axles, hubs and tires in the order of the blocks.
+    """
+
+    params: NDArray[np.float64]
+    topology: NDArray[np.int64]
+    index: Mapping[str, int]
+    vehicle: Vehicle
+    names: Names
+
+    def __getitem__(self, name: str) -> float:
+        """Value of a named parameter.
+
+        Raises:
+            KeyError: no parameter of this name; says which is nearest.
+        """
+        return float(self.params[self.position(name)])
+
+    def position(self, name: str) -> int:
+        """Position of a named parameter in `params`.
+
+        Raises:
+            KeyError: no parameter of this name; says which is nearest.
+        """
+        if name not in self.index:
+            place = Place(str(self.vehicle.path), 0, "")
+            raise KeyError(unknown_parameter(place, name, self.index).problem)
+        return self.index[name]
+
+    def with_values(self, values: Mapping[str, float]) -> Packed:
+        """A copy with some named parameters set.
+
+        Raises:
+            KeyError: no parameter of a name.
+        """
+        params = self.params.copy()
+        for name, value in values.items():
+            params[self.position(name)] = value
+        return replace(self, params=params)
+
+
+def pack(vehicle: Vehicle) -> Packed:
+    """Pack a vehicle, its effects included.
+
+    Raises:
+        KeyError: an effect names no parameter; `load_vehicle` does not let this through.
+        ValueError: loads at rest are undetermined; nor does it this.
+    """
+    tables = Tables(vehicle.blowout)
+    loads = static_loads(vehicle, vehicle.road.gravity_mps2)
+    head = _head(vehicle, loads)
+    tail = _running_gear(vehicle, loads, tables)
+    params = np.array([*head, *tail, *tables.values], dtype=np.float64)
+    topology = topology_of(vehicle, table_at=len(head) + len(tail))
+    packed = Packed(params, topology, parameter_index(vehicle), vehicle, names_of(vehicle))
+    return packed.with_values({name: effect.value for name, effect in vehicle.effects.items()})
+
+
+def _head(vehicle: Vehicle, loads: StaticLoads) -> list[float]:
+    units = [chassis.unit_block(vehicle, name) for name in vehicle.units]
+    return [
+        *chassis.world_block(vehicle.road),
+        *chassis.steering_block(vehicle),
+        *chassis.coupling_block(vehicle, loads.hitch_n),
+        *chassis.driveline_block(vehicle),
+        *chassis.abs_block(vehicle),
+        *chassis.circuit_blocks(vehicle),
+        *(value for unit in units for value in unit),
+    ]
+
+
+def _running_gear(vehicle: Vehicle, loads: StaticLoads, tables: Tables) -> list[float]:
+    axles = vehicle.spec.axles
+    blocks = [running_gear.axle_block(vehicle, name, loads) for name in vehicle.axles]
+    blocks += [running_gear.hub_block(axles[vehicle.axle_of_hub(hub)], hub) for hub in vehicle.hubs]
+    blocks += [
+        running_gear.tire_block(vehicle, tire, hub, tables)
+        for hub in vehicle.hubs
+        for tire in vehicle.tires_of_hub(hub)
+    ]
+    return [value for block in blocks for value in block]

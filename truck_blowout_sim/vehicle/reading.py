@@ -1,0 +1,159 @@
+"""From the tree of a file to typed sections: every key known, every value inside its bounds."""
+
+from __future__ import annotations
+
+import difflib
+import math
+from typing import TypeVar
+
+from truck_blowout_sim.errors import InputError
+from truck_blowout_sim.vehicle.document import Branch, Leaf, Place
+from truck_blowout_sim.vehicle.fields import Rule, required, rules
+from truck_blowout_sim.vehicle.units import spellings
+
+Section = TypeVar("Section")
+LARGEST = 1e15  # nothing on a road is larger, in SI; squares stay finite
+
+
+def build(of: type[Section], tree: Branch, sources: dict[str, str], path: str = "") -> Section:
+    """Make the section `of` from a branch.
+
+    Args:
+        of: a dataclass made with `vehicle.fields`.
+        tree: the branch.
+        sources: filled with the source of every value that has one, by dotted SI key.
+        path: dotted key of the section.
+
+    Raises:
+        InputError: unknown key, missing key, missing unit, wrong type, or out of bounds.
+    """
+    known = rules(of)
+    for key, entry in tree.entries.items():
+        if key not in known:
+            raise _unknown_key(key, entry, tuple(known))
+    for key in required(of):
+        if key not in tree.entries:
+            raise tree.place.error(f"{key} is missing", " or ".join(spellings(key)))
+    values = {
+        key: _value(known[key], entry, sources, f"{path}.{key}" if path else key)
+        for key, entry in tree.entries.items()
+    }
+    return of(**values)
+
+
+def _unknown_key(key: str, entry: Leaf | Branch, known: tuple[str, ...]) -> InputError:
+    written = entry.place.key.rpartition(".")[2]
+    bare = [name for name in known if name.rpartition("_")[0] == written]
+    if bare:
+        problem = f"{_shown(entry)} has no unit"
+        return entry.place.error(problem, " or ".join(spellings(bare[0])))
+    stem, _, suffix = key.rpartition("_")
+    same = [name for name in known if stem and name.rpartition("_")[0] == stem]
+    if same:
+        return entry.place.error(
+            f"{_shown(entry)} in {suffix!r}: not a unit of this quantity",
+            " or ".join(spellings(same[0])),
+        )
+    return unknown(entry.place, f"unknown key {written!r}", written, known)
+
+
+def unknown(place: Place, problem: str, word: str, known: tuple[str, ...]) -> InputError:
+    """An error about a name, with the nearest of the known names or all of them."""
+    near = difflib.get_close_matches(word, known, n=1, cutoff=0.6)
+    if near:
+        return place.error(f"{problem}, did you mean {near[0]!r}?")
+    return place.error(problem, f"one of: {', '.join(known)}")
+
+
+def _shown(entry: Leaf | Branch) -> str:
+    return repr(entry.value) if isinstance(entry, Leaf) else "a section"
+
+
+def _value(rule: Rule, entry: Leaf | Branch, sources: dict[str, str], path: str) -> object:
+    if rule.kind == "section":
+        return build(rule.section, _branch(entry), sources, path)
+    if rule.kind == "sections":
+        return _named(rule, _branch(entry), sources, path)
+    if isinstance(entry, Branch):
+        raise entry.place.error("is a section", _expected(rule))
+    if entry.source:
+        sources[path] = entry.source
+    return leaf_value(rule, entry)
+
+
+def _branch(entry: Leaf | Branch) -> Branch:
+    if isinstance(entry, Leaf):
+        raise entry.place.error(f"{entry.value!r} is not a section", "keys below it")
+    return entry
+
+
+def _named(rule: Rule, tree: Branch, sources: dict[str, str], path: str) -> dict[str, object]:
+    if rule.section is None:
+        word = Rule("text", rule.doc)
+        return {k: _value(word, e, sources, f"{path}.{k}") for k, e in tree.entries.items()}
+    return {
+        name: build(rule.section, _branch(entry), sources, f"{path}.{name}")
+        for name, entry in tree.entries.items()
+    }
+
+
+def leaf_value(rule: Rule, leaf: Leaf) -> object:
+    """The checked value of a leaf, in SI.
+
+    Raises:
+        InputError: wrong type or out of bounds.
+    """
+    if rule.kind == "number":
+        return _number(rule, leaf.value, leaf)
+    if rule.kind == "numbers":
+        if not isinstance(leaf.value, list):
+            raise leaf.place.error(f"{leaf.value!r} is not a list", _expected(rule))
+        return tuple(_number(rule, item, leaf) for item in leaf.value)
+    if rule.kind == "switch":
+        fits = isinstance(leaf.value, bool)
+    else:
+        fits = isinstance(leaf.value, str) and leaf.value in (rule.options or (leaf.value,))
+    if not fits:
+        raise leaf.place.error(f"{leaf.value!r} is not accepted", _expected(rule))
+    return leaf.value
+
+
+def _number(rule: Rule, value: object, leaf: Leaf) -> float:
+    number = to_number(value, leaf.place, _expected(rule)) * leaf.factor
+    too_low = number <= rule.low if rule.open_low else number < rule.low
+    unbounded = abs(number) > LARGEST and not (rule.infinite and math.isinf(number))
+    if too_low or number > rule.high or unbounded:
+        raise leaf.place.error(f"{value!r} is out of bounds", _expected(rule))
+    return number
+
+
+def to_number(value: object, place: Place, expected: str = "a number") -> float:
+    """A YAML scalar as a float; YAML 1.1 reads `3e6` as a text, people mean a number.
+
+    Raises:
+        InputError: not a number, or NaN.
+    """
+    try:
+        if isinstance(value, bool) or not isinstance(value, (int, float, str)):
+            raise ValueError(value)
+        number = float(value)
+    except (ValueError, OverflowError):
+        raise place.error(f"{value!r} is not a number", expected) from None
+    if math.isnan(number):
+        raise place.error("is not a number (NaN)", expected)
+    return number
+
+
+def _expected(rule: Rule) -> str:
+    if rule.kind == "switch":
+        return f"true or false: {rule.doc}"
+    if rule.options:
+        return f"one of: {', '.join(rule.options)}"
+    if rule.kind == "text":
+        return f"a text: {rule.doc}"
+    words = "a list of numbers" if rule.kind == "numbers" else "a number"
+    if math.isfinite(rule.low):
+        words += f" greater than {rule.low:g}" if rule.open_low else f" of at least {rule.low:g}"
+    if math.isfinite(rule.high):
+        words += f" and at most {rule.high:g}"
+    return f"{words}: {rule.doc}"

@@ -1,0 +1,1 @@
+"""The sections of vehicle, tire, blowout and road files."""
