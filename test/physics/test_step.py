@@ -1,0 +1,121 @@
+"""The whole step: symmetry, repeatability, convergence, rest, and a run kept as it was."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from truck_blowout_sim.physics.layout import N_WORK, TIRE_S, TOPOLOGY
+from truck_blowout_sim.physics.step import advance, step
+from truck_blowout_sim.simulation import InitialState, Inputs, Truck, simulate
+from truck_blowout_sim.simulation.validation.soundness import symmetry_error
+from truck_blowout_sim.vehicle import Packed
+
+GOLDEN = Path(__file__).with_name("golden_run.npz")
+
+
+def golden_run(stored: dict[str, np.ndarray]) -> np.ndarray:
+    """State every 250 steps of a run that turns, loses a tire and brakes; 2 s in all.
+
+    Start, parameters and inputs are stored with the result, so that this guards the arithmetic of
+    the step and not the values of a vehicle file. Written by `python test/physics/golden_run.py`.
+    """
+    x, work, rows = stored["start"].copy(), np.zeros(N_WORK), []
+    topo = stored["topology"]
+    blown = topo[TOPOLOGY.state_tire_at] + TIRE_S.blown_time_s
+    for k in range(8):
+        if k == 2:
+            x[blown] = x[0]
+        advance(x, stored["params"], topo, stored["inputs"][k], 0.001, 250, work)
+        rows.append(x[:topo[TOPOLOGY.state_line_at]].copy())
+    return np.array(rows)
+
+
+def test_golden_run() -> None:
+    stored = dict(np.load(GOLDEN))
+    found, kept = golden_run(stored), stored["result"]
+    finite = np.isfinite(kept)
+    assert np.array_equal(np.isfinite(found), finite)
+    scale = np.maximum(np.abs(kept[finite]), 1.0)
+    assert (np.abs(found[finite] - kept[finite]) / scale).max() < 1e-9
+
+
+def test_left_and_right_are_mirror_images(truck: Packed, thesis: Packed) -> None:
+    assert symmetry_error(truck) < 1e-9
+    assert symmetry_error(thesis) < 1e-9
+
+
+def test_repetition_gives_the_same_bits(truck: Packed) -> None:
+    runs = [simulate(truck, "drive_step_steer_right") for _ in range(2)]
+    assert all(runs[0][name] == runs[1][name] for name in runs[0].channels)
+
+
+def test_reset_gives_the_same_bits(truck: Packed) -> None:
+    run = Truck(truck, initial=InitialState(speed_mps=15.0))
+    ends = []
+    for _ in range(2):
+        run.advance(Inputs(1.0, 0.3), 300)
+        run.blow("steer_left")
+        run.advance(Inputs(1.0, 0.3), 700)
+        ends.append(run.state.copy())
+        run.reset()
+    assert np.array_equal(ends[0], ends[1], equal_nan=True)
+
+
+def test_one_call_or_many_give_the_same_bits(truck: Packed) -> None:
+    whole, parts = (Truck(truck, initial=InitialState(speed_mps=15.0)) for _ in range(2))
+    inputs = np.array([1.0, 0.3, 0.0, 0.0, 0.0])
+    advance(whole.state, truck.params, truck.topology, inputs, 0.001, 400, whole._work)
+    for _ in range(400):
+        advance(parts.state, truck.params, truck.topology, inputs, 0.001, 1, parts._work)
+    assert np.array_equal(whole.state, parts.state, equal_nan=True)
+
+
+def test_the_step_alone_gives_the_same_numbers(truck: Packed) -> None:
+    """Each compiled loop carries its own copy of the step, so equal to rounding and not in bits."""
+    whole, parts = (Truck(truck, initial=InitialState(speed_mps=15.0)) for _ in range(2))
+    inputs = np.array([1.0, 0.3, 0.0, 0.0, 0.0])
+    advance(whole.state, truck.params, truck.topology, inputs, 0.001, 400, whole._work)
+    for _ in range(400):
+        step(parts.state, truck.params, truck.topology, inputs, 0.001, parts._work)
+    finite = np.isfinite(whole.state)
+    scale = np.maximum(np.abs(whole.state[finite]), 1.0)
+    assert (np.abs(whole.state[finite] - parts.state[finite]) / scale).max() < 1e-9
+
+
+def test_half_the_step_changes_the_yaw_rate_by_less_than_a_fiftieth_of_a_degree(truck: Packed
+                                                                                ) -> None:
+    runs = [simulate(truck, "steer_axle_blowout", step_s=dt) for dt in (0.001, 0.0005)]
+    rates = [np.degrees(run["tractor_yaw_rate_radps"].value) for run in runs]
+    assert np.abs(rates[0] - rates[1]).max() < 0.02
+
+
+def test_a_standing_truck_stands_for_a_minute(truck: Packed) -> None:
+    run = Truck(truck)
+    start = run.outputs()
+    run.advance(Inputs(), 60_000)
+    end = run.outputs()
+    for unit in ("tractor", "trailer"):
+        for axis in "xyz":
+            assert end[f"{unit}_{axis}_m"] == pytest.approx(start[f"{unit}_{axis}_m"], abs=1e-3)
+    for tire in run.vehicle.tires:
+        assert end[f"tire_fz_{tire}_n"] == pytest.approx(start[f"tire_fz_{tire}_n"], abs=20.0)
+
+
+def test_nothing_settles_at_the_start(truck: Packed) -> None:
+    for speed in (0.0, 23.4):
+        run = Truck(truck, initial=InitialState(speed_mps=speed))
+        start = run.outputs()
+        run.advance(Inputs(throttle=0.3 if speed else 0.0), 500)
+        end = run.outputs()
+        for unit in ("tractor", "trailer"):
+            assert end[f"{unit}_z_m"] == pytest.approx(start[f"{unit}_z_m"], abs=5e-4)
+            assert end[f"{unit}_pitch_rad"] == pytest.approx(start[f"{unit}_pitch_rad"], abs=1e-3)
+
+
+def test_a_motion_that_is_not_finite_is_caught(truck: Packed) -> None:
+    run = Truck(truck, initial=InitialState(speed_mps=15.0))
+    run.advance(Inputs(throttle=float("nan")), 5)
+    assert not run.finite

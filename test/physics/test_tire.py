@@ -1,0 +1,92 @@
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from truck_blowout_sim.physics.layout import TIRE_S
+from truck_blowout_sim.physics.tires import magic_formula
+from truck_blowout_sim.physics.tires.tire import lag, tire_forces
+from truck_blowout_sim.vehicle import Packed
+
+Floats = NDArray[np.float64]
+Block = Callable[[str], int]
+Slot = Callable[[str, str], int]
+FZ, SPEED = 25_000.0, 20.0
+
+
+def force(truck: Packed, state: Floats, s: int, t: int, *, vx: float = SPEED, vy: float = 0.0,
+          roll: float | None = None, rim: float = 0.0, camber: float = 0.0, fz: float = FZ
+          ) -> tuple[float, float, float]:
+    return tire_forces(state, s, truck.params, t, 0, fz, rim, -1, vx, vy,
+                       vx if roll is None else roll, camber, 1.0, 1.0, 0.001)
+
+
+@pytest.fixture
+def inflated(truck: Packed, state: Floats, slot: Slot) -> tuple[Floats, int]:
+    s = slot("tire", "steer_left")
+    state[s + TIRE_S.pressure_pa] = truck["tire.steer_left.pressure_pa"]
+    return state, s
+
+
+def test_after_a_while_the_lag_is_gone(truck: Packed, inflated: tuple[Floats, int], block: Block
+                                       ) -> None:
+    (state, s), t = inflated, block("tire.steer_left")
+    for _ in range(2000):
+        fx, fy, mz = force(truck, state, s, t, vy=-0.03 * SPEED, roll=1.01 * SPEED)
+    k = magic_formula.cornering_stiffness_nprad(truck.params, t, FZ, 1.0)
+    steady = magic_formula.forces(truck.params, t, FZ, 1.0, 0.01, 0.03, 1.0, 1.0, k)
+    assert (fx, fy, mz) == pytest.approx(steady, rel=1e-6)
+
+
+@pytest.mark.parametrize("speed", [5.0, 25.0])
+def test_side_force_builds_over_a_rolled_distance(truck: Packed, inflated: tuple[Floats, int],
+                                                  block: Block, speed: float) -> None:
+    """63 % after one relaxation length, whatever the speed."""
+    (state, s), t = inflated, block("tire.steer_left")
+    k = magic_formula.cornering_stiffness_nprad(truck.params, t, FZ, 1.0)
+    length = k / truck["tire.steer_left.lateral_stiffness_npm"]
+    for _ in range(round(length / speed / 0.001)):
+        _, fy, _ = force(truck, state, s, t, vx=speed, vy=-0.001 * speed)
+    assert fy / (0.001 * k) == pytest.approx(1.0 - np.exp(-1.0), abs=0.02)
+
+
+def test_a_standing_tire_is_a_spring(truck: Packed, inflated: tuple[Floats, int], block: Block
+                                     ) -> None:
+    """Pushed sideways by 1 mm it resists with its carcass stiffness."""
+    (state, s), t = inflated, block("tire.steer_left")
+    for _ in range(1000):
+        force(truck, state, s, t, vx=0.0, vy=-0.001, roll=0.0)
+    _, fy, _ = force(truck, state, s, t, vx=0.0, vy=0.0, roll=0.0)
+    assert fy == pytest.approx(0.001 * truck["tire.steer_left.lateral_stiffness_npm"], rel=0.02)
+
+
+def test_the_lag_is_stable_at_any_speed_and_length() -> None:
+    value = 0.0
+    for _ in range(100):
+        value = lag(value, 60.0, 60.0 * 0.1, 1e-3, 0.001)
+    assert value == pytest.approx(0.1)
+
+
+def test_a_flat_tire_keeps_its_share_of_cornering(truck: Packed, inflated: tuple[Floats, int],
+                                                  block: Block) -> None:
+    (state, s), t = inflated, block("tire.steer_left")
+    whole = [force(truck, state, s, t, vy=-0.005 * SPEED)[1] for _ in range(1000)][-1]
+    flat = [force(truck, state, s, t, vy=-0.005 * SPEED, rim=1.0)[1] for _ in range(1000)][-1]
+    assert flat / whole == pytest.approx(truck["tire.steer_left.flat_cornering"], rel=1e-3)
+
+
+def test_camber_thrust_points_where_the_wheel_leans(truck: Packed, inflated: tuple[Floats, int],
+                                                    block: Block) -> None:
+    """About 55 N a degree at 26.5 kN; positive camber leans the top to the left."""
+    (state, s), t = inflated, block("tire.steer_left")
+    _, fy, _ = force(truck, state, s, t, camber=np.radians(1.0), fz=26_500.0)
+    assert fy == pytest.approx(55.5, abs=1.0)
+
+
+def test_a_tire_in_the_air_gives_no_force(truck: Packed, inflated: tuple[Floats, int], block: Block
+                                          ) -> None:
+    (state, s), t = inflated, block("tire.steer_left")
+    assert force(truck, state, s, t, vy=-2.0, roll=0.0, fz=0.0) == (0.0, 0.0, 0.0)

@@ -1,0 +1,83 @@
+"""Errors a user can act on: each is one line."""
+
+from __future__ import annotations
+
+import errno
+from pathlib import Path
+
+_LONGEST_VALUE = 200
+
+
+class InputError(Exception):
+    """Bad input: says which file, where in it, what is wrong, and what was expected.
+
+    Args:
+        problem: what was found, with the value.
+        file: the file (or the name of the argument) the input came from.
+        where: place in it: ``line 12, column tractor_vx_mps``, ``byte 4096``, ``key mass_kg``;
+            empty if the whole file is meant.
+        expected: what would have been right.
+
+    ``str()`` is one line, whatever the arguments contain.
+    """
+
+    def __init__(
+        self,
+        problem: str,
+        *,
+        file: str | Path | None = None,
+        where: str | None = None,
+        expected: str | None = None,
+    ) -> None:
+        self.file = _one_line(str(file)) if file is not None else ""
+        self.where = _one_line(where or "")
+        self.problem = _one_line(problem)
+        self.expected = _one_line(expected or "")
+        super().__init__(str(self))
+
+    def __str__(self) -> str:
+        place = ", ".join(part for part in (self.file, self.where) if part)
+        line = f"{place}: {self.problem}" if place else self.problem
+        return f"{line}; expected {self.expected}" if self.expected else line
+
+    def __reduce__(self) -> tuple[object, ...]:
+        # keyword-only arguments: the default would call InputError(str) in another process
+        return _rebuild_input_error, (self.problem, self.file, self.where, self.expected)
+
+
+class StorageError(OSError):
+    """A file could not be written (disk full, no permission); what was written stays readable.
+
+    Args:
+        problem: the operating system's words, and what was saved.
+        file: the file being written.
+        number: the ``errno`` behind it.
+    """
+
+    def __init__(self, problem: str, *, file: str | Path, number: int = errno.EIO) -> None:
+        self.problem = _one_line(problem)
+        super().__init__(number, self.problem, _one_line(str(file)))
+
+    def __str__(self) -> str:
+        return f"{self.filename}: {self.problem}"
+
+    def __reduce__(self) -> tuple[object, ...]:
+        return _rebuild_storage_error, (self.problem, self.filename, self.errno)
+
+
+def quoted(value: object) -> str:
+    """The value as found in a file, quoted, on one line, shortened if it is very long."""
+    text = _one_line(repr(value))
+    return text if len(text) <= _LONGEST_VALUE else text[: _LONGEST_VALUE - 4] + "...'"
+
+
+def _rebuild_input_error(problem: str, file: str, where: str, expected: str) -> InputError:
+    return InputError(problem, file=file or None, where=where, expected=expected)
+
+
+def _rebuild_storage_error(problem: str, file: str, number: int) -> StorageError:
+    return StorageError(problem, file=file, number=number)
+
+
+def _one_line(text: str) -> str:
+    return " ".join("".join(c if c.isprintable() else " " for c in text).split())

@@ -1,0 +1,1 @@
+"""What a truck does: compiled scalar code over the named layout, one small file per phenomenon."""

@@ -1,0 +1,133 @@
+"""What a truck holds: kinetic and potential energy. No step calls this; an audit does.
+
+With `powers.powers_w` it shows that action is reaction everywhere: energy must change by exactly
+what tires, air, engine, brakes, dampers, dry friction, coupling and frame deliver.
+
+References: T = 1/2 m v^2 + 1/2 w I w of every body; elastic energy as the integral of the force.
+Known limits: payload must not shift; tires, fifth wheel and frame hold none here (their power is in
+`powers`); steering and gas are not audited.
+Validated with: test/physics/test_energy.py.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from truck_blowout_sim.physics import road, suspension
+from truck_blowout_sim.physics.axle import heading_axes
+from truck_blowout_sim.physics.fifth_wheel import point_velocity
+from truck_blowout_sim.physics.jit import core, entry
+from truck_blowout_sim.physics.layout import (
+    AXLE,
+    AXLE_S,
+    AXLE_SIZE,
+    HUB,
+    HUB_S,
+    HUB_SIZE,
+    STATE_UNIT_AT,
+    TOPOLOGY,
+    TOPOLOGY_AXLE_SIZE,
+    TOPOLOGY_SIZE,
+    UNIT,
+    UNIT_AT,
+    UNIT_S,
+    UNIT_SIZE,
+    UNIT_WORK_SIZE,
+)
+from truck_blowout_sim.physics.rotation import fill_rotation, to_map
+
+Floats = NDArray[np.float64]
+Integers = NDArray[np.int64]
+
+
+@entry
+def energy_j(x: Floats, p: Floats, topo: Integers, work: Floats) -> float:
+    """Kinetic and potential energy [J] of bodies, axles, wheels and suspension springs."""
+    g = road.gravity(p)
+    total = 0.0
+    for u in range(topo[TOPOLOGY.n_units]):
+        s, a = STATE_UNIT_AT + u * len(UNIT_S), UNIT_AT + u * UNIT_SIZE
+        fill_rotation(x, s, work, u * UNIT_WORK_SIZE)
+        total += _unit_energy(x, s, p, a, g)
+    for i in range(topo[TOPOLOGY.n_axles]):
+        total += _axle_energy(x, p, topo, i, work, g)
+    for h in range(topo[TOPOLOGY.n_hubs]):
+        spin = x[topo[TOPOLOGY.state_hub_at] + h * len(HUB_S) + HUB_S.spin_radps]
+        total += 0.5 * p[topo[TOPOLOGY.hub_at] + h * HUB_SIZE + HUB.spin_inertia_kgm2] * spin * spin
+    return total
+
+
+@core
+def _unit_energy(x: Floats, s: int, p: Floats, a: int, g: tuple[float, float, float]) -> float:
+    """A sprung body: translation, rotation, height."""
+    m = p[a + UNIT.mass_kg]
+    u, v, w = x[s + UNIT_S.u_mps], x[s + UNIT_S.v_mps], x[s + UNIT_S.w_mps]
+    pr, qr, rr = x[s + UNIT_S.p_radps], x[s + UNIT_S.q_radps], x[s + UNIT_S.r_radps]
+    spin = (p[a + UNIT.ixx_kgm2] * pr * pr + p[a + UNIT.iyy_kgm2] * qr * qr
+            + p[a + UNIT.izz_kgm2] * rr * rr
+            - 2.0 * (p[a + UNIT.ixy_kgm2] * pr * qr + p[a + UNIT.ixz_kgm2] * pr * rr
+                     + p[a + UNIT.iyz_kgm2] * qr * rr))
+    height = (g[0] * x[s + UNIT_S.x_m] + g[1] * x[s + UNIT_S.y_m] + g[2] * x[s + UNIT_S.z_m])
+    return 0.5 * m * (u * u + v * v + w * w) + 0.5 * spin - m * height
+
+
+@core
+def _axle_energy(x: Floats, p: Floats, topo: Integers, i: int, work: Floats,
+                 g: tuple[float, float, float]) -> float:
+    """A solid axle with its springs."""
+    head = TOPOLOGY_SIZE + i * TOPOLOGY_AXLE_SIZE
+    us, w = STATE_UNIT_AT + topo[head] * len(UNIT_S), topo[head] * UNIT_WORK_SIZE
+    a, s = topo[TOPOLOGY.axle_at] + i * AXLE_SIZE, topo[TOPOLOGY.state_axle_at] + i * len(AXLE_S)
+    ex, ey, ez = heading_axes(work, w)
+    rx, rz = p[a + AXLE.x_m], p[a + AXLE.roll_centre_z_m]
+    v = point_velocity(x, us, rx, 0.0, rz)
+    at = to_map(work, w, rx, 0.0, rz)
+    m, roll_rate = p[a + AXLE.mass_kg], x[s + AXLE_S.roll_rate_radps]
+    above = x[s + AXLE_S.z_m] - x[us + UNIT_S.z_m] - at[2]
+    along = v[0] * ex[0] + v[1] * ex[1] + v[2] * ex[2]
+    across = v[0] * ey[0] + v[1] * ey[1] + v[2] * ey[2] - above * roll_rate
+    turn = (x[us + UNIT_S.p_radps] * ez[0] + x[us + UNIT_S.q_radps] * ez[1]
+            + x[us + UNIT_S.r_radps] * ez[2])
+    vz = x[s + AXLE_S.vz_mps]
+    total = 0.5 * m * (along * along + across * across + vz * vz)
+    total += 0.5 * p[a + AXLE.ixx_kgm2] * roll_rate * roll_rate
+    total += 0.5 * p[a + AXLE.izz_kgm2] * turn * turn
+    total -= m * (g[0] * (x[us + UNIT_S.x_m] + at[0]) + g[1] * (x[us + UNIT_S.y_m] + at[1])
+                  + g[2] * x[s + AXLE_S.z_m])
+    left, right, lean = _travels(x, p, topo, i, work)
+    return (total + _spring_energy(p, a, left) + _spring_energy(p, a, right)
+            + 0.5 * p[a + AXLE.aux_roll_nmprad] * lean * lean)
+
+
+@core
+def _travels(x: Floats, p: Floats, topo: Integers, i: int, work: Floats
+             ) -> tuple[float, float, float]:
+    """Spring compressions left and right after the equaliser [m], and body lean [rad]."""
+    head = TOPOLOGY_SIZE + i * TOPOLOGY_AXLE_SIZE
+    us, w = STATE_UNIT_AT + topo[head] * len(UNIT_S), topo[head] * UNIT_WORK_SIZE
+    a, s = topo[TOPOLOGY.axle_at] + i * AXLE_SIZE, topo[TOPOLOGY.state_axle_at] + i * len(AXLE_S)
+    twist = x[us + UNIT_S.twist_front_rad + (0 if p[a + AXLE.x_m] > 0.0 else 1)]
+    left = suspension.travel_m(x, us, work, w, p, a, s, 1.0, twist)
+    right = suspension.travel_m(x, us, work, w, p, a, s, -1.0, twist)
+    lean = 0.5 * (left - right) / p[a + AXLE.half_spacing_m]
+    partner = topo[head + 2]
+    if partner >= 0:
+        pa = topo[TOPOLOGY.axle_at] + partner * AXLE_SIZE
+        ps = topo[TOPOLOGY.state_axle_at] + partner * len(AXLE_S)
+        left = suspension.equalised_m(
+            p, a, left, suspension.travel_m(x, us, work, w, p, pa, ps, 1.0, twist))
+        right = suspension.equalised_m(
+            p, a, right, suspension.travel_m(x, us, work, w, p, pa, ps, -1.0, twist))
+    return left, right, lean
+
+
+@core
+def _spring_energy(p: Floats, a: int, travel: float) -> float:
+    """Integral of the elastic force of one side, stops included."""
+    energy = p[a + AXLE.preload_n] * travel + 0.5 * p[a + AXLE.spring_npm] * travel * travel
+    if travel > p[a + AXLE.jounce_m]:
+        energy += 0.5 * p[a + AXLE.stop_npm] * (travel - p[a + AXLE.jounce_m]) ** 2
+    elif travel < -p[a + AXLE.rebound_m]:
+        energy += 0.5 * p[a + AXLE.stop_npm] * (travel + p[a + AXLE.rebound_m]) ** 2
+    return energy

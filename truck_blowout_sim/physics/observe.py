@@ -1,0 +1,98 @@
+"""What instruments on the truck would read: one output vector from the state.
+
+References: INS strapdown equations; axes and positions in docs/recordings.md.
+Known limits: ideal instruments (noise and filters belong to recordings, not to the truck).
+Validated with: test/physics/test_observe.py (at rest +g, circular motion, gravity through roll).
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from truck_blowout_sim.physics.fifth_wheel import point_velocity
+from truck_blowout_sim.physics.jit import core, entry
+from truck_blowout_sim.physics.layout import (
+    HUB_S,
+    STATE_UNIT_AT,
+    TIRE_S,
+    TOPOLOGY,
+    UNIT,
+    UNIT_AT,
+    UNIT_S,
+    UNIT_SIZE,
+    UNIT_W,
+)
+from truck_blowout_sim.physics.rotation import fill_rotation, to_map
+
+Floats = NDArray[np.float64]
+Integers = NDArray[np.int64]
+
+UNIT_OUTPUTS = (
+    "x_m", "y_m", "yaw_rad", "roll_rad", "pitch_rad", "vx_mps", "vy_mps", "yaw_rate_radps",
+    "roll_rate_radps", "pitch_rate_radps", "ax_mps2", "ay_mps2", "az_mps2", "z_m", "vz_mps",
+)
+HUB_OUTPUTS = ("hub_speed_{}_radps", "hub_spin_angle_{}_rad", "brake_chamber_{}_pa",
+               "{}_steer_rad")
+TIRE_OUTPUTS = ("tire_pressure_{}_pa", "tire_fx_{}_n", "tire_fy_{}_n", "tire_fz_{}_n",
+                "tire_loaded_radius_{}_m")
+
+
+def output_names(units: tuple[str, ...], hubs: tuple[str, ...],
+                 tires: tuple[str, ...]) -> tuple[str, ...]:
+    """Names of the output vector's entries, in order; units are the names' suffixes."""
+    names = [f"{unit}_{name}" for unit in units for name in UNIT_OUTPUTS]
+    names.append("articulation_rad")
+    names += [name.format(hub) for hub in hubs for name in HUB_OUTPUTS]
+    names += [name.format(tire) for tire in tires for name in TIRE_OUTPUTS]
+    return tuple(names)
+
+
+@entry
+def observe(x: Floats, p: Floats, topo: Integers, work: Floats, out: Floats) -> None:
+    """Fill ``out`` in the order of :func:`output_names`; ``work`` is scratch."""
+    n_units = topo[TOPOLOGY.n_units]
+    for u in range(n_units):
+        _observe_unit(x, STATE_UNIT_AT + u * len(UNIT_S), p, UNIT_AT + u * UNIT_SIZE, work, out,
+                      u * len(UNIT_OUTPUTS))
+    k = n_units * len(UNIT_OUTPUTS)
+    out[k] = 0.0
+    if n_units == 2:
+        out[k] = (x[STATE_UNIT_AT + len(UNIT_S) + UNIT_S.yaw_rad]
+                  - x[STATE_UNIT_AT + UNIT_S.yaw_rad])
+    k += 1
+    for h in range(topo[TOPOLOGY.n_hubs]):
+        s = topo[TOPOLOGY.state_hub_at] + h * len(HUB_S)
+        out[k], out[k + 1] = x[s + HUB_S.spin_radps], x[s + HUB_S.angle_rad]
+        out[k + 2], out[k + 3] = x[s + HUB_S.chamber_pa], x[s + HUB_S.steer_rad]
+        k += len(HUB_OUTPUTS)
+    for t in range(topo[TOPOLOGY.n_tires]):
+        s = topo[TOPOLOGY.state_tire_at] + t * len(TIRE_S)
+        out[k] = x[s + TIRE_S.pressure_pa]
+        out[k + 1], out[k + 2] = x[s + TIRE_S.fx_n], x[s + TIRE_S.fy_n]
+        out[k + 3], out[k + 4] = x[s + TIRE_S.fz_n], x[s + TIRE_S.loaded_radius_m]
+        k += len(TIRE_OUTPUTS)
+
+
+@core
+def _observe_unit(x: Floats, s: int, p: Floats, a: int, work: Floats, out: Floats, k: int) -> None:
+    """Pose, velocity, rates and specific force at the unit's base_link."""
+    fill_rotation(x, s, work, 0)
+    bx, by, bz = p[a + UNIT.base_x_m], p[a + UNIT.base_y_m], p[a + UNIT.base_z_m]
+    m = to_map(work, 0, bx, by, bz)
+    v = point_velocity(x, s, bx, by, bz)
+    out[k], out[k + 1] = x[s + UNIT_S.x_m] + m[0], x[s + UNIT_S.y_m] + m[1]
+    out[k + 2], out[k + 3] = x[s + UNIT_S.yaw_rad], x[s + UNIT_S.roll_rad]
+    out[k + 4], out[k + 5], out[k + 6] = x[s + UNIT_S.pitch_rad], v[0], v[1]
+    wx, wy, wz = x[s + UNIT_S.p_radps], x[s + UNIT_S.q_radps], x[s + UNIT_S.r_radps]
+    out[k + 7], out[k + 8], out[k + 9] = wz, wx, wy
+    cx, cy, cz = wy * bz - wz * by, wz * bx - wx * bz, wx * by - wy * bx
+    dx, dy, dz = x[s + UNIT_S.pdot_radps2], x[s + UNIT_S.qdot_radps2], x[s + UNIT_S.rdot_radps2]
+    out[k + 10] = (x[s + UNIT_S.ax_mps2] + dy * bz - dz * by + wy * cz - wz * cy
+                   - x[s + UNIT_S.gx_mps2])
+    out[k + 11] = (x[s + UNIT_S.ay_mps2] + dz * bx - dx * bz + wz * cx - wx * cz
+                   - x[s + UNIT_S.gy_mps2])
+    out[k + 12] = (x[s + UNIT_S.az_mps2] + dx * by - dy * bx + wx * cy - wy * cx
+                   - x[s + UNIT_S.gz_mps2])
+    out[k + 13] = x[s + UNIT_S.z_m] + m[2]
+    out[k + 14] = (work[UNIT_W.rzx] * v[0] + work[UNIT_W.rzy] * v[1] + work[UNIT_W.rzz] * v[2])

@@ -1,0 +1,68 @@
+"""The road under a tire: height, friction; gravity on grade and bank.
+
+The map's x-y plane is the road's mean plane; grade and bank tilt gravity against it.
+
+References: roughness as a sum of eight sines, an ISO 8608-like slope of the spectrum (amplitude
+proportional to wavelength).
+Known limits: grade and bank are constant along the road; one friction patch.
+Validated with: test/physics/test_road.py (rms height, force balance on a grade).
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from truck_blowout_sim.physics.jit import core
+from truck_blowout_sim.physics.layout import WORLD, WORLD_AT
+from truck_blowout_sim.physics.trig import turned
+
+Floats = NDArray[np.float64]
+_WAVES = 8
+_LONGEST_M = 20.0
+_RATIO = 0.62
+# norm of the amplitudes _RATIO**k for unit rms
+_NORM = math.sqrt(2.0 * (1.0 - _RATIO**2) / (1.0 - _RATIO ** (2 * _WAVES)))
+
+
+@core
+def height(p: Floats, x_m: float, y_m: float) -> float:
+    """Road height [m] at a place in map."""
+    rms = p[WORLD_AT + WORLD.road_roughness_m]
+    if rms == 0.0:
+        return 0.0
+    seed = p[WORLD_AT + WORLD.road_roughness_seed]
+    total = 0.0
+    amplitude = rms * _NORM
+    wavelength = _LONGEST_M
+    for k in range(_WAVES):
+        phase = 2.399963 * (k + 1) * (1.0 + seed) + 1.7 * y_m
+        total += amplitude * math.sin(6.283185307179586 * x_m / wavelength + phase)
+        amplitude *= _RATIO
+        wavelength *= _RATIO
+    return total
+
+
+@core
+def friction(p: Floats, time_s: float, x_m: float, y_m: float) -> float:
+    """Scale of tire-road friction at a place and time."""
+    scale = p[WORLD_AT + WORLD.friction_scale]
+    if (x_m >= p[WORLD_AT + WORLD.friction_change_x_m]
+            or time_s >= p[WORLD_AT + WORLD.friction_change_time_s]):
+        scale *= p[WORLD_AT + WORLD.friction_change_scale]
+    if (p[WORLD_AT + WORLD.patch_x0_m] <= x_m <= p[WORLD_AT + WORLD.patch_x1_m]
+            and p[WORLD_AT + WORLD.patch_y0_m] <= y_m <= p[WORLD_AT + WORLD.patch_y1_m]):
+        scale *= p[WORLD_AT + WORLD.patch_scale]
+    return scale
+
+
+@core
+def gravity(p: Floats) -> tuple[float, float, float]:
+    """Gravity [m/s^2] in map axes of a road with grade (uphill along x) and bank (left high)."""
+    g = p[WORLD_AT + WORLD.gravity_mps2]
+    grade, bank = p[WORLD_AT + WORLD.road_grade_rad], p[WORLD_AT + WORLD.road_bank_rad]
+    cos_grade, sin_grade = turned(grade)
+    cos_bank, sin_bank = turned(bank)
+    return -g * sin_grade, -g * sin_bank * cos_grade, -g * cos_grade * cos_bank

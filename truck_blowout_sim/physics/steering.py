@@ -1,0 +1,90 @@
+"""Steering: hand wheel, lash, compliance, friction, kingpin moments by vectors.
+
+References: kingpin moment = k . (lever x F + M), k tilted by inclination and caster and rolled with
+the axle; the part about the spin axis turns the wheel, not the knuckle. Values: docs/physics.md.
+Known limits: one degree of freedom for both road wheels; no hand-wheel inertia (an input);
+single tires on the steered axle; no camber from the kingpin's tilt as the wheel turns.
+Validated with: test/physics/test_steering.py (lever of drag: ground offset 63 mm inflated, 77 mm
+flat when braked, spindle offset 115 mm when rolling; static compliance; lash dead zone).
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from truck_blowout_sim.physics.jit import core
+from truck_blowout_sim.physics.layout import GLOBAL_S, STEER, STEER_AT
+from truck_blowout_sim.physics.scalar import clip, deadzone, hysteresis
+from truck_blowout_sim.physics.trig import turned
+
+Floats = NDArray[np.float64]
+
+
+@core
+def wheel_angle_rad(x: Floats, p: Floats, side: float, half_track_m: float) -> float:
+    """Steer angle of one steered wheel (side +1 left) from the mean angle, Ackermann share."""
+    mean = x[GLOBAL_S.steer_rad]
+    share = p[STEER_AT + STEER.ackermann_fraction] * half_track_m / p[STEER_AT + STEER.wheelbase_m]
+    return mean + side * share * mean * mean
+
+
+@core
+def kingpin_moment_nm(p: Floats, side: float, roll_rad: float, steer_rad: float, radius_m: float,
+                      force: tuple[float, float, float], aligning_nm: float, brake_nm: float,
+                      gyro_nm: float) -> float:
+    """Moment [N m] about one kingpin, positive steering left.
+
+    ``force``: tire force in wheel axes (forward, left, up); ``radius_m``: loaded radius;
+    ``brake_nm``: reaction of the brake on the knuckle; ``gyro_nm``: gyroscopic moment about z.
+    """
+    ct, st = turned(roll_rad)
+    tan_c = math.tan(p[STEER_AT + STEER.caster_rad])
+    tan_k = math.tan(p[STEER_AT + STEER.kingpin_inclination_rad])
+    size = math.sqrt(1.0 + tan_c * tan_c + tan_k * tan_k)
+    kx = -tan_c / size
+    ky = (-side * tan_k * ct - st) / size
+    kz = (ct - side * tan_k * st) / size
+    cd, sd = turned(steer_rad)
+    fx, fy, fz = force[0] * cd - force[1] * sd, force[0] * sd + force[1] * cd, force[2]
+    # spin axis, pointing left
+    ax, ay, az = -sd * ct, cd * ct, st
+    off = side * p[STEER_AT + STEER.kingpin_offset_m]
+    lx, ly, lz = off * ax, off * ay, off * az
+    mx, my, mz = ly * fz - lz * fy, lz * fx - lx * fz, lx * fy - ly * fx
+    # tire wrench at the wheel centre without its part about the spin axis
+    dy, dz = radius_m * st, -radius_m * ct
+    tx, ty, tz = dy * fz - dz * fy, dz * fx, -dy * fx + aligning_nm
+    spin = tx * ax + ty * ay + tz * az
+    mx += tx - spin * ax + brake_nm * ax
+    my += ty - spin * ay + brake_nm * ay
+    mz += tz - spin * az + brake_nm * az + gyro_nm
+    return kx * mx + ky * my + kz * mz
+
+
+@core
+def advance_steering(x: Floats, p: Floats, hand_wheel_rad: float, moment_nm: float,
+                     dt: float) -> None:
+    """Turn the road wheels by hand wheel and kingpin moment for one step."""
+    target = (hand_wheel_rad - p[STEER_AT + STEER.offset_rad]) / p[STEER_AT + STEER.ratio]
+    x[GLOBAL_S.kingpin_moment_nm] = moment_nm
+    if p[STEER_AT + STEER.compliance_on] == 0.0:
+        x[GLOBAL_S.steer_rad] = target
+        x[GLOBAL_S.steer_rate_radps] = 0.0
+        return
+    lash = p[STEER_AT + STEER.lash_rad] + p[STEER_AT + STEER.lash_extra_rad]
+    play = max(0.5 * lash / p[STEER_AT + STEER.ratio], 0.0)
+    stiffness = p[STEER_AT + STEER.stiffness_nmprad] * p[STEER_AT + STEER.stiffness_gain]
+    rate = x[GLOBAL_S.steer_rate_radps]
+    x[GLOBAL_S.steer_friction_nm] = hysteresis(
+        x[GLOBAL_S.steer_friction_nm], rate * dt, p[STEER_AT + STEER.friction_nm],
+        p[STEER_AT + STEER.friction_transition_rad])
+    link = stiffness * deadzone(target - x[GLOBAL_S.steer_rad], play)
+    damping = p[STEER_AT + STEER.damping_nmsprad]
+    inertia = p[STEER_AT + STEER.inertia_kgm2]
+    push = moment_nm + link - x[GLOBAL_S.steer_friction_nm]
+    rate = (rate + dt * push / inertia) / (1.0 + dt * damping / inertia)
+    x[GLOBAL_S.steer_rate_radps] = clip(rate, -20.0, 20.0)
+    x[GLOBAL_S.steer_rad] = clip(x[GLOBAL_S.steer_rad] + dt * rate, -0.9, 0.9)

@@ -1,0 +1,173 @@
+"""One step of one truck: (state, parameters, inputs, dt) -> state, in place.
+
+Semi-implicit Euler: forces from the state at the step's beginning, then velocities, then positions
+with the new velocities. Inputs are held over the step. Nothing is allocated.
+
+References: symplectic Euler (Hairer, Lubich, Wanner, Geometric Numerical Integration, I.1).
+Known limits: first order; 1 ms resolves rim contact (17 Hz) and hub spin (20 Hz) with margin.
+Validated with: test/physics/test_step.py (golden run, mirror symmetry, halved step, repeatability);
+test/physics/test_energy.py (balance).
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from truck_blowout_sim.physics import abs_logic, brakes, driveline, road, steering
+from truck_blowout_sim.physics.aero import add_air
+from truck_blowout_sim.physics.axle import axle_step
+from truck_blowout_sim.physics.body import add_force, solve_unit, start_unit, twist_frame
+from truck_blowout_sim.physics.fifth_wheel import add_coupling
+from truck_blowout_sim.physics.jit import core, entry
+from truck_blowout_sim.physics.layout import (
+    ABS,
+    ABS_AT,
+    AXLE_S,
+    DRIVE,
+    DRIVE_AT,
+    GLOBAL_S,
+    HUB_S,
+    INPUT,
+    N_INPUTS,
+    STATE_UNIT_AT,
+    TIRE_S,
+    TOPOLOGY,
+    TOPOLOGY_AXLE_SIZE,
+    TOPOLOGY_SIZE,
+    UNIT,
+    UNIT_AT,
+    UNIT_S,
+    UNIT_SIZE,
+    UNIT_WORK_SIZE,
+)
+from truck_blowout_sim.physics.probe import add_probe
+from truck_blowout_sim.physics.rotation import angle_rates, fill_rotation, to_body, to_map
+
+Floats = NDArray[np.float64]
+Integers = NDArray[np.int64]
+N_UNIT_STATE = len(UNIT_S)
+SLIPS_AT = 2 * UNIT_WORK_SIZE  # room for 64 hubs
+
+
+@entry
+def step(x: Floats, p: Floats, topo: Integers, inputs: Floats, dt: float, work: Floats) -> None:
+    """Advance the state ``x`` of one truck by ``dt`` seconds."""
+    n_units = topo[TOPOLOGY.n_units]
+    for k in range(N_INPUTS):
+        # limits further down would turn a NaN into a command
+        if not np.isfinite(inputs[k]):
+            x[GLOBAL_S.nonfinite] = 1.0
+    g = road.gravity(p)
+    for u in range(n_units):
+        s, a, w = STATE_UNIT_AT + u * N_UNIT_STATE, UNIT_AT + u * UNIT_SIZE, u * UNIT_WORK_SIZE
+        fill_rotation(x, s, work, w)
+        start_unit(x, s, p, a, work, w, to_body(work, w, g[0], g[1], g[2]))
+        add_air(x, s, p, a, work, w)
+        add_probe(x, s, p, a, work, w)
+    if n_units == 2:
+        add_coupling(x, STATE_UNIT_AT, STATE_UNIT_AT + N_UNIT_STATE, p, UNIT_AT,
+                     UNIT_AT + UNIT_SIZE, work, 0, UNIT_WORK_SIZE, dt)
+    advance_brakes(x, p, topo, inputs, dt, work)
+    speed = x[STATE_UNIT_AT + UNIT_S.u_mps]
+    drive = driveline.net_force_n(p, x[0], inputs[INPUT.throttle], speed)
+    x[GLOBAL_S.drive_force_n] = drive
+    push = p[DRIVE_AT + DRIVE.push_n]
+    if push != 0.0:
+        add_force(work, 0, (push, 0.0, 0.0), (0.0, 0.0, -p[UNIT_AT + UNIT.cg_height_m]))
+    kingpin = 0.0
+    for i in range(topo[TOPOLOGY.n_axles]):
+        u = topo[TOPOLOGY_SIZE + i * TOPOLOGY_AXLE_SIZE]
+        kingpin += axle_step(x, p, topo, i, work, u * UNIT_WORK_SIZE, g, drive, dt)
+    for u in range(n_units):
+        twist_frame(x, STATE_UNIT_AT + u * N_UNIT_STATE, p, UNIT_AT + u * UNIT_SIZE, work,
+                    u * UNIT_WORK_SIZE, dt)
+        solve_unit(x, STATE_UNIT_AT + u * N_UNIT_STATE, work, u * UNIT_WORK_SIZE)
+    if topo[TOPOLOGY.steered_axle] >= 0:
+        steering.advance_steering(x, p, inputs[INPUT.steering_wheel_angle_rad], kingpin, dt)
+    for u in range(n_units):
+        move_unit(x, STATE_UNIT_AT + u * N_UNIT_STATE, work, u * UNIT_WORK_SIZE, dt)
+    for i in range(topo[TOPOLOGY.n_axles]):
+        s = topo[TOPOLOGY.state_axle_at] + i * len(AXLE_S)
+        x[s + AXLE_S.z_m] += dt * x[s + AXLE_S.vz_mps]
+        x[s + AXLE_S.roll_rad] += dt * x[s + AXLE_S.roll_rate_radps]
+    x[GLOBAL_S.time_s] += dt
+
+
+@core
+def move_unit(x: Floats, s: int, work: Floats, w: int, dt: float) -> None:
+    """Integrate velocity and pose of one unit; flags a non-finite acceleration."""
+    p, q, r = x[s + UNIT_S.p_radps], x[s + UNIT_S.q_radps], x[s + UNIT_S.r_radps]
+    u, v, v_up = x[s + UNIT_S.u_mps], x[s + UNIT_S.v_mps], x[s + UNIT_S.w_mps]
+    ax, ay, az = x[s + UNIT_S.ax_mps2], x[s + UNIT_S.ay_mps2], x[s + UNIT_S.az_mps2]
+    if not np.isfinite(ax + ay + az + x[s + UNIT_S.rdot_radps2]):
+        x[GLOBAL_S.nonfinite] = 1.0
+    x[s + UNIT_S.u_mps] = u + dt * (ax - q * v_up + r * v)
+    x[s + UNIT_S.v_mps] = v + dt * (ay - r * u + p * v_up)
+    x[s + UNIT_S.w_mps] = v_up + dt * (az - p * v + q * u)
+    x[s + UNIT_S.p_radps] = p + dt * x[s + UNIT_S.pdot_radps2]
+    x[s + UNIT_S.q_radps] = q + dt * x[s + UNIT_S.qdot_radps2]
+    x[s + UNIT_S.r_radps] = r + dt * x[s + UNIT_S.rdot_radps2]
+    m = to_map(work, w, x[s + UNIT_S.u_mps], x[s + UNIT_S.v_mps], x[s + UNIT_S.w_mps])
+    x[s + UNIT_S.x_m] += dt * m[0]
+    x[s + UNIT_S.y_m] += dt * m[1]
+    x[s + UNIT_S.z_m] += dt * m[2]
+    yaw_rate, pitch_rate, roll_rate = angle_rates(x, s, work, w)
+    x[s + UNIT_S.yaw_rad] += dt * yaw_rate
+    x[s + UNIT_S.pitch_rad] += dt * pitch_rate
+    x[s + UNIT_S.roll_rad] += dt * roll_rate
+
+
+@core
+def advance_brakes(x: Floats, p: Floats, topo: Integers, inputs: Floats, dt: float,
+                   work: Floats) -> None:
+    """Delay lines, anti-lock decisions and chamber pressures of all hubs."""
+    brakes.write_lines(x, topo, inputs)
+    if p[ABS_AT + ABS.mode] > 0.0:
+        fill_slips(x, topo, work)
+    for i in range(topo[TOPOLOGY.n_axles]):
+        circuit = topo[TOPOLOGY_SIZE + i * TOPOLOGY_AXLE_SIZE + 1]
+        control = brakes.delayed_pa(x, p, topo, circuit, dt)
+        for k in range(2):
+            s = topo[TOPOLOGY.state_hub_at] + (2 * i + k) * len(HUB_S)
+            if p[ABS_AT + ABS.mode] > 0.0:
+                abs_logic.decide(x, s, p, sensed_slip(p, topo, i, k, circuit, work),
+                                 x[STATE_UNIT_AT + UNIT_S.u_mps], dt)
+            brakes.advance_chamber(x, s, p, circuit, control, dt)
+
+
+@core
+def fill_slips(x: Floats, topo: Integers, work: Floats) -> None:
+    """Brake slip of every hub, behind the units' working memory: that of its first loaded tire."""
+    tires_at = TOPOLOGY_SIZE + topo[TOPOLOGY.n_axles] * TOPOLOGY_AXLE_SIZE
+    for h in range(topo[TOPOLOGY.n_hubs]):
+        work[SLIPS_AT + h] = 0.0
+    for k in range(topo[TOPOLOGY.n_tires] - 1, -1, -1):
+        s = topo[TOPOLOGY.state_tire_at] + k * len(TIRE_S)
+        if x[s + TIRE_S.fz_n] > 0.0:
+            work[SLIPS_AT + topo[tires_at + k]] = -x[s + TIRE_S.slip]
+
+
+@core
+def sensed_slip(p: Floats, topo: Integers, axle: int, side: int, circuit: int, work: Floats
+                ) -> float:
+    """Brake slip this hub's controller sees: its own, its side's, or its axle group's worst."""
+    if p[ABS_AT + ABS.mode] == 1.0 or circuit == 0:
+        return work[SLIPS_AT + 2 * axle + side]
+    sensed = axle
+    for i in range(topo[TOPOLOGY.n_axles]):
+        if topo[TOPOLOGY_SIZE + i * TOPOLOGY_AXLE_SIZE + 1] == circuit:
+            sensed = i
+            if circuit == 1:
+                break
+    if circuit == 1:
+        return work[SLIPS_AT + 2 * sensed + side]
+    return max(work[SLIPS_AT + 2 * sensed], work[SLIPS_AT + 2 * sensed + 1])
+
+
+@entry
+def advance(x: Floats, p: Floats, topo: Integers, inputs: Floats, dt: float, n_steps: int,
+            work: Floats) -> None:
+    """``n_steps`` steps with held inputs."""
+    for _ in range(n_steps):
+        step(x, p, topo, inputs, dt, work)

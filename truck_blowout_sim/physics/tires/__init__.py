@@ -1,0 +1,1 @@
+"""What a tire does: vertical, slip lag, horizontal force, gas, blowout state."""

@@ -1,0 +1,87 @@
+"""The state of a tire between inflated and flat on the rim, as multipliers and radii.
+
+Two laws. Continuous: two scalars, the gauge pressure fraction q and the rim contact fraction rho,
+drive stiffness, radii, cornering, aligning, camber and drag without steps. Steps: the thesis's ten
+datasets swapped every 0.05 s (tables 9 and 10).
+
+References: thesis L659-L733; values of the flat tire with their sources in config/blowout/*.yaml.
+Known limits: no flailing tread, no bead unseating; the belt keeps driving the rolling radius;
+rolling resistance steps by 2 % where pressure leaves a band of 5 % about its reference.
+Validated with: test/physics/test_blowout.py (tables to the digit, continuity, non-monotonic
+stiffness).
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from truck_blowout_sim.physics.jit import core
+from truck_blowout_sim.physics.layout import N_STEP_COLUMNS, TIRE, TIRE_S
+from truck_blowout_sim.physics.scalar import clip
+
+Floats = NDArray[np.float64]
+
+
+@core
+def step_row(x: Floats, s: int, p: Floats, table: int) -> int:
+    """Position of the step-table row in force; row 0 is the inflated tire."""
+    since = x[0] - x[s + TIRE_S.blown_time_s] if x[s + TIRE_S.blown_time_s] <= x[0] else -1.0
+    rows = int(p[table])
+    row = 0
+    for k in range(1, rows):
+        # half a nanosecond of slack: the step edges are sums of dt
+        if since >= p[table + 1 + k * N_STEP_COLUMNS] - 5e-10:
+            row = k
+    return table + 1 + row * N_STEP_COLUMNS
+
+
+@core
+def vertical_load(x: Floats, s: int, p: Floats, t: int, height_m: float, sink_mps: float,
+                  step: int) -> tuple[float, float]:
+    """Load [N] and deflection [m] of a tire whose center is ``height_m`` above the road.
+
+    ``sink_mps`` is the rate of compression; ``step`` the row of a step table or -1.
+    """
+    radius = p[t + TIRE.unloaded_radius_m]
+    stiffness = (p[t + TIRE.stiffness_npm]
+                 + p[t + TIRE.stiffness_npmppa] * x[s + TIRE_S.pressure_pa])
+    if step >= 0:
+        # rows give the radius under the reference load
+        stiffness = p[step + 2]
+        radius = p[step + 1] + p[t + TIRE.reference_load_n] / stiffness
+    deflection = radius - height_m
+    if deflection <= 0.0:
+        return 0.0, deflection
+    load = stiffness * deflection + p[t + TIRE.damping_nspm] * sink_mps
+    crush = p[t + TIRE.rim_contact_radius_m] - height_m
+    if crush > 0.0 and step < 0:
+        load += p[t + TIRE.rim_stiffness_npm] * crush + p[t + TIRE.rim_damping_nspm] * sink_mps
+    return max(load, 0.0), deflection
+
+
+@core
+def rim_fraction(p: Floats, t: int, height_m: float) -> float:
+    """rho: 0 while the carcass is clear of the rim, 1 when flat on it."""
+    return clip((p[t + TIRE.rim_radius_m] - height_m) / p[t + TIRE.rim_span_m], 0.0, 1.0)
+
+
+@core
+def rolling_radius_m(p: Floats, t: int, deflection_m: float, rim: float, step: int) -> float:
+    """Effective rolling radius [m]: a flat steel belt still rolls its own length."""
+    if step >= 0:
+        return p[step + 1]
+    free = p[t + TIRE.unloaded_radius_m] - p[t + TIRE.radius_fraction] * max(deflection_m, 0.0)
+    return free + rim * (p[t + TIRE.flat_radius_m] - free) + p[t + TIRE.radius_offset_m]
+
+
+@core
+def rolling_coefficient(p: Floats, t: int, inflation: float, rim: float, speed_mps: float,
+                        step: int) -> float:
+    """Rolling resistance per load: f = f0 + fV V, more when soft, the flat's drag on the rim."""
+    if step >= 0:
+        return p[step + 5] + p[step + 6] * speed_mps
+    f = p[t + TIRE.rolling_0] + p[t + TIRE.rolling_spm] * speed_mps
+    if abs(inflation - 1.0) > 0.05:
+        f *= max(inflation, 0.05) ** (-p[t + TIRE.rolling_pressure_exponent])
+    return f + rim * (p[t + TIRE.flat_rolling] * p[t + TIRE.flat_drag_scale] - f)

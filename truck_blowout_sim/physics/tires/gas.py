@@ -1,0 +1,66 @@
+"""Air in a tire and its way out through a hole.
+
+References: Andreatta, Bixel, Guenther 2007 (assumptions via thesis L333-L335): one orifice, choked
+then subsonic; St Venant-Wantzel flow function.
+Known limits: one temperature, polytropic with a fixed exponent; the hole opens at once.
+Validated with: test/physics/test_gas.py (closed forms: choked isothermal and adiabatic, end of
+choking, subsonic isothermal, finite total time).
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from truck_blowout_sim.physics.jit import core
+from truck_blowout_sim.physics.layout import TIRE, TIRE_S, WORLD, WORLD_AT
+
+Floats = NDArray[np.float64]
+GAMMA = 1.4  # ratio of specific heats of air
+GAS_CONSTANT_JPKGK = 287.05  # of dry air
+CRITICAL_RATIO = (2.0 / (GAMMA + 1.0)) ** (GAMMA / (GAMMA - 1.0))
+CHOKED = math.sqrt(GAMMA) * (2.0 / (GAMMA + 1.0)) ** ((GAMMA + 1.0) / (2.0 * (GAMMA - 1.0)))
+
+
+@core
+def flow_function(ratio: float) -> float:
+    """Phi of mdot = CdA p / sqrt(R T) Phi, ``ratio`` = ambient / tire pressure, absolute."""
+    if ratio <= CRITICAL_RATIO:
+        return CHOKED
+    if ratio >= 1.0:
+        return 0.0
+    a = ratio ** (2.0 / GAMMA)
+    return math.sqrt(2.0 * GAMMA / (GAMMA - 1.0) * a * (1.0 - ratio ** ((GAMMA - 1.0) / GAMMA)))
+
+
+@core
+def pressure_rate_paps(p_abs_pa: float, p0_abs_pa: float, ambient_pa: float, temperature_k: float,
+                       volume_m3: float, hole_m2: float, exponent: float) -> float:
+    """dp/dt [Pa/s] at constant volume; ``exponent`` 1 isothermal … 1.4 adiabatic."""
+    t = temperature_k * (p_abs_pa / p0_abs_pa) ** ((exponent - 1.0) / exponent)
+    rt = GAS_CONSTANT_JPKGK * t
+    mass_flow = hole_m2 * p_abs_pa / math.sqrt(rt) * flow_function(ambient_pa / p_abs_pa)
+    return -exponent * rt / volume_m3 * mass_flow
+
+
+@core
+def advance_pressure(x: Floats, s: int, p: Floats, t: int, rim: float, dt: float) -> None:
+    """Let the tire at state ``s`` and parameters ``t`` lose air for ``dt``; ``rim`` is rho now."""
+    if x[0] >= p[t + TIRE.blow_time_s] and x[s + TIRE_S.blown_time_s] == np.inf:
+        x[s + TIRE_S.blown_time_s] = p[t + TIRE.blow_time_s]
+    gauge = x[s + TIRE_S.pressure_pa]
+    if x[s + TIRE_S.blown_time_s] > x[0] or gauge <= 0.0:
+        return
+    ambient = p[WORLD_AT + WORLD.air_pressure_pa]
+    loss = p[t + TIRE.flat_volume_fraction]
+    volume = p[t + TIRE.volume_m3] * (1.0 - loss * rim)
+    hole = p[t + TIRE.hole_area_m2] * p[t + TIRE.hole_scale]
+    if p[t + TIRE.blow_time_s] != np.inf:
+        hole *= p[t + TIRE.blow_hole_scale]
+    n = p[t + TIRE.polytropic]
+    rate = pressure_rate_paps(gauge + ambient, p[t + TIRE.pressure_pa] + ambient, ambient,
+                              p[WORLD_AT + WORLD.air_temperature_k], volume, hole, n)
+    squeeze = 1.0 + n * loss * (rim - x[s + TIRE_S.rim]) / (1.0 - loss * rim)
+    x[s + TIRE_S.pressure_pa] = max((gauge + ambient) * squeeze - ambient + dt * rate, 0.0)

@@ -1,0 +1,32 @@
+"""Linear tire: force proportional to slip, capped by friction, no aligning moment.
+
+References: the linear single-track model (Riekert and Schunck 1940).
+Known limits: no load dependence of the stiffness; cap by the friction circle only.
+Validated with: test/physics/test_linear_tire.py.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from truck_blowout_sim.physics.jit import core
+from truck_blowout_sim.physics.layout import TIRE
+
+Floats = NDArray[np.float64]
+
+
+@core
+def forces(p: Floats, t: int, fz_n: float, slip: float, slip_tan: float, friction: float,
+           axle_peak: float, cornering: float) -> tuple[float, float, float]:
+    """Longitudinal and lateral force [N]; the aligning moment is zero."""
+    fx = p[t + TIRE.linear_slip_n] * slip
+    fy = cornering * math.atan(slip_tan)
+    limit = p[t + TIRE.peak_y] * p[t + TIRE.friction_scale] * friction * axle_peak * fz_n
+    size = math.sqrt(fx * fx + fy * fy)
+    if size > limit:
+        fx *= limit / size
+        fy *= limit / size
+    return fx, fy, 0.0

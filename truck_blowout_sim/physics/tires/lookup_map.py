@@ -1,0 +1,58 @@
+"""Lookup-map tire: lateral force and aligning moment over slip angle and load.
+
+The form of the commercial simulator's dataset (thesis section 3.3.1, figures 18-21).
+
+References: thesis L691-L711.
+Known limits: bilinear, held constant beyond the last slip angle, linear in load below the first
+row; the longitudinal part is the Magic Formula's, joined by a friction ellipse; no
+camber thrust, no pressure dependence of its own.
+Validated with: test/physics/test_lookup_map.py (nodes, midpoints, scaling).
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from truck_blowout_sim.physics.jit import core
+from truck_blowout_sim.physics.layout import TIRE
+from truck_blowout_sim.physics.scalar import clip
+from truck_blowout_sim.physics.tires.magic_formula import shape
+from truck_blowout_sim.physics.trig import arctan
+
+Floats = NDArray[np.float64]
+
+
+@core
+def interpolate(p: Floats, at: int, which: int, slip_rad: float, fz_n: float) -> float:
+    """Value of map ``which`` (0 lateral force, 1 aligning moment) at |slip| and load."""
+    n_slip, n_load = int(p[at]), int(p[at + 1])
+    s = clip(slip_rad / p[at + 2], 0.0, n_slip - 1.0)
+    f = clip(fz_n / p[at + 3], 0.0, n_load - 1.0)
+    i = min(int(s), n_slip - 2)
+    j = min(int(f), n_load - 2)
+    a, b = s - i, f - j
+    k = at + 4 + which * n_slip * n_load + i * n_load + j
+    low = p[k] * (1.0 - b) + p[k + 1] * b
+    high = p[k + n_load] * (1.0 - b) + p[k + n_load + 1] * b
+    return low * (1.0 - a) + high * a
+
+
+@core
+def forces(p: Floats, t: int, at: int, fz_n: float, slip: float, slip_tan: float,
+           friction: float, axle_peak: float, cornering_scale: float, aligning_scale: float
+           ) -> tuple[float, float, float]:
+    """Forces [N] and aligning moment [N m]; the scales are those of the blown tire's step."""
+    d = fz_n / p[t + TIRE.reference_load_n] - 1.0
+    mu = friction * p[t + TIRE.friction_scale]
+    peak_x = max(p[t + TIRE.peak_x] - p[t + TIRE.peak_x_load] * d, 0.1) * mu * fz_n
+    stiffness_x = fz_n * max(p[t + TIRE.slip_stiffness] - p[t + TIRE.slip_stiffness_load] * d, 1.0)
+    fx = peak_x * shape(stiffness_x * slip / peak_x, p[t + TIRE.shape_x], p[t + TIRE.curvature_x])
+    alpha = arctan(slip_tan)
+    side = 1.0 if alpha >= 0.0 else -1.0
+    rest = math.sqrt(max(1.0 - (fx / peak_x) ** 2, 0.0))
+    fy = side * interpolate(p, at, 0, abs(alpha), fz_n) * mu * axle_peak * cornering_scale * rest
+    mz = -side * interpolate(p, at, 1, abs(alpha), fz_n) * aligning_scale * rest
+    return fx, fy, mz

@@ -1,0 +1,80 @@
+"""Combined-slip Magic Formula of a truck tire, with load and pressure dependence.
+
+References: Pacejka, Tire and Vehicle Dynamics; reduced set fitted to Goodyear/Calspan data at four
+pressures and the 315/80R22.5 book set (docs/physics.md, "Tires").
+Known limits: pressure dependence valid down to ``pressure_valid`` of the reference; no turn slip;
+combined slip by similarity, so peak friction is an ellipse in force.
+Validated with: test/physics/test_magic_formula.py (four loads, pressure, slopes, combined limits).
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from truck_blowout_sim.physics.jit import core
+from truck_blowout_sim.physics.layout import TIRE
+from truck_blowout_sim.physics.trig import arctan, cosine, sine
+
+Floats = NDArray[np.float64]
+
+
+@core
+def cornering_stiffness_nprad(p: Floats, t: int, fz_n: float, inflation: float) -> float:
+    """K_ya [N/rad] at load ``fz_n`` and gauge pressure fraction ``inflation``.
+
+    K = s pK1 Fz0 (a + (1-a) q) sin(2 atan(Fz / (pK2 Fz0 (b + (1-b) q)))).
+    """
+    q = max(inflation, p[t + TIRE.pressure_valid])
+    fz0 = p[t + TIRE.reference_load_n]
+    floor_1, floor_2 = p[t + TIRE.cornering_floor_1], p[t + TIRE.cornering_floor_2]
+    load = fz_n / (p[t + TIRE.cornering_load] * fz0 * (floor_2 + (1.0 - floor_2) * q))
+    peak = p[t + TIRE.cornering_peak] * fz0 * (floor_1 + (1.0 - floor_1) * q)
+    # sin(2 atan z) = 2 z / (1 + z^2)
+    return p[t + TIRE.cornering_scale] * peak * 2.0 * load / (1.0 + load * load)
+
+
+@core
+def shape(slip: float, c: float, e: float) -> float:
+    """sin(C atan(x - E (x - atan x))) with x = slip / C: unit slope at the origin."""
+    s = slip / c
+    return sine(c * arctan(s - e * (s - arctan(s))))
+
+
+@core
+def pneumatic_trail_m(p: Floats, t: int, fz_n: float, inflation: float, alpha_rad: float) -> float:
+    """Trail [m]; Mz = -trail * Fy."""
+    q = max(inflation, p[t + TIRE.pressure_valid])
+    ratio = fz_n / p[t + TIRE.reference_load_n]
+    base = p[t + TIRE.trail_0] - p[t + TIRE.trail_load] * (ratio - 1.0)
+    stretch = 1.0 + p[t + TIRE.trail_pressure] * (1.0 - q)
+    decay = cosine(p[t + TIRE.trail_shape] * arctan(p[t + TIRE.trail_stretch] * alpha_rad))
+    return p[t + TIRE.unloaded_radius_m] * ratio * base * stretch * decay * cosine(alpha_rad)
+
+
+@core
+def forces(p: Floats, t: int, fz_n: float, inflation: float, slip: float, slip_tan: float,
+           friction: float, axle_peak: float, cornering: float
+           ) -> tuple[float, float, float]:
+    """Longitudinal and lateral force [N] and aligning moment [N m].
+
+    ``slip`` and ``slip_tan`` are the lagged longitudinal slip and the lagged -vy/|vx|: a positive
+    ``slip_tan`` gives a force to the left. ``cornering`` is K_ya. ``axle_peak`` scales the lateral
+    peak alone.
+    """
+    d = fz_n / p[t + TIRE.reference_load_n] - 1.0
+    mu = friction * p[t + TIRE.friction_scale]
+    peak_x = max(p[t + TIRE.peak_x] - p[t + TIRE.peak_x_load] * d, 0.1) * mu * fz_n
+    peak_y = max(p[t + TIRE.peak_y] - p[t + TIRE.peak_y_load] * d, 0.1) * mu * axle_peak * fz_n
+    alpha = arctan(slip_tan)
+    stiffness_x = fz_n * max(p[t + TIRE.slip_stiffness] - p[t + TIRE.slip_stiffness_load] * d, 1.0)
+    sx = stiffness_x * slip / peak_x
+    sy = cornering * alpha / peak_y
+    total = math.sqrt(sx * sx + sy * sy)
+    if total < 1e-9:
+        return stiffness_x * slip, cornering * alpha, 0.0
+    fx = peak_x * shape(total, p[t + TIRE.shape_x], p[t + TIRE.curvature_x]) * sx / total
+    fy = peak_y * shape(total, p[t + TIRE.shape_y], p[t + TIRE.curvature_y]) * sy / total
+    return fx, fy, -pneumatic_trail_m(p, t, fz_n, inflation, alpha) * fy

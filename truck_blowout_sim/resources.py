@@ -1,0 +1,63 @@
+"""Where the files that ship with the package are: vehicles, tires, scenarios, recordings."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+from truck_blowout_sim.errors import InputError
+
+PACKAGE = "truck_blowout_sim"
+
+
+def config_dir() -> Path:
+    """Folder with the shipped YAML and recordings.
+
+    The source tree comes first (a clone, also when installed editable), then the prefix that this
+    very file was installed into, by pip, colcon or a distribution's package alike.
+
+    Raises:
+        InputError: the package is installed without its data.
+    """
+    for candidate in _candidates():
+        if candidate.is_dir():
+            return candidate
+    raise InputError(
+        "the configuration files of this installation are missing",
+        file=Path(__file__).parent,
+        expected="an installation by pip or colcon, or a source tree",
+    )
+
+
+def config_file(kind: str, name: str | os.PathLike[str]) -> Path:
+    """Find a shipped file by its name, or take a path as it is.
+
+    Args:
+        kind: folder below `config_dir()`: "vehicles", "tires", "scenarios", ...
+        name: the name of a shipped file, with or without `.yaml`, or a path to any file.
+
+    Raises:
+        InputError: neither a shipped name nor an existing file; says which names there are.
+    """
+    folder = config_dir() / kind
+    text = os.fspath(name)
+    for candidate in (folder / text, folder / f"{text}.yaml", Path(text)):
+        if candidate.is_file():
+            return candidate
+    raise InputError(
+        f"no {kind.removesuffix('s')} of the name {text!r} and no such file",
+        expected=f"a path or one of: {', '.join(config_names(kind)) or 'none shipped'}",
+    )
+
+
+def config_names(kind: str) -> tuple[str, ...]:
+    """Names, without suffix, of the files shipped in one folder of `config_dir()`."""
+    return tuple(sorted(path.stem for path in (config_dir() / kind).glob("*.yaml")))
+
+
+def _candidates() -> list[Path]:
+    # Installed as <prefix>/lib/python3.x/site-packages/truck_blowout_sim/resources.py; pip's
+    # --target leaves out the middle, so every folder above is asked.
+    above = Path(__file__).resolve().parents
+    source = [above[1] / "config"] if (above[1] / "package.xml").is_file() else []
+    return [*source, *(folder / "share" / PACKAGE / "config" for folder in above[1:])]
