@@ -1,0 +1,65 @@
+"""`truck-blowout run` from a terminal: what it writes, what it says, what it refuses."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from truck_blowout_sim.recordings import read_recording
+
+
+def run(*words: str, cwd: Path) -> subprocess.CompletedProcess[str]:
+    return subprocess.run([sys.executable, "-m", "truck_blowout_sim", "run", *words], cwd=cwd,
+                          capture_output=True, text=True, check=False)
+
+
+def test_it_writes_a_bag_that_reads_back(tmp_path: Path) -> None:
+    done = run("fishhook", cwd=tmp_path)
+    assert done.returncode == 0, done.stderr
+    assert "trailer_1_left_outer+trailer_1_left_inner blown at 3.5 s" in done.stdout
+    assert "times faster than real time" in done.stdout
+    assert done.stderr == ""
+    bag = read_recording(tmp_path / "fishhook")
+    assert bag.blowouts[0].time_s == pytest.approx(3.5)
+    assert bag.metadata["scenario"] == "fishhook"
+
+
+def test_the_same_run_gives_the_same_bytes(tmp_path: Path) -> None:
+    for name in ("a", "b"):
+        assert run("brake_stop", "-o", f"{name}/bag", cwd=tmp_path).returncode == 0
+    first, second = (next((tmp_path / n / "bag").glob("*.mcap")) for n in "ab")
+    assert first.read_bytes() == second.read_bytes()
+
+
+def test_csv_values_and_blowouts_of_ones_own(tmp_path: Path) -> None:
+    done = run("fishhook", "--format", "csv", "-o", "mine", "--set", "steering.ratio=25", "--blow",
+               "drive_2_left@2", cwd=tmp_path)
+    assert done.returncode == 0, done.stderr
+    csv = read_recording(tmp_path / "mine.csv")
+    assert [(b.time_s, b.tires) for b in csv.blowouts] == [
+        (2.0, ("drive_2_left_outer", "drive_2_left_inner"))]
+
+
+@pytest.mark.parametrize(("words", "line"), [
+    (("fishok",), "no scenario of the name 'fishok'"),
+    (("fishhook", "--vehicle", "lorry"), "no vehicle of the name 'lorry'"),
+    (("fishhook", "--set", "steering.ration=2"), "no parameter 'steering.ration'"),
+    (("fishhook", "--set", "steering.ratio"), "expected NAME=VALUE"),
+    (("fishhook", "--set", "steering.ratio=x"), "'x' is not a number"),
+    (("fishhook", "--set", "steering.ratio=nan"), "is not finite"),
+    (("fishhook", "--blow", "steer_left"), "expected TIRE@SECONDS"),
+    (("fishhook", "--blow", "steer_lef@2"), "did you mean 'steer_left'?"),
+    (("fishhook", "--blow", "steer_left@99"), "outside the run"),
+    (("fishhook", "--format", "xls"), "expected bag or csv"),
+    (("fishhook", "--step-s", "1"), "step_s is 1.0"),
+])
+def test_bad_usage_is_one_line_and_leaves_nothing(tmp_path: Path, words: tuple[str, ...], line: str
+                                                  ) -> None:
+    done = run(*words, cwd=tmp_path)
+    assert done.returncode == 2
+    assert done.stderr.count("\n") == 1
+    assert line in done.stderr
+    assert list(tmp_path.iterdir()) == []

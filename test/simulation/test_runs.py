@@ -1,0 +1,133 @@
+"""Scenarios run, batches, progress, replay of what was run."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from truck_blowout_sim.recordings import INPUT_NAMES, channels_for, read_recording
+from truck_blowout_sim.resources import config_file
+from truck_blowout_sim.simulation import (
+    InitialState,
+    Inputs,
+    Truck,
+    drive_from,
+    load_scenario,
+    prepare,
+    run_batch,
+    run_drive,
+    scenario_names,
+    simulate,
+    simulate_batch,
+    simulate_inputs,
+)
+from truck_blowout_sim.simulation.summary import summarize
+from truck_blowout_sim.vehicle import Packed, load_vehicle
+
+
+@pytest.mark.parametrize("name", scenario_names())
+def test_every_scenario_runs_to_its_end(truck: Packed, name: str) -> None:
+    run = simulate(truck, name)
+    scenario = load_scenario(name)
+    assert run.notes == ()
+    assert run.end_s == pytest.approx(scenario.spec.end_s)
+    assert run.start_s == scenario.spec.start_s
+    assert set(INPUT_NAMES) <= set(run.channels)
+    standard = {c.name for c in channels_for() if c.standard}
+    assert standard <= set(run.channels)
+    assert np.abs(run["trailer_roll_rad"].value).max() < 0.2
+
+
+def test_the_test_of_2013_is_driven_by_its_log(truck: Packed) -> None:
+    run = simulate(truck, "steer_axle_blowout")
+    log = read_recording(config_file("recordings", "test_2013_steer_blowout.csv"))
+    assert (run.start_s, run.end_s) == (-4.92, pytest.approx(10.0))
+    assert [(b.time_s, b.tires) for b in run.blowouts] == [(0.0, ("steer_left",))]
+    times = run["throttle"].time_s[:-1]
+    for name in INPUT_NAMES:
+        assert run.at(name, times) == pytest.approx(log.at(name, times), abs=1e-6)
+    assert run["tire_pressure_steer_left_pa"].value[-1] == 0.0
+
+
+def test_progress_changes_no_bit_and_ends_at_one(truck: Packed) -> None:
+    shares: list[float] = []
+    told, silent = simulate(truck, "fishhook", progress=shares.append), simulate(truck, "fishhook")
+    assert all(told[name] == silent[name] for name in silent.channels)
+    assert shares == sorted(shares)
+    assert shares[-1] == 1.0
+    assert len(shares) == 10
+
+
+def test_a_batch_is_bit_for_bit_what_single_runs_are(truck: Packed) -> None:
+    variants = [{"hub.trailer_2_left.brake_gain": 1.0 - 0.1 * k, "steering.ratio": 20.0 + k}
+                for k in range(5)]
+    singles = [simulate(truck.with_values(v), "fishhook") for v in variants]
+    batch = simulate_batch(truck, "fishhook", variants, workers=2)
+    for one, other in zip(singles, batch, strict=True):
+        assert all(one[name] == other[name] for name in one.channels)
+    assert not np.array_equal(batch[0]["tractor_y_m"].value, batch[4]["tractor_y_m"].value)
+
+
+def test_a_batch_of_drives(truck: Packed) -> None:
+    packed, drive, _ = prepare(truck, load_scenario("double_lane_change"))
+    alone = run_drive(packed, drive)
+    many = run_batch([packed] * 3, drive, workers=3)
+    assert all(np.array_equal(alone, out) for out in many)
+
+
+def test_replaying_a_run_gives_the_run(truck: Packed) -> None:
+    """A simulated recording drives the model to itself, but for its sampling of the inputs."""
+    run = simulate(truck, "trailer_step_steer")
+    again = simulate_inputs(truck, run, rate_hz=100.0)
+    times = again["tractor_yaw_rate_radps"].time_s
+    difference = again["tractor_yaw_rate_radps"].value - run.at("tractor_yaw_rate_radps", times)
+    assert np.degrees(np.abs(difference).max()) < 0.05
+
+
+def test_speed_is_imposed_where_the_throttle_was_not_recorded(truck: Packed) -> None:
+    run = simulate(truck, "coast_down").between(0.0, 20.0)
+    bare = run.without_channels(["throttle", "brake_pressure_trailer_pa"])
+    drive = drive_from(bare, truck.vehicle)
+    assert drive.speed_imposed
+    again = simulate_inputs(truck, bare)
+    assert any("speed imposed" in note for note in again.notes)
+    times = again["tractor_vx_mps"].time_s[100:]
+    assert again.at("tractor_vx_mps", times) == pytest.approx(run.at("tractor_vx_mps", times),
+                                                              abs=0.03)
+
+
+def test_a_truck_in_hand_is_the_truck_in_a_scenario(truck: Packed) -> None:
+    run = simulate(truck, "coast_down").between(0.0, 3.0)
+    hand = Truck(truck, initial=InitialState(speed_mps=59 * 0.44704))
+    hand.advance(Inputs(), 3000)
+    speed = run["tractor_vx_mps"].value[-1]
+    assert hand.outputs()["tractor_vx_mps"] == pytest.approx(speed, rel=1e-9)
+    assert hand.time_s == pytest.approx(3.0)
+
+
+def test_another_vehicle_needs_no_code() -> None:
+    run = simulate(load_vehicle("ferrari_250lm"), "coast_down")
+    assert "trailer_x_m" not in run
+    assert run["tractor_vx_mps"].value[-1] < 20.0
+
+
+@pytest.mark.parametrize(("name", "words"), [
+    ("brake_stop", "50.0 mph to standstill in"),
+    ("steer_axle_blowout", "steer_left blown at 0 s; 52.4 to 3"),
+    ("trailer_step_steer", "trailer_1_left_outer+trailer_1_left_inner blown at 5 s"),
+])
+def test_the_summary_says_what_happened(truck: Packed, name: str, words: str) -> None:
+    line = summarize(simulate(truck, name))
+    assert words in line
+    assert "\n" not in line
+    assert "rolled over" not in line
+
+
+def test_a_rollover_is_called_one(truck: Packed) -> None:
+    from dataclasses import replace
+
+    scenario = load_scenario("fishhook")
+    assert scenario.spec.start is not None
+    fast = replace(scenario, spec=replace(scenario.spec, start=replace(
+        scenario.spec.start, speed_mps=30.0)), values={"steering.ratio": 6.0})
+    assert "rolled over at" in summarize(simulate(truck, fast))

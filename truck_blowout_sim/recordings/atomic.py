@@ -1,0 +1,52 @@
+"""Files and folders that appear whole or not at all."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import shutil
+from collections.abc import Iterator
+from pathlib import Path
+
+from truck_blowout_sim.errors import StorageError
+
+
+@contextlib.contextmanager
+def replacing(path: Path) -> Iterator[Path]:
+    """Give a temporary path beside the wanted one; rename it there if the body succeeds.
+
+    Works for a file and for a folder; an older one of that name is replaced in the end, and left
+    alone if the body fails.
+
+    Raises:
+        StorageError: the operating system refuses.
+    """
+    temporary = path.with_name(f".{path.stem}.{os.getpid()}.part{path.suffix}")
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        yield temporary
+        _swap(temporary, path)
+    except StorageError as error:
+        raise StorageError(error.problem, file=path, number=error.errno or 5) from error
+    except OSError as error:
+        words = f"cannot write: {error.strerror or error}"
+        raise StorageError(words, file=path, number=error.errno or 5) from error
+    finally:
+        _remove(temporary)
+
+
+def _swap(temporary: Path, path: Path) -> None:
+    if not path.is_dir():
+        os.replace(temporary, path)
+        return
+    old = path.with_name(f".{path.name}.{os.getpid()}.old")
+    os.replace(path, old)
+    os.replace(temporary, path)
+    shutil.rmtree(old)
+
+
+def _remove(path: Path) -> None:
+    if path.is_dir():
+        shutil.rmtree(path, ignore_errors=True)
+    else:
+        path.unlink(missing_ok=True)

@@ -1,0 +1,41 @@
+"""Blowout events of a bag."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from truck_blowout_sim.errors import InputError, quoted
+from truck_blowout_sim.recordings.bag_topics import TopicSeries
+from truck_blowout_sim.recordings.names import Parts
+from truck_blowout_sim.recordings.recording import Blowout
+
+
+def read_blowouts(
+    series: TopicSeries, times_s: NDArray[np.float64], parts: Parts
+) -> tuple[tuple[Blowout, ...], list[str]]:
+    """Events in order of time, tires blown at one instant together; and notes.
+
+    A tire that is named again later (a latched message recorded twice) counts once.
+
+    Raises:
+        InputError: a name that is no tire of these parts.
+    """
+    at: dict[float, list[str]] = {}
+    blown: set[str] = set()
+    notes = []
+    for position, text in sorted(series.texts("data")):
+        for tire in text.split("+"):
+            if not parts.knows_tire(tire):
+                raise InputError(
+                    f"unknown tire {quoted(tire)}",
+                    file=series.file,
+                    where=series.where(position),
+                    expected=f"one of {', '.join(parts.tires) or 'the tires of the vehicle'}",
+                )
+            if tire in blown:
+                notes.append(f"{tire} is blown again at {times_s[position]} s: left out")
+                continue
+            blown.add(tire)
+            at.setdefault(float(times_s[position]), []).append(tire)
+    return tuple(Blowout(time_s, tuple(tires)) for time_s, tires in sorted(at.items())), notes

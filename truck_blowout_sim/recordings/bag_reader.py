@@ -1,0 +1,190 @@
+"""Bags to recordings: rosbag2 folders and bare MCAP files, finished or not, ours or foreign.
+
+References: rosbag2 (MCAP storage); REP-103/105; sensor_msgs conventions for missing values.
+Known limits: one message type per topic, as in the table of channels; no SQLite storage.
+Validated with: test/recordings/test_bag_reader.py against CSVs of the same runs.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+
+from truck_blowout_sim.errors import InputError, quoted
+from truck_blowout_sim.recordings import clock as clocks
+from truck_blowout_sim.recordings.bag_events import read_blowouts
+from truck_blowout_sim.recordings.bag_files import BagFiles, open_bag
+from truck_blowout_sim.recordings.bag_topics import TopicSeries, read_topic
+from truck_blowout_sim.recordings.bag_writer import ORIGIN_KEY
+from truck_blowout_sim.recordings.channels import BLOWOUT_EVENT, Channel, Place
+from truck_blowout_sim.recordings.checks import check_values
+from truck_blowout_sim.recordings.names import Parts, parts_of
+from truck_blowout_sim.recordings.recording import Blowout, Recording, Series
+from truck_blowout_sim.recordings.topic_names import (
+    channel_names,
+    joint_channel_names,
+    relative_names,
+    type_of,
+)
+
+_NS = 1_000_000_000
+
+
+def read_bag(
+    path: Path,
+    *,
+    tires: Iterable[str] = (),
+    hubs: Iterable[str] = (),
+    namespace: str | None = None,
+    remap: Mapping[str, str] | None = None,
+) -> Recording:
+    """Read a rosbag2 folder or an ``.mcap`` file.
+
+    Args:
+        path: folder or file.
+        tires: names the vehicle has besides those found in the bag.
+        hubs: likewise.
+        namespace: prefix of the truck's topics; found by itself if not given.
+        remap: foreign topic names to those of the table, e.g.
+            ``{"/ins/odometry": "tractor/odometry"}``.
+
+    Raises:
+        InputError: not a bag, damaged, or nothing of the table in it.
+        FileNotFoundError: no such path.
+    """
+    bag = open_bag(path)
+    names = relative_names(bag.topics, namespace, remap or {})
+    if not names:
+        seen = ", ".join(list(bag.topics)[:5]) or "no messages"
+        raise InputError(
+            f"none of the truck's topics in it (found {seen})",
+            file=path,
+            expected="topics as /truck/tractor/odometry, or a remapping of foreign ones",
+        )
+    reader = _Reader(path, bag, {r: _decode(path, bag, r, t) for r, t in names.items()})
+    return reader.recording(tires, hubs)
+
+
+def _decode(path: Path, bag: BagFiles, relative: str, absolute: str) -> TopicSeries:
+    topic = bag.topics[absolute]
+    wanted = type_of(relative)
+    if topic.ros_type != wanted or topic.encoding != "cdr":
+        raise InputError(
+            f"type {quoted(topic.ros_type)} in encoding {quoted(topic.encoding)}",
+            file=path,
+            where=f"topic {absolute}",
+            expected=f"{wanted or 'a topic of the table'} in cdr",
+        )
+    return read_topic(topic, path)
+
+
+@dataclass
+class _Reader:
+    path: Path
+    bag: BagFiles
+    series: dict[str, TopicSeries]
+    notes: list[str] = field(default_factory=list)
+
+    def recording(self, tires: Iterable[str], hubs: Iterable[str]) -> Recording:
+        clock = clocks.find_clock([*self.series.values(), *self._clock_topic()])
+        if clock.translates:
+            self.notes.append("log times are on another clock than the stamps: translated")
+        stamps = {name: clock.stamps(series) for name, series in self.series.items()}
+        stated = self._stated_origin()
+        first = [int(times[0]) for times in stamps.values() if len(times)]
+        origin_ns = clocks.origin_ns(stated, first)
+        self._times = {name: times + origin_ns for name, times in stamps.items()}
+        parts = self._parts(tires, hubs)
+        metadata = {k: v for k, v in self.bag.metadata.items() if k != ORIGIN_KEY}
+        if stated is None and origin_ns:
+            metadata["clock_start_s"] = repr(-origin_ns / _NS)
+        channels, blowouts = self._channels(parts), self._blowouts(parts)
+        notes = (*self.bag.notes, *self.notes)
+        return Recording(self.bag.name, channels, blowouts, metadata, notes)
+
+    def _blowouts(self, parts: Parts) -> tuple[Blowout, ...]:
+        topic = BLOWOUT_EVENT.topic
+        if topic not in self.series:
+            return ()
+        blowouts, notes = read_blowouts(self.series[topic], self._times[topic] / _NS, parts)
+        self.notes += notes
+        return blowouts
+
+    def _clock_topic(self) -> list[TopicSeries]:
+        topic = self.bag.topics.get(clocks.CLOCK_TOPIC)
+        if topic is None or topic.ros_type != clocks.CLOCK_TYPE:
+            return []
+        return [read_topic(topic, self.path)]
+
+    def _stated_origin(self) -> float | None:
+        text = self.bag.metadata.get(ORIGIN_KEY)
+        if text is None:
+            return None
+        try:
+            value = float(text)
+        except ValueError:
+            value = np.nan
+        if not np.isfinite(value) or abs(value) > 1e9:
+            raise InputError(
+                f"value {quoted(text)}",
+                file=self.path,
+                where=f"metadata {ORIGIN_KEY}",
+                expected="a time in seconds",
+            )
+        return float(value)
+
+    def _parts(self, tires: Iterable[str], hubs: Iterable[str]) -> Parts:
+        names = channel_names(self.series)
+        if "joint_states" in self.series:
+            names += joint_channel_names(self.series["joint_states"].joints())
+        return parts_of(names, hubs, tires)
+
+    def _channels(self, parts: Parts) -> dict[str, Series]:
+        channels = {}
+        for channel in parts.table():
+            for place in channel.places:
+                series = self._series_at(channel, place)
+                if series is not None:
+                    channels[channel.name] = series
+                    break
+        return channels
+
+    def _series_at(self, channel: Channel, place: Place) -> Series | None:
+        topic = self.series.get(place.topic)
+        if topic is None or not topic.blocks:
+            return None
+        index, numbers = topic.column(place.field)
+        values = (numbers - place.offset) / place.sign
+        if not values.size or _left_at_default(channel, numbers):
+            return None
+        check_values(channel, values, file=self.path, where=lambda i: topic.where(int(index[i])))
+        times_ns = self._times[place.topic][index]
+        self._check_order(topic, index, times_ns)
+        last = np.append(times_ns[1:] > times_ns[:-1], True)
+        if not last.all():
+            self.notes.append(
+                f"{channel.name}: {np.count_nonzero(~last)} samples share a stamp with a later"
+                " one, which is taken"
+            )
+        if place.field.endswith(":yaw"):
+            values = np.unwrap(values)
+        return Series(times_ns[last] / _NS, values[last])
+
+    def _check_order(self, topic: TopicSeries, index: np.ndarray, times_ns: np.ndarray) -> None:
+        back = np.flatnonzero(times_ns[1:] < times_ns[:-1])
+        if back.size:
+            i = int(back[0]) + 1
+            raise InputError(
+                f"stamp {times_ns[i] / _NS} s after {times_ns[i - 1] / _NS} s",
+                file=self.path,
+                where=topic.where(int(index[i])),
+                expected="stamps that do not run backwards",
+            )
+
+
+def _left_at_default(channel: Channel, numbers: np.ndarray) -> bool:
+    # a recorder that fills a spin angle or a height with plain zeros did not measure it
+    return not channel.standard and not numbers.any()

@@ -1,0 +1,59 @@
+"""What every reader asks of the numbers it read: finite, possible, in order of time."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from truck_blowout_sim.errors import InputError
+from truck_blowout_sim.recordings.channels import Channel
+
+FloatArray = NDArray[np.float64]
+
+
+def check_values(
+    channel: Channel, values: FloatArray, *, file: Path, where: Callable[[int], str]
+) -> None:
+    """Refuse numbers that this channel cannot have.
+
+    Args:
+        channel: row of the table.
+        values: in the channel's unit.
+        file: for the error.
+        where: place in the file of the i-th value.
+
+    Raises:
+        InputError: for the first NaN, infinity, or value out of the channel's bounds.
+    """
+    good = np.isfinite(values) & (values >= channel.lowest) & (values <= channel.highest)
+    if good.all():
+        return
+    first = int(np.flatnonzero(~good)[0])
+    value = values[first]
+    unit = "" if channel.unit == "1" else f" {channel.unit}"
+    expected = f"{channel.quantity}: {channel.lowest:g} to {channel.highest:g}{unit}"
+    if not np.isfinite(value):
+        expected = f"a finite number{unit and ' in' + unit}"
+    raise InputError(
+        f"{channel.name} is {float(value)!r}", file=file, where=where(first), expected=expected
+    )
+
+
+def check_times(times: FloatArray, *, file: Path, where: Callable[[int], str]) -> None:
+    """Refuse times that do not increase strictly.
+
+    Raises:
+        InputError: for the first time that is not later than the one before.
+    """
+    back = np.flatnonzero(times[1:] <= times[:-1])
+    if back.size:
+        i = int(back[0]) + 1
+        raise InputError(
+            f"time {times[i]} does not follow {times[i - 1]}",
+            file=file,
+            where=where(i),
+            expected="times that increase from row to row",
+        )

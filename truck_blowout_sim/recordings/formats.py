@@ -1,0 +1,91 @@
+"""The one door to all formats: read or write a recording, whatever the file is."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+
+from truck_blowout_sim.errors import InputError, quoted
+from truck_blowout_sim.recordings.bag_export import write_bag
+from truck_blowout_sim.recordings.bag_metadata import FILE_NAME
+from truck_blowout_sim.recordings.bag_reader import read_bag
+from truck_blowout_sim.recordings.csv_reader import read_csv
+from truck_blowout_sim.recordings.csv_writer import write_csv
+from truck_blowout_sim.recordings.mat_format import read_mat, write_mat
+from truck_blowout_sim.recordings.recording import Recording
+
+_READABLE = "a rosbag2 folder, .mcap, .csv or .mat"
+
+
+def read_recording(
+    path: str | os.PathLike[str],
+    *,
+    tires: Iterable[str] = (),
+    hubs: Iterable[str] = (),
+    namespace: str | None = None,
+    remap: Mapping[str, str] | None = None,
+    source: str = "experiment",
+) -> Recording:
+    """Read a recording of any format.
+
+    Args:
+        path: rosbag2 folder (or its metadata.yaml), ``.mcap``, ``.csv`` or ``.mat``.
+        tires: tire names of the vehicle, if it is not the default truck.
+        hubs: hub names, likewise.
+        namespace: prefix of the truck's topics in a bag; found by itself if not given.
+        remap: foreign topic names of a bag to those of the table.
+        source: which variables of a ``.mat``: ``experiment`` or ``hve``.
+
+    Returns:
+        SI units, pressures gauge, ISO axes; what had to be assumed stands in its notes.
+
+    Raises:
+        InputError: one line: file, place, value, expectation.
+    """
+    path = Path(path)
+    _check_exists(path)
+    suffix = path.suffix.lower()
+    if path.is_dir() or path.name == FILE_NAME or suffix == ".mcap":
+        return read_bag(path, tires=tires, hubs=hubs, namespace=namespace, remap=remap)
+    if suffix == ".csv":
+        return read_csv(path, tires=tires, hubs=hubs)
+    if suffix == ".mat":
+        return read_mat(path, source=source)
+    raise InputError(f"ends in {quoted(path.suffix)}", file=path, expected=_READABLE)
+
+
+def write_recording(recording: Recording, path: str | os.PathLike[str]) -> Path:
+    """Write a recording in the format that the path's ending names; a folder is a rosbag2 bag.
+
+    The file or folder appears whole or not at all; one that is there already is replaced.
+
+    Returns:
+        The path.
+
+    Raises:
+        InputError: an ending that is no format, or a folder that is no bag.
+        StorageError: it cannot be written.
+    """
+    path = Path(path)
+    suffix = path.suffix.lower()
+    if suffix in ("", ".mcap"):
+        write_bag(recording, path)
+    elif suffix == ".csv":
+        write_csv(recording, path)
+    elif suffix == ".mat":
+        write_mat(recording, path)
+    else:
+        raise InputError(f"ends in {quoted(path.suffix)}", file=path, expected=_READABLE)
+    return path
+
+
+def _check_exists(path: Path) -> None:
+    try:
+        path.stat()
+    except OSError as error:
+        raise InputError(
+            (error.strerror or "cannot be opened").lower(), file=path, expected=_READABLE
+        ) from None
+    if not os.access(path, os.R_OK):
+        raise InputError("permission denied", file=path, expected="a readable file")

@@ -1,0 +1,62 @@
+"""ROS message definitions without ROS: field lists, embedded texts, type hashes, QoS.
+
+References: ROS interface definitions as shipped with `rosbags` (Jazzy; Kilted has the
+same); REP 2011 type hashes; rosbag2 metadata version 9.
+Known limits: message types that `rosbags` does not know need no decoding here and are skipped.
+Validated with: test/recordings/test_foreign_readers.py.
+"""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from typing import Any
+
+from rosbags.typesys import Stores, get_typestore
+from rosbags.typesys.store import Typestore
+
+ROS_DISTRO = "kilted"
+
+_DEFAULT_QOS: dict[str, Any] = {
+    "history": "keep_last",
+    "depth": 10,
+    "reliability": "reliable",
+    "durability": "volatile",
+    "deadline": {"sec": 9223372036, "nsec": 854775807},
+    "lifespan": {"sec": 9223372036, "nsec": 854775807},
+    "liveliness": "automatic",
+    "liveliness_lease_duration": {"sec": 9223372036, "nsec": 854775807},
+    "avoid_ros_namespace_conventions": False,
+}
+
+
+@lru_cache(maxsize=1)
+def typestore() -> Typestore:
+    """Field lists of the standard messages."""
+    return get_typestore(Stores.ROS2_JAZZY)
+
+
+def is_known(ros_type: str) -> bool:
+    """Whether the message type can be taken apart here."""
+    return ros_type in typestore().fielddefs
+
+
+@lru_cache(maxsize=64)
+def definition(ros_type: str) -> str:
+    """Full message definition text, nested types included, as MCAP's ``ros2msg`` wants it."""
+    return typestore().generate_msgdef(ros_type, ros_version=2)[0]
+
+
+@lru_cache(maxsize=64)
+def type_hash(ros_type: str) -> str:
+    """REP 2011 hash, ``RIHS01_…``."""
+    return typestore().hash_rihs01(ros_type)
+
+
+def offered_qos(topic: str) -> list[dict[str, Any]]:
+    """QoS profiles that the simulator offers on a topic, as rosbag2 lists them.
+
+    Blowouts are events: late joiners (and a bag played later) must still get them.
+    """
+    if topic.rsplit("/", 1)[-1] == "blowout":
+        return [{**_DEFAULT_QOS, "depth": 100, "durability": "transient_local"}]
+    return [dict(_DEFAULT_QOS)]

@@ -1,0 +1,109 @@
+"""A prepared run: everything that drives a truck, on the step grid; made once, run many times."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from truck_blowout_sim.physics.layout import N_WORK, TIRE_S, TOPOLOGY
+from truck_blowout_sim.physics.observe import output_names
+from truck_blowout_sim.simulation.equilibrium import InitialState, initial_vector
+from truck_blowout_sim.simulation.loop import run_loop
+from truck_blowout_sim.vehicle import Packed, Vehicle
+
+Floats = NDArray[np.float64]
+Integers = NDArray[np.int64]
+Progress = Callable[[float], None]
+_PART_S = 1.0  # simulated time between two reports of progress
+
+
+@dataclass(frozen=True)
+class Drive:
+    """Everything that drives a run, on the step grid.
+
+    Attributes:
+        initial: how the run begins.
+        step_s: step [s].
+        every: steps between output rows.
+        inputs: [n_steps, 5]; columns a driver works are his.
+        speed: [n_steps] speed [m/s] imposed, or held by the driver; NaN: neither; or empty.
+        blow_steps: step of each blowout; ``blown``: the tires' numbers.
+        pilot: the driver's parameters (`loop.PILOT`), or empty.
+        path: [n, 2] points the driver follows, in map.
+        warm: equilibrium of a similar truck at the same start, to settle from; or None.
+    """
+
+    initial: InitialState
+    step_s: float
+    every: int
+    inputs: Floats
+    speed: Floats
+    blow_steps: Integers
+    blown: Integers
+    pilot: Floats = field(default_factory=lambda: np.zeros(0))
+    path: Floats = field(default_factory=lambda: np.zeros((0, 2)))
+    warm: Floats | None = None
+
+    @property
+    def n_rows(self) -> int:
+        """Output rows, the first at the start."""
+        return self.inputs.shape[0] // self.every + 1
+
+    @property
+    def times_s(self) -> Floats:
+        """Times of the output rows."""
+        rows = np.arange(self.n_rows, dtype=np.float64)
+        return self.initial.time_s + self.every * self.step_s * rows
+
+    @property
+    def speed_imposed(self) -> bool:
+        """Whether an outer force moves the truck along a recorded speed."""
+        return self.speed.size > 0 and self.pilot.size == 0
+
+
+def run_drive(packed: Packed, drive: Drive) -> Floats:
+    """Run a prepared drive: [n_rows, n_outputs]; rows after a failure are NaN."""
+    return execute(packed, drive)[0]
+
+
+def execute(packed: Packed, drive: Drive, progress: Progress | None = None
+            ) -> tuple[Floats, Floats]:
+    """Run a prepared drive.
+
+    Args:
+        progress: called now and then with the share that is done.
+
+    Returns:
+        Outputs [n_rows, n_outputs], NaN after a failure, and the inputs [n_steps, 5] as driven.
+    """
+    topo, n = packed.topology, drive.inputs.shape[0]
+    x = initial_vector(packed, drive.initial, drive.step_s, drive.warm)
+    out = np.full((drive.n_rows, len(names_of(packed.vehicle))), np.nan)
+    slots = topo[TOPOLOGY.state_tire_at] + drive.blown * len(TIRE_S) + TIRE_S.blown_time_s
+    params, inputs, pilot = packed.params.copy(), drive.inputs.copy(), drive.pilot.copy()
+    mass_kg, work = total_mass_kg(packed), np.zeros(N_WORK)
+    part = max(round(_PART_S / drive.step_s), 1) if progress else max(n, 1)
+    for first in range(0, max(n, 1), part):
+        last = min(first + part, n)
+        if not run_loop(x, params, topo, inputs, drive.step_s, drive.every, first, last,
+                        drive.initial.time_s, drive.blow_steps, slots, drive.speed, mass_kg, pilot,
+                        drive.path, work, out):
+            break
+        if progress:
+            progress(last / max(n, 1))
+    return out, inputs
+
+
+def names_of(vehicle: Vehicle) -> tuple[str, ...]:
+    """Names of the output columns of a vehicle."""
+    return output_names(vehicle.units, vehicle.hubs, vehicle.tires)
+
+
+def total_mass_kg(packed: Packed) -> float:
+    """Mass of bodies and axles."""
+    return math.fsum(packed.params[i] for name, i in packed.index.items()
+                     if name.endswith(".mass_kg"))

@@ -1,0 +1,208 @@
+"""The state a truck starts from: settled on its springs, rolling steadily, nothing moving.
+
+The truck is placed at its design attitude and stepped in place with its travel held (speed, yaw
+rate and course prescribed) while bounce, pitch and roll are damped away. What is left afterwards is
+the equilibrium of the very step function that follows, so that nothing settles at t = 0.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from truck_blowout_sim.physics.jit import core
+from truck_blowout_sim.physics.layout import (
+    AXLE,
+    AXLE_S,
+    AXLE_SIZE,
+    GLOBAL_S,
+    HUB_S,
+    N_WORK,
+    STATE_UNIT_AT,
+    STEER,
+    STEER_AT,
+    TIRE,
+    TIRE_S,
+    TIRE_SIZE,
+    TOPOLOGY,
+    UNIT,
+    UNIT_AT,
+    UNIT_S,
+    UNIT_SIZE,
+)
+from truck_blowout_sim.physics.step import step
+from truck_blowout_sim.simulation.inputs import STANDSTILL, Inputs
+from truck_blowout_sim.vehicle import Packed
+
+Floats = NDArray[np.float64]
+Integers = NDArray[np.int64]
+_SETTLE_S = 6.0
+_SETTLE_WARM_S = 1.5
+_DAMPING_PS = 8.0  # rate at which bounce, pitch and roll are taken out while settling
+# what is timed in the parameters must not happen while the truck settles
+_NEUTRAL = {
+    "gust_mps": 0.0, "probe_start_s": math.inf, "shift_start_s": math.inf, "blow_time_s": math.inf,
+    "friction_change_time_s": math.inf, "friction_change_x_m": math.inf,
+    "clutch_open_time_s": math.inf,
+}
+
+
+@dataclass(frozen=True, kw_only=True)
+class InitialState:
+    """Where and how fast the truck starts. Positions are of the tractor's base_link in map."""
+
+    speed_mps: float = 0.0
+    lateral_speed_mps: float = 0.0
+    yaw_rate_radps: float = 0.0
+    x_m: float = 0.0
+    y_m: float = 0.0
+    yaw_rad: float = 0.0
+    articulation_rad: float = 0.0
+    trailer_lateral_speed_mps: float | None = None  # at the trailer's base_link
+    time_s: float = 0.0
+    inputs: Inputs = STANDSTILL
+
+
+def initial_vector(packed: Packed, initial: InitialState, step_s: float,
+                   warm: Floats | None = None) -> Floats:
+    """State vector [n_state] in equilibrium at ``initial``; see the module's text.
+
+    ``warm``: the equilibrium of a similar truck at the same ``initial``, from which settling is
+    shorter.
+    """
+    settle_s = _SETTLE_S if warm is None else _SETTLE_WARM_S
+    x = _design_state(packed, initial) if warm is None else warm.copy()
+    x[GLOBAL_S.time_s] = 0.0
+    timed = _without_events(packed)
+    held = _held_motion(packed, initial)
+    u = np.array(initial.inputs, dtype=np.float64)
+    work = np.zeros(N_WORK)
+    _fill_brakes(x, packed.topology, u)
+    settle(x, timed, packed.topology, u, step_s, int(settle_s / step_s), held, work)
+    _place(x, packed, initial)
+    x[GLOBAL_S.time_s] = initial.time_s
+    return x
+
+
+def _design_state(packed: Packed, initial: InitialState) -> Floats:
+    """Everything at its design height, wheels rolling, tires inflated."""
+    topo, p = packed.topology, packed.params
+    x = np.zeros(topo[TOPOLOGY.n_state])
+    for u in range(topo[TOPOLOGY.n_units]):
+        s, a = STATE_UNIT_AT + u * len(UNIT_S), UNIT_AT + u * UNIT_SIZE
+        x[s + UNIT_S.z_m] = p[a + UNIT.cg_height_m]
+        x[s + UNIT_S.x_m] = 0.0 if u == 0 else (
+            p[UNIT_AT + UNIT.hitch_x_m] - p[a + UNIT.hitch_x_m])
+        x[s + UNIT_S.u_mps] = initial.speed_mps
+    for i in range(topo[TOPOLOGY.n_axles]):
+        s = topo[TOPOLOGY.state_axle_at] + i * len(AXLE_S)
+        x[s + AXLE_S.z_m] = p[topo[TOPOLOGY.axle_at] + i * AXLE_SIZE + AXLE.center_height_m]
+    for t in range(topo[TOPOLOGY.n_tires]):
+        s = topo[TOPOLOGY.state_tire_at] + t * len(TIRE_S)
+        a = topo[TOPOLOGY.tire_at] + t * TIRE_SIZE
+        x[s + TIRE_S.pressure_pa] = p[a + TIRE.pressure_pa]
+        x[s + TIRE_S.blown_time_s] = np.inf
+        hub = topo[topo.size - topo[TOPOLOGY.n_tires] + t]
+        radius = p[a + TIRE.unloaded_radius_m] - 0.01
+        x[topo[TOPOLOGY.state_hub_at] + hub * len(HUB_S)] = initial.speed_mps / radius
+    hand_wheel = initial.inputs.steering_wheel_angle_rad - p[STEER_AT + STEER.offset_rad]
+    x[GLOBAL_S.steer_rad] = hand_wheel / p[STEER_AT + STEER.ratio]
+    return x
+
+
+def _without_events(packed: Packed) -> Floats:
+    """Parameters in which nothing timed happens, however long the settling."""
+    p = packed.params.copy()
+    for name, position in packed.index.items():
+        field = name.rpartition(".")[2]
+        if field in _NEUTRAL:
+            p[position] = _NEUTRAL[field]
+    return p
+
+
+def _held_motion(packed: Packed, initial: InitialState) -> Floats:
+    """Per unit: forward speed, lateral speed and yaw rate at its centre of gravity, and yaw."""
+    p, n = packed.params, packed.topology[TOPOLOGY.n_units]
+    held = np.zeros((n, 4))
+    for u in range(n):
+        a = UNIT_AT + u * UNIT_SIZE
+        lateral = initial.lateral_speed_mps
+        if u == 1:
+            lateral = _trailer_lateral(packed, initial)
+        held[u] = (initial.speed_mps, lateral - initial.yaw_rate_radps * p[a + UNIT.base_x_m],
+                   initial.yaw_rate_radps, initial.articulation_rad if u == 1 else 0.0)
+    return held
+
+
+def _trailer_lateral(packed: Packed, initial: InitialState) -> float:
+    """Lateral speed at the trailer's base_link that keeps the kingpin on the fifth wheel."""
+    p, b = packed.params, UNIT_AT + UNIT_SIZE
+    hitch = initial.lateral_speed_mps + initial.yaw_rate_radps * (
+        p[UNIT_AT + UNIT.hitch_x_m] - p[UNIT_AT + UNIT.base_x_m])
+    turned = (hitch * math.cos(initial.articulation_rad)
+              - initial.speed_mps * math.sin(initial.articulation_rad))
+    return turned - initial.yaw_rate_radps * (p[b + UNIT.hitch_x_m] - p[b + UNIT.base_x_m])
+
+
+def _fill_brakes(x: Floats, topo: Integers, inputs: Floats) -> None:
+    """Delay lines and chambers as if the control pressures had been there for long."""
+    n = topo[TOPOLOGY.line_length]
+    for c in range(3):
+        at = topo[TOPOLOGY.state_line_at] + c * n
+        x[at:at + n] = inputs[2 + c]
+    # chambers follow within the settling
+
+
+@core
+def settle(x: Floats, p: Floats, topo: Integers, inputs: Floats, dt: float, n_steps: int,
+           held: Floats, work: Floats) -> None:
+    """Step in place: travel held, bounce, pitch and roll damped, dry friction kept at zero."""
+    keep = 1.0 - _DAMPING_PS * dt
+    for _ in range(n_steps):
+        step(x, p, topo, inputs, dt, work)
+        x[GLOBAL_S.time_s] = 0.0
+        x[GLOBAL_S.steer_friction_nm] = 0.0
+        x[GLOBAL_S.coupling_friction_nm] = 0.0
+        x[GLOBAL_S.steer_rate_radps] *= keep
+        for u in range(topo[TOPOLOGY.n_units]):
+            _hold_unit(x, p, u, held, keep)
+        for i in range(topo[TOPOLOGY.n_axles]):
+            s = topo[TOPOLOGY.state_axle_at] + i * len(AXLE_S)
+            x[s + AXLE_S.vz_mps] *= keep
+            x[s + AXLE_S.roll_rate_radps] *= keep
+            x[s + AXLE_S.friction_left_n] = 0.0
+            x[s + AXLE_S.friction_right_n] = 0.0
+
+
+@core
+def _hold_unit(x: Floats, p: Floats, u: int, held: Floats, keep: float) -> None:
+    """Prescribe travel of one unit and keep the kingpin over the fifth wheel."""
+    s, a = STATE_UNIT_AT + u * len(UNIT_S), UNIT_AT + u * UNIT_SIZE
+    x[s + UNIT_S.u_mps] = held[u, 0]
+    x[s + UNIT_S.v_mps] = held[u, 1]
+    x[s + UNIT_S.r_radps] = held[u, 2]
+    x[s + UNIT_S.w_mps] *= keep
+    x[s + UNIT_S.p_radps] *= keep
+    x[s + UNIT_S.q_radps] *= keep
+    x[s + UNIT_S.yaw_rad] = held[u, 3]
+    x[s + UNIT_S.x_m] = 0.0
+    x[s + UNIT_S.y_m] = 0.0
+    if u == 1:
+        c, sn = math.cos(held[1, 3]), math.sin(held[1, 3])
+        x[s + UNIT_S.x_m] = p[UNIT_AT + UNIT.hitch_x_m] - c * p[a + UNIT.hitch_x_m]
+        x[s + UNIT_S.y_m] = p[UNIT_AT + UNIT.hitch_y_m] - sn * p[a + UNIT.hitch_x_m]
+
+
+def _place(x: Floats, packed: Packed, initial: InitialState) -> None:
+    """Rotate and move both units so that the tractor's base_link stands at the initial pose."""
+    p, c, s = packed.params, math.cos(initial.yaw_rad), math.sin(initial.yaw_rad)
+    bx, by = p[UNIT_AT + UNIT.base_x_m], p[UNIT_AT + UNIT.base_y_m]
+    for u in range(packed.topology[TOPOLOGY.n_units]):
+        at = STATE_UNIT_AT + u * len(UNIT_S)
+        dx, dy = x[at + UNIT_S.x_m] - bx, x[at + UNIT_S.y_m] - by
+        x[at + UNIT_S.x_m] = initial.x_m + c * dx - s * dy
+        x[at + UNIT_S.y_m] = initial.y_m + s * dx + c * dy
+        x[at + UNIT_S.yaw_rad] += initial.yaw_rad

@@ -1,0 +1,110 @@
+"""Drive the model with a recording's inputs and blowouts."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from truck_blowout_sim.errors import InputError
+from truck_blowout_sim.recordings import INPUT_NAMES, Blowout, Recording, Series, channels_for
+from truck_blowout_sim.simulation.drive import Drive, names_of, run_drive, total_mass_kg
+from truck_blowout_sim.simulation.equilibrium import InitialState
+from truck_blowout_sim.simulation.start import initial_state, start_time_s
+from truck_blowout_sim.vehicle import Packed, Vehicle, pack
+
+Floats = NDArray[np.float64]
+Integers = NDArray[np.int64]
+__all__ = ["Drive", "as_recording", "drive_from", "names_of", "run_drive", "simulate_inputs",
+           "total_mass_kg"]
+STATED_SPEED_WORDS = "speed imposed: throttle or brakes were not recorded"
+
+
+def drive_from(recording: Recording, vehicle: Vehicle, *, step_s: float = 0.001,
+               rate_hz: float = 100.0, initial: InitialState | None = None,
+               impose_speed: bool | None = None) -> Drive:
+    """Prepare a run on a recording's inputs.
+
+    Args:
+        impose_speed: None: impose the recorded speed where throttle or a brake pressure is missing.
+
+    Raises:
+        InputError: no steering, no speed to impose, or a blown tire the vehicle does not have.
+    """
+    missing = set(recording.missing_inputs)
+    if "steering_wheel_angle_rad" in missing:
+        raise InputError("steering_wheel_angle_rad was not recorded", file=recording.name,
+                         expected="the hand wheel angle, without which no run can be driven")
+    impose = bool(missing - {"steering_wheel_angle_rad"}) if impose_speed is None else impose_speed
+    start, end = start_time_s(recording), recording.end_s
+    n_steps = round((end - start) / step_s)
+    times = start + step_s * np.arange(n_steps, dtype=np.float64)
+    speed = _speed(recording, times) if impose else np.zeros(0)
+    steps, tires = _blowouts(recording, vehicle, start, step_s)
+    return Drive(initial or initial_state(recording), step_s, max(round(1.0 / rate_hz / step_s), 1),
+                 np.nan_to_num(recording.inputs_at(times)), speed, steps, tires)
+
+
+def simulate_inputs(vehicle: Vehicle | Packed, recording: Recording, *, step_s: float = 0.001,
+                    rate_hz: float = 100.0, initial: InitialState | None = None,
+                    impose_speed: bool | None = None) -> Recording:
+    """The model driven by a recording: a recording with the same clock.
+
+    Raises:
+        InputError: see :func:`drive_from`; or the state stopped being finite.
+    """
+    packed = vehicle if isinstance(vehicle, Packed) else pack(vehicle)
+    drive = drive_from(recording, packed.vehicle, step_s=step_s, rate_hz=rate_hz, initial=initial,
+                       impose_speed=impose_speed)
+    out = run_drive(packed, drive)
+    return as_recording(f"{recording.name} (simulated)", packed.vehicle, drive, out,
+                        recording.blowouts)
+
+
+def as_recording(name: str, vehicle: Vehicle, drive: Drive, out: Floats,
+                 blowouts: Sequence[Blowout], metadata: dict[str, str] | None = None) -> Recording:
+    """Outputs and inputs of a run as a recording; stops where the state stopped being finite."""
+    good = np.isfinite(out).all(axis=1)
+    n = int(np.argmin(good)) if not good.all() else good.size
+    times = drive.times_s[:n]
+    known = _channels(vehicle)
+    channels = {key: Series(times, out[:n, k]) for k, key in enumerate(names_of(vehicle))
+                if key in known}
+    held = drive.inputs[np.minimum(np.arange(n) * drive.every, len(drive.inputs) - 1)]
+    channels |= {key: Series(times, held[:, k]) for k, key in enumerate(INPUT_NAMES)}
+    text = {"vehicle": vehicle.name, "step_s": repr(drive.step_s), **(metadata or {})}
+    notes: tuple[str, ...] = (STATED_SPEED_WORDS,) if drive.speed_imposed else ()
+    if n < good.size:
+        notes += (f"simulation stopped at {times[-1]:.2f} s: the state was no longer finite",)
+    return Recording(name, channels, tuple(blowouts), text, notes)
+
+
+def _channels(vehicle: Vehicle) -> set[str]:
+    """Names that the table of channels has for this vehicle."""
+    steered = [hub for hub in vehicle.hubs if vehicle.spec.axles[vehicle.axle_of_hub(hub)].steered]
+    table = channels_for(vehicle.hubs, vehicle.tires, vehicle.units, steered)
+    return {channel.name for channel in table}
+
+
+def _speed(recording: Recording, times_s: Floats) -> Floats:
+    """The recorded forward speed on the step grid."""
+    if "tractor_vx_mps" not in recording:
+        raise InputError("throttle or brakes were not recorded, nor was tractor_vx_mps",
+                         file=recording.name, expected="throttle and brake pressures, or a speed")
+    series = recording["tractor_vx_mps"]
+    return np.interp(times_s, series.time_s, series.value)
+
+
+def _blowouts(recording: Recording, vehicle: Vehicle, start_s: float, step_s: float
+              ) -> tuple[Integers, Integers]:
+    """Steps and tire numbers of the recorded blowouts."""
+    steps, tires = [], []
+    for event in recording.blowouts:
+        for tire in event.tires:
+            if tire not in vehicle.tires:
+                raise InputError(f"blowout of unknown tire {tire!r}", file=recording.name,
+                                 expected="one of " + ", ".join(vehicle.tires))
+            steps.append(max(round((event.time_s - start_s) / step_s), 0))
+            tires.append(vehicle.tires.index(tire))
+    return np.array(steps, dtype=np.int64), np.array(tires, dtype=np.int64)

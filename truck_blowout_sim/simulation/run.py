@@ -1,0 +1,141 @@
+"""Run a scenario: from words to a recording."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from os import PathLike
+from pathlib import Path
+
+import numpy as np
+
+from truck_blowout_sim.errors import InputError
+from truck_blowout_sim.recordings import Blowout, Recording, read_recording
+from truck_blowout_sim.resources import config_file
+from truck_blowout_sim.simulation.drive import Drive, Progress, execute
+from truck_blowout_sim.simulation.driver import input_table, pilot_of, speed_to_hold
+from truck_blowout_sim.simulation.equilibrium import InitialState
+from truck_blowout_sim.simulation.inputs import Inputs
+from truck_blowout_sim.simulation.replay import as_recording, drive_from
+from truck_blowout_sim.simulation.scenario import Scenario, load_scenario
+from truck_blowout_sim.vehicle import Packed, Vehicle, load_road, pack, road_values
+
+
+def simulate(vehicle: Vehicle | Packed, scenario: Scenario | str | PathLike[str], *,
+             step_s: float = 0.001, rate_hz: float = 100.0, progress: Progress | None = None
+             ) -> Recording:
+    """Run a scenario.
+
+    Args:
+        vehicle: a vehicle, or one packed with parameters of its own.
+        scenario: a loaded scenario, the name of a shipped one, or a path.
+        step_s: fixed step [s].
+        rate_hz: rate of the recording.
+        progress: called now and then with the share that is done.
+
+    Returns:
+        Inputs as driven, outputs and blowouts. The same arguments give the same bits.
+
+    Raises:
+        InputError: the scenario cannot be used, or not with this vehicle.
+    """
+    loaded = scenario if isinstance(scenario, Scenario) else load_scenario(scenario)
+    packed, drive, blowouts = prepare(vehicle, loaded, step_s=step_s, rate_hz=rate_hz)
+    out, inputs = execute(packed, drive, progress)
+    metadata = {"scenario": loaded.name, "title": loaded.title}
+    return as_recording(loaded.name, packed.vehicle, replace(drive, inputs=inputs), out, blowouts,
+                        metadata)
+
+
+def prepare(vehicle: Vehicle | Packed, scenario: Scenario, *, step_s: float = 0.001,
+            rate_hz: float = 100.0) -> tuple[Packed, Drive, tuple[Blowout, ...]]:
+    """The truck on the scenario's road, what drives it, and what bursts when.
+
+    Raises:
+        InputError: see :func:`simulate`.
+    """
+    _check_rates(step_s, rate_hz)
+    packed = _on_the_road(vehicle if isinstance(vehicle, Packed) else pack(vehicle), scenario)
+    spec = scenario.spec
+    n_steps = round((spec.end_s - spec.start_s) / step_s)
+    times = spec.start_s + step_s * np.arange(n_steps, dtype=np.float64)
+    every = max(round(1.0 / rate_hz / step_s), 1)
+    blowouts = scenario.blowouts_of(packed.vehicle)
+    base = None
+    if spec.recording:
+        recording = _recording(scenario).between(spec.start_s, spec.end_s)
+        base = drive_from(recording, packed.vehicle, step_s=step_s, rate_hz=rate_hz)
+        blowouts = blowouts or recording.blowouts
+    recorded = np.pad(base.inputs, ((0, max(n_steps - len(base.inputs), 0)), (0, 0)), "edge"
+                      )[:n_steps] if base else None
+    inputs = input_table(spec, times, recorded)
+    initial = _initial(scenario, base, inputs)
+    pilot, path = pilot_of(spec, packed, initial.inputs.steering_wheel_angle_rad)
+    speed = speed_to_hold(spec, times)
+    if base and base.speed.size and not speed.size:
+        speed = np.pad(base.speed, (0, max(n_steps - base.speed.size, 0)), "edge")[:n_steps]
+    steps, tires = _events(blowouts, packed.vehicle, spec.start_s, step_s)
+    drive = Drive(initial, step_s, every, inputs, speed, steps, tires, pilot, path)
+    return packed, drive, blowouts
+
+
+def _check_rates(step_s: float, rate_hz: float) -> None:
+    if not (math.isfinite(step_s) and 0.0 < step_s <= 0.005):
+        raise InputError(f"step_s is {step_s!r}", expected="a step over 0 and up to 0.005 s")
+    if not (math.isfinite(rate_hz) and 0.0 < rate_hz <= 1.0 / step_s * 1.001):
+        raise InputError(f"rate_hz is {rate_hz!r}",
+                         expected=f"a rate over 0 and up to {1.0 / step_s:g} Hz, one row a step")
+
+
+def _on_the_road(packed: Packed, scenario: Scenario) -> Packed:
+    """The truck with the scenario's road and parameters."""
+    if scenario.spec.road:
+        place = scenario.places.get("road")
+        try:
+            road = load_road(_beside(scenario, scenario.spec.road, "roads"))
+        except InputError as error:
+            if place is None or error.file:
+                raise
+            raise place.error(error.problem, error.expected) from None
+        packed = packed.with_values(road_values(road))
+    try:
+        return packed.with_values(scenario.values)
+    except KeyError as error:
+        raise InputError(str(error.args[0]), file=scenario.path, where="values",
+                         expected=f"names of parameters of {packed.vehicle.name}") from None
+
+
+def _recording(scenario: Scenario) -> Recording:
+    """The recording a scenario names, from its own folder or the shipped ones."""
+    try:
+        return read_recording(_beside(scenario, scenario.spec.recording, "recordings"))
+    except InputError as error:
+        if error.file:
+            raise
+        raise scenario.places["recording"].error(error.problem, error.expected) from None
+
+
+def _beside(scenario: Scenario, name: str, kind: str) -> Path:
+    beside = scenario.path.parent / name
+    return beside if beside.is_file() else config_file(kind, name)
+
+
+def _initial(scenario: Scenario, base: Drive | None, inputs: np.ndarray) -> InitialState:
+    """How the run begins: the start section, else what the recording shows."""
+    spec = scenario.spec
+    first = Inputs(*inputs[0].tolist())
+    if spec.start is None:
+        assert base is not None  # the check of the scenario has seen to it
+        return replace(base.initial, inputs=first, time_s=spec.start_s)
+    start = spec.start
+    return InitialState(speed_mps=start.speed_mps, x_m=start.x_m, y_m=start.y_m,
+                        yaw_rad=start.yaw_rad, time_s=spec.start_s, inputs=first)
+
+
+def _events(blowouts: tuple[Blowout, ...], vehicle: Vehicle, start_s: float, step_s: float
+            ) -> tuple[np.ndarray, np.ndarray]:
+    """Step and tire number of each blowout."""
+    pairs = [(max(round((event.time_s - start_s) / step_s), 0), vehicle.tires.index(tire))
+             for event in blowouts for tire in event.tires]
+    table = np.array(pairs, dtype=np.int64).reshape(-1, 2)
+    return table[:, 0].copy(), table[:, 1].copy()

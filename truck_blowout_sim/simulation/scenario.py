@@ -1,0 +1,204 @@
+"""Reading scenario files, with every value checked and every error on one line."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from itertools import pairwise
+from os import PathLike
+from pathlib import Path
+
+from truck_blowout_sim.errors import InputError, quoted
+from truck_blowout_sim.recordings import Blowout
+from truck_blowout_sim.resources import config_file, config_names
+from truck_blowout_sim.simulation.scenario_schema import BlowoutEventSpec, ScenarioSpec
+from truck_blowout_sim.vehicle import Vehicle
+from truck_blowout_sim.vehicle.document import Branch, Leaf, Place, read_document
+from truck_blowout_sim.vehicle.reading import build, to_number, unknown
+
+_KIND = "scenarios"
+
+
+@dataclass(frozen=True)
+class Scenario:
+    """A loaded and checked scenario.
+
+    Attributes:
+        name: stem of its file.
+        path: the file.
+        spec: its sections in SI.
+        values: parameters of the vehicle it sets, by packed name.
+        sources: where each value comes from, by dotted SI key.
+        places: where the values stand that only a vehicle can check.
+    """
+
+    name: str
+    path: Path
+    spec: ScenarioSpec
+    values: Mapping[str, float] = field(default_factory=dict)
+    sources: Mapping[str, str] = field(default_factory=dict)
+    places: Mapping[str, Place] = field(default_factory=dict)
+
+    @property
+    def title(self) -> str:
+        """One line a person reads."""
+        return self.spec.title
+
+    def with_blowouts(self, events: Sequence[Blowout]) -> Scenario:
+        """A copy in which these tires or hubs burst and no others.
+
+        Raises:
+            InputError: an instant outside the run.
+        """
+        for event in events:
+            if not self.spec.start_s <= event.time_s <= self.spec.end_s:
+                raise _outside(self.spec, event.time_s, Place(str(self.path), 1, "end_s"))
+        specs = {f"{n}": BlowoutEventSpec(time_s=event.time_s, tires="+".join(event.tires))
+                 for n, event in enumerate(events)}
+        return replace(self, spec=replace(self.spec, blowouts=specs), places={})
+
+    def blowouts_of(self, vehicle: Vehicle) -> tuple[Blowout, ...]:
+        """Its blowouts with hubs resolved into tires.
+
+        Raises:
+            InputError: a name that is neither a hub nor a tire of the vehicle.
+        """
+        return tuple(
+            Blowout(event.time_s, tuple(self._tires(name, event.tires, vehicle)))
+            for name, event in self.spec.blowouts.items()
+        )
+
+    def _tires(self, event: str, words: str, vehicle: Vehicle) -> list[str]:
+        tires: list[str] = []
+        for word in words.split("+"):
+            if word in vehicle.hubs:
+                tires += vehicle.tires_of_hub(word)
+            elif word in vehicle.tires:
+                tires.append(word)
+            else:
+                problem = f"{quoted(word)} is no hub or tire of {vehicle.name}"
+                place = self.places.get(f"blowouts.{event}.tires", Place("blowout", 1, ""))
+                raise unknown(place, problem, word, (*vehicle.hubs, *vehicle.tires))
+        return tires
+
+
+def load_scenario(name_or_path: str | PathLike[str]) -> Scenario:
+    """Load a scenario by the name of a shipped file or by path.
+
+    Raises:
+        InputError: no such file, or something in it cannot be used; one line says what and where.
+    """
+    path = config_file(_KIND, name_or_path)
+    tree = read_document(path, _KIND)
+    values = _values(tree.entries.pop("values", None))
+    sources: dict[str, str] = {}
+    spec = build(ScenarioSpec, tree, sources)
+    places = dict(_places(tree, ""))
+    scenario = Scenario(path.stem, path, spec, values, sources, places)
+    _check(scenario, tree)
+    return scenario
+
+
+def scenario_names() -> tuple[str, ...]:
+    """Names of the shipped scenarios."""
+    return config_names(_KIND)
+
+
+def _values(entry: Leaf | Branch | None) -> dict[str, float]:
+    if entry is None:
+        return {}
+    if isinstance(entry, Leaf):
+        raise entry.place.error(f"{entry.value!r} is not a section", "packed names with values")
+    values = {}
+    for key, leaf in entry.entries.items():
+        if isinstance(leaf, Branch):
+            raise leaf.place.error("is a section", "a value")
+        values[key] = to_number(leaf.value, leaf.place) * leaf.factor
+    return values
+
+
+def _places(tree: Branch, path: str) -> list[tuple[str, Place]]:
+    found: list[tuple[str, Place]] = []
+    for key, entry in tree.entries.items():
+        here = f"{path}.{key}" if path else key
+        found.append((here, entry.place))
+        if isinstance(entry, Branch):
+            found += _places(entry, here)
+    return found
+
+
+def _check(scenario: Scenario, tree: Branch) -> None:
+    spec, places = scenario.spec, scenario.places
+    if spec.end_s <= spec.start_s:
+        raise places["end_s"].error(f"{spec.end_s:g} s is not after the start",
+                                    f"more than {spec.start_s:g} s")
+    if spec.start is None and not spec.recording:
+        raise tree.place.error("says neither how the truck starts nor a recording",
+                               "a start section or a recording")
+    if spec.hold is None and spec.throttle is None and not spec.recording:
+        raise tree.place.error("nothing works the throttle", "hold, throttle or a recording")
+    for event in spec.blowouts:
+        _check_event(scenario, event)
+    _check_steering(scenario)
+    _check_tables(scenario)
+
+
+def _check_event(scenario: Scenario, event: str) -> None:
+    spec, place = scenario.spec, scenario.places[f"blowouts.{event}.time_s"]
+    time_s = spec.blowouts[event].time_s
+    if not spec.start_s <= time_s <= spec.end_s:
+        raise _outside(spec, time_s, place)
+
+
+def _outside(spec: ScenarioSpec, time_s: float, place: Place) -> InputError:
+    return place.error(f"blowout at {time_s:g} s is outside the run",
+                       f"{spec.start_s:g} to {spec.end_s:g} s")
+
+
+def _check_steering(scenario: Scenario) -> None:
+    steering = scenario.spec.steering
+    if steering is None:
+        return
+    given = [k for k in ("table", "sweep", "follow") if getattr(steering, k) is not None]
+    if len(given) != 1:
+        raise scenario.places["steering"].error(f"has {' and '.join(given) or 'nothing'}",
+                                                "one of: table, sweep, follow")
+    if steering.follow:
+        follow, place = steering.follow, scenario.places["steering.follow"]
+        if len(follow.x_m) < 2 or len(follow.x_m) != len(follow.y_m):
+            raise place.error(f"{len(follow.x_m)} x and {len(follow.y_m)} y values",
+                              "two points or more, x and y of each")
+        points = list(zip(follow.x_m, follow.y_m, strict=True))
+        if any(a == b for a, b in pairwise(points)):
+            raise place.error("the same point twice in a row", "points apart from each other")
+    if steering.sweep and steering.sweep.end_s <= steering.sweep.start_s:
+        raise scenario.places["steering.sweep.end_s"].error(
+            f"{steering.sweep.end_s:g} s is not after its start",
+            f"more than {steering.sweep.start_s:g} s")
+
+
+def _check_tables(scenario: Scenario) -> None:
+    spec = scenario.spec
+    if spec.steering and spec.steering.table:
+        table = spec.steering.table
+        _check_table(scenario, "steering.table", table.time_s, table.angle_rad, "angles")
+    if spec.throttle:
+        _check_table(scenario, "throttle", spec.throttle.time_s, spec.throttle.opening, "openings")
+        if max(spec.throttle.opening) > 1.0:
+            raise scenario.places["throttle.opening"].error(
+                f"{max(spec.throttle.opening):g} is out of bounds", "0 to 1")
+    for circuit in ("steer", "drive", "trailer"):
+        pressure = getattr(spec.brakes, circuit) if spec.brakes else None
+        if pressure:
+            _check_table(scenario, f"brakes.{circuit}", pressure.time_s, pressure.pressure_pa,
+                         "pressures")
+
+
+def _check_table(scenario: Scenario, key: str, times: Sequence[float], values: Sequence[float],
+                 words: str) -> None:
+    place = scenario.places[key]
+    if not times or len(times) != len(values):
+        raise place.error(f"{len(times)} times and {len(values)} {words}",
+                          "one value for each time")
+    if any(b <= a for a, b in pairwise(times)):
+        raise place.error("times do not increase", "each time later than the one before")

@@ -1,0 +1,97 @@
+"""A truck to hold: state, step, blow, look."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from truck_blowout_sim.errors import InputError, quoted
+from truck_blowout_sim.physics.layout import GLOBAL_S, N_WORK, TIRE_S, TOPOLOGY
+from truck_blowout_sim.physics.observe import observe, output_names
+from truck_blowout_sim.physics.step import advance
+from truck_blowout_sim.simulation.equilibrium import InitialState, initial_vector
+from truck_blowout_sim.simulation.inputs import Inputs
+from truck_blowout_sim.vehicle import Packed, Vehicle, pack
+
+Floats = NDArray[np.float64]
+
+
+class Truck:
+    """One truck in time.
+
+    Args:
+        vehicle: a vehicle, or a vehicle already packed into parameters.
+        step_s: fixed step [s].
+        initial: where and how fast it starts; settled there before time begins.
+    """
+
+    def __init__(self, vehicle: Vehicle | Packed, *, step_s: float = 0.001,
+                 initial: InitialState | None = None) -> None:
+        self.packed = vehicle if isinstance(vehicle, Packed) else pack(vehicle)
+        self.vehicle = self.packed.vehicle
+        self.step_s = step_s
+        self.initial = initial or InitialState()
+        self.output_names = output_names(self.vehicle.units, self.vehicle.hubs, self.vehicle.tires)
+        self._params = self.packed.params
+        self._topology = self.packed.topology
+        self._work = np.zeros(N_WORK)
+        self._inputs = np.array(self.initial.inputs, dtype=np.float64)
+        self._out = np.zeros(len(self.output_names))
+        self._start = initial_vector(self.packed, self.initial, step_s)
+        self.state = self._start.copy()
+        self._steps = 0
+
+    @property
+    def time_s(self) -> float:
+        """Simulation time [s]."""
+        return self.initial.time_s + self._steps * self.step_s
+
+    @property
+    def finite(self) -> bool:
+        """False once the core met a non-finite acceleration."""
+        return bool(self.state[GLOBAL_S.nonfinite] == 0.0)
+
+    def advance(self, inputs: Inputs, n_steps: int = 1) -> None:
+        """Advance ``n_steps`` steps with ``inputs`` held."""
+        self._inputs[:] = inputs
+        # the counter rules time, so that it never drifts from the step grid
+        self.state[GLOBAL_S.time_s] = self.time_s
+        advance(self.state, self._params, self._topology, self._inputs, self.step_s, n_steps,
+                self._work)
+        self._steps += n_steps
+
+    def blow(self, tire: str) -> bool:
+        """Burst a tire now. Returns False if it was blown already."""
+        slot = self._tire_slot(tire) + TIRE_S.blown_time_s
+        if self.state[slot] <= self.time_s:
+            return False
+        self.state[slot] = self.time_s
+        return True
+
+    @property
+    def blown(self) -> tuple[str, ...]:
+        """Names of the tires blown so far."""
+        return tuple(t for t in self.vehicle.tires
+                     if self.state[self._tire_slot(t) + TIRE_S.blown_time_s] <= self.time_s)
+
+    def reset(self) -> None:
+        """Back to the initial state and time; every tire whole again."""
+        self.state[:] = self._start
+        self._steps = 0
+
+    def output_vector(self) -> Floats:
+        """All outputs now, in the order of ``output_names``; a copy."""
+        observe(self.state, self._params, self._topology, self._work, self._out)
+        return self._out.copy()
+
+    def outputs(self) -> dict[str, float]:
+        """All outputs now by name; SI units as in the names, pressures gauge."""
+        return dict(zip(self.output_names, self.output_vector().tolist(), strict=True))
+
+    def _tire_slot(self, tire: str) -> int:
+        """First state position of a tire."""
+        if tire not in self.vehicle.tires:
+            raise InputError(f"unknown tire {quoted(tire)}", file=self.vehicle.name,
+                             expected="one of " + ", ".join(self.vehicle.tires))
+        at = int(self._topology[TOPOLOGY.state_tire_at])
+        return at + self.vehicle.tires.index(tire) * len(TIRE_S)
