@@ -1,0 +1,67 @@
+"""The verb as a terminal user meets it."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+from truck_blowout_sim.cli.compare import _folders
+from truck_blowout_sim.cli.main import main
+
+TEST_2013 = "test_2013_steer_blowout"
+
+
+def complaint(captured: str) -> str:
+    lines = [line for line in captured.splitlines() if line.strip()]
+    assert len(lines) == 1
+    return lines[0]
+
+
+def test_a_shipped_record_is_compared_by_its_name(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["compare", TEST_2013, "-o", str(tmp_path / "out")]) == 0
+    shown = capsys.readouterr()
+    assert "yaw rate of the tractor" in shown.out
+    assert "rebuilt from the thesis" in shown.out
+    assert "report.html" in shown.out
+    assert json.loads((tmp_path / "out" / "comparison.json").read_text())["recording"] == TEST_2013
+    assert (tmp_path / "out" / "figures" / "yaw_rate_tractor.png").is_file()
+
+
+@pytest.mark.parametrize(
+    ("words", "expected"),
+    [
+        (["no_such_run.csv"], f"no such file or folder: 'no_such_run.csv'; .*{TEST_2013}"),
+        ([TEST_2013, "--vehicle", "no_such_truck"], "no_such_truck"),
+        ([TEST_2013, "--step", "1"], "--step"),
+        ([TEST_2013, "--vehicle", "ferrari_250lm"], "steer_left"),
+    ],
+)
+def test_bad_input_is_one_line_and_status_two(
+    words: list[str], expected: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    import re
+
+    assert main(["compare", *words, "-o", str(tmp_path / "out")]) == 2
+    assert re.search(expected, complaint(capsys.readouterr().err))
+    assert not (tmp_path / "out").exists()
+
+
+def test_a_broken_csv_names_its_place(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    bad = tmp_path / "bad.csv"
+    bad.write_text("time_s,steering_wheel_angle_rad,tractor_vx_mps\n0,0,20\n0.01,nan?,20\n")
+    assert main(["compare", str(bad), "-o", str(tmp_path / "out")]) == 2
+    line = complaint(capsys.readouterr().err)
+    assert "bad.csv" in line
+    assert "line 3" in line
+
+
+def test_several_recordings_get_a_folder_each(tmp_path: Path) -> None:
+    assert _folders(["a.csv"], tmp_path) == [tmp_path]
+    found = _folders(["runs/a.csv", "b/", "other/a.mcap", "more/a"], tmp_path)
+    assert [folder.name for folder in found] == ["a", "b", "a_2", "a_3"]

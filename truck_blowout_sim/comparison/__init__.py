@@ -1,0 +1,20 @@
+"""Model against recording: run on recorded inputs, errors, ratings."""
+
+from __future__ import annotations
+
+from truck_blowout_sim.comparison.comparing import Comparison, compare
+from truck_blowout_sim.comparison.errors import ChannelError
+from truck_blowout_sim.comparison.iso18571 import Rating, rate
+from truck_blowout_sim.comparison.result_json import encode_comparison, write_comparison
+from truck_blowout_sim.comparison.words import verdict
+
+__all__ = [
+    "ChannelError",
+    "Comparison",
+    "Rating",
+    "compare",
+    "encode_comparison",
+    "rate",
+    "verdict",
+    "write_comparison",
+]

@@ -1,0 +1,155 @@
+"""Drive the model with a recording's inputs and measure how it differs.
+
+References: ISO/TS 18571:2024 for the ratings; V. Chakravarthy, Ohio State University, 2013,
+chapter 4, for the figures that a comparison of a blowout test consists of.
+Known limits: the initial state comes from the first second, so a recording that begins in a
+manoeuvre carries its error along; position errors grow with time whatever the model.
+Validated with: test/comparison/test_comparing.py.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from truck_blowout_sim.comparison.errors import ChannelError, channel_error
+from truck_blowout_sim.comparison.noise import channel_sigmas
+from truck_blowout_sim.comparison.pairing import Pair, gravity_is_removed, pairs_of
+from truck_blowout_sim.comparison.provenance import Marks, marks_of
+from truck_blowout_sim.comparison.sources import find_recording
+from truck_blowout_sim.comparison.words import labels_for
+from truck_blowout_sim.errors import InputError
+from truck_blowout_sim.recordings import Recording, read_recording
+from truck_blowout_sim.simulation.replay import as_recording, drive_from, run_drive
+from truck_blowout_sim.vehicle import Packed, Vehicle, load_vehicle, pack
+
+DEFAULT_VEHICLE = "international_9400i_trailmobile"
+Progress = Callable[[str, float], None]
+
+
+@dataclass(frozen=True, eq=False)
+class Comparison:
+    """A recording and the model's answer to its inputs.
+
+    Attributes:
+        recording, model: as measured, as simulated.
+        vehicle: the model's vehicle.
+        speed_imposed: the recorded speed was imposed because throttle or brakes were not recorded.
+        pairs: both side by side, by channel.
+        channels: errors in the order of the channel table.
+        marks: for a record rebuilt from text, what each sample is (by channel); else empty.
+        notes: what was assumed on the way.
+    """
+
+    recording: Recording
+    model: Recording
+    vehicle: Vehicle
+    speed_imposed: bool
+    pairs: Mapping[str, Pair]
+    channels: tuple[ChannelError, ...]
+    marks: Mapping[str, Marks]
+    notes: tuple[str, ...]
+
+    def __getitem__(self, name: str) -> ChannelError:
+        return next(channel for channel in self.channels if channel.name == name)
+
+    def __contains__(self, name: object) -> bool:
+        return any(channel.name == name for channel in self.channels)
+
+    @property
+    def interval_s(self) -> tuple[float, float]:
+        """First and last instant that was compared, on the recording's clock."""
+        pairs = self.pairs.values()
+        return min(p.time_s[0] for p in pairs), max(p.time_s[-1] for p in pairs)
+
+    @property
+    def mean_rating(self) -> float | None:
+        """Mean overall rating of the measured channels that have one and were not imposed."""
+        rated = [
+            c.rating.overall
+            for c in self.channels
+            if c.rating and not c.imposed and c.name in self.recording
+        ]
+        return float(np.mean(rated)) if rated else None
+
+
+def compare(recording: Recording | str | os.PathLike[str],
+            vehicle: Vehicle | Packed | str | os.PathLike[str] = DEFAULT_VEHICLE, *,
+            step_s: float = 0.001, impose_speed: bool | None = None,
+            progress: Progress | None = None) -> Comparison:  # fmt: skip
+    """Drive a vehicle's model with a recording's inputs and report the differences.
+
+    Args:
+        recording: a recording, a path to one, or the name of one that ships with the package.
+        vehicle: a vehicle, its packed parameters, a path, or the name of a shipped one.
+        step_s: step of the simulation [s].
+        impose_speed: make the model follow the recorded speed; ``None``: only where throttle or a
+            brake pressure was not recorded.
+        progress: called with what is being done and the share that is done, 0 to 1.
+
+    Raises:
+        InputError: unreadable files, no steering in the recording, no channel in common.
+    """
+    tell = progress or _silent
+    packed = _packed(vehicle)
+    tell("reading", 0.0)
+    recording, marks = _recording(recording, packed.vehicle)
+    tell("simulating", 0.1)
+    drive = drive_from(recording, packed.vehicle, step_s=step_s, impose_speed=impose_speed)
+    model = as_recording(f"{recording.name} (simulated)", packed.vehicle, drive,
+                         run_drive(packed, drive), recording.blowouts)  # fmt: skip
+    imposed = bool(drive.speed.size)
+    pairs = pairs_of(recording, model)
+    if not pairs:
+        raise InputError("no output channel to compare", file=recording.name,
+                         expected="at least one of " + ", ".join(list(model.channels)[:12]))
+    channels = _errors(recording, packed.vehicle, pairs, imposed, tell)
+    tell("done", 1.0)
+    return Comparison(recording, model, packed.vehicle, imposed, pairs, channels, marks,
+                      _notes(recording, model))  # fmt: skip
+
+
+def _errors(recording: Recording, vehicle: Vehicle, pairs: Mapping[str, Pair], imposed: bool,
+            tell: Progress) -> tuple[ChannelError, ...]:  # fmt: skip
+    """Errors of all pairs in the order of the channel table."""
+    sigmas = channel_sigmas(recording)
+    labels = labels_for(vehicle)
+    order = {name: k for k, name in enumerate(labels)}
+    found = []
+    for k, name in enumerate(sorted(pairs, key=lambda n: order.get(n, len(order)))):
+        tell("measuring " + labels.get(name, name), 0.4 + 0.6 * k / len(pairs))
+        follows = imposed and name == "tractor_vx_mps"
+        found.append(channel_error(pairs[name], labels.get(name, name),
+                                   sigmas.get(name), imposed=follows))  # fmt: skip
+    return tuple(found)
+
+
+def _packed(vehicle: Vehicle | Packed | str | os.PathLike[str]) -> Packed:
+    if isinstance(vehicle, Packed):
+        return vehicle
+    return pack(vehicle if isinstance(vehicle, Vehicle) else load_vehicle(vehicle))
+
+
+def _recording(recording: Recording | str | os.PathLike[str], vehicle: Vehicle
+               ) -> tuple[Recording, Mapping[str, Marks]]:  # fmt: skip
+    if isinstance(recording, Recording):
+        return recording, {}
+    path = find_recording(recording)
+    read = read_recording(path, tires=vehicle.tires, hubs=vehicle.hubs)
+    return read, marks_of(path, read)
+
+
+def _notes(recording: Recording, model: Recording) -> tuple[str, ...]:
+    notes = recording.notes + model.notes
+    if "rebuilt" in recording.metadata.get("origin", ""):
+        notes += (f"the record is {recording.metadata['origin']}",)
+    if gravity_is_removed(recording):
+        notes += ("accelerations are compared without gravity, as the recording gives them",)
+    return notes
+
+
+def _silent(stage: str, share: float) -> None:
+    """Say nothing."""

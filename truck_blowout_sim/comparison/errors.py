@@ -1,0 +1,115 @@
+"""How far the model is off, channel by channel.
+
+Validated with: test/comparison/test_errors.py, with differences known beforehand.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from truck_blowout_sim.comparison.iso18571 import Rating, rate
+from truck_blowout_sim.comparison.noise import Sigma
+from truck_blowout_sim.comparison.pairing import Pair
+from truck_blowout_sim.comparison.units import DisplayUnit
+
+Floats = NDArray[np.float64]
+
+# Below this multiple of its noise a measured channel has no shape that could be rated.
+_SIGNAL_OVER_NOISE = 6.0
+_MOST_RATED_SAMPLES = 3000
+_FEWEST_RATED_SAMPLES = 20
+
+
+@dataclass(frozen=True)
+class ChannelError:
+    """Error of one channel, model minus measurement, SI.
+
+    Attributes:
+        name: channel.
+        label: the quantity in words.
+        unit: unit to show it in.
+        count: number of instants compared.
+        rms: root of the mean square.
+        mean: its constant part.
+        peak: error of largest size, with its sign.
+        peak_time_s: when.
+        final: error at the last instant.
+        noise: noise of the channel, ``None`` where none is stated or visible.
+        rating: after ISO/TS 18571; ``None`` where the measurement has no shape to rate.
+        imposed: the model was made to follow this channel, so its error says nothing.
+    """
+
+    name: str
+    label: str
+    unit: DisplayUnit
+    count: int
+    rms: float
+    mean: float
+    peak: float
+    peak_time_s: float
+    final: float
+    noise: Sigma | None
+    rating: Rating | None
+    imposed: bool = False
+
+    @property
+    def rms_sigma(self) -> float | None:
+        """Rms error in units of the channel's noise; 1 is all that noise explains."""
+        return None if self.noise is None else self.rms / self.noise.value
+
+    @property
+    def peak_sigma(self) -> float | None:
+        """Size of the peak in units of the channel's noise."""
+        return None if self.noise is None else abs(self.peak) / self.noise.value
+
+    def shown(self, value: float) -> str:
+        """A value of this channel as a person reads it, three significant digits and the unit."""
+        return f"{shortened(value * self.unit.per_si)} {self.unit.symbol}".rstrip()
+
+
+def channel_error(pair: Pair, label: str, noise: Sigma | None, *, imposed: bool = False
+                  ) -> ChannelError:  # fmt: skip
+    """Errors and rating of one channel."""
+    error = pair.error
+    peak = int(np.argmax(np.abs(error)))
+    return ChannelError(
+        name=pair.name,
+        label=label,
+        unit=pair.unit,
+        count=int(error.size),
+        rms=float(np.sqrt(np.mean(error**2))),
+        mean=float(error.mean()),
+        peak=float(error[peak]),
+        peak_time_s=float(pair.time_s[peak]),
+        final=float(error[-1]),
+        noise=noise,
+        rating=_rating(pair, noise),
+        imposed=imposed,
+    )
+
+
+def shortened(value: float) -> str:
+    """Three significant digits without an exponent where that stays short."""
+    text = f"{value:.3g}"
+    return f"{value:.0f}" if "e+" in text else text
+
+
+def _rating(pair: Pair, noise: Sigma | None) -> Rating | None:
+    """Rating on an even grid, ``None`` for a channel that only shows its noise."""
+    spread = float(np.ptp(pair.measured))
+    if spread <= (0.0 if noise is None else 2 * _SIGNAL_OVER_NOISE * noise.value):
+        return None
+    times = pair.time_s
+    intervals = float((times[-1] - times[0]) / np.median(np.diff(times)))
+    count = min(round(intervals) + 1, _MOST_RATED_SAMPLES)
+    if count < _FEWEST_RATED_SAMPLES:
+        return None
+    grid = np.linspace(times[0], times[-1], count)
+    measured = np.interp(grid, times, pair.measured)
+    if np.ptp(measured) == 0.0:
+        return None
+    model = np.interp(grid, times, pair.model)
+    return rate(measured, model, float(grid[1] - grid[0]))

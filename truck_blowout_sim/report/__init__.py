@@ -1,0 +1,1 @@
+"""Figures and pages, drawn from finished results; nothing is computed here."""

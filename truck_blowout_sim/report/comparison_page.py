@@ -1,0 +1,107 @@
+"""One page that shows how model and record differ.
+
+Validated with: test/report/test_comparison_page.py.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+
+from truck_blowout_sim.comparison import (
+    ChannelError,
+    Comparison,
+    Rating,
+    verdict,
+    write_comparison,
+)
+from truck_blowout_sim.comparison.provenance import MARKS, Marks
+from truck_blowout_sim.report.comparison_figures import comparison_pictures
+from truck_blowout_sim.report.page import render, write_pictures, write_text
+from truck_blowout_sim.report.style import Picture
+
+PAGE, DATA, FIGURES = "report.html", "comparison.json", "figures"
+_METADATA = ("test", "vehicle", "road", "tractor_base_link", "trailer_base_link", "accelerometers")
+_ABSENT = "–"
+
+
+def write_comparison_report(comparison: Comparison, folder: Path) -> Path:
+    """Write the page, its figures as PNG and the numbers as JSON.
+
+    Returns:
+        The page, ``report.html``; beside it ``comparison.json`` and ``figures/``.
+
+    Raises:
+        StorageError: a file cannot be written.
+    """
+    pictures = comparison_pictures(comparison)
+    write_pictures(pictures, folder / FIGURES)
+    write_comparison(comparison, folder / DATA)
+    write_text(comparison_page(comparison, pictures), folder / PAGE)
+    return folder / PAGE
+
+
+def comparison_page(comparison: Comparison, pictures: tuple[Picture, ...] | None = None) -> str:
+    """The page as HTML that needs no other file."""
+    recording = comparison.recording
+    start, end = comparison.interval_s
+    return render("comparison.html", {
+        "name": recording.name,
+        "vehicle": comparison.vehicle.name,
+        "vehicle_title": comparison.vehicle.title,
+        "verdict": verdict(comparison),
+        "rebuilt": recording.metadata.get("origin", "") if comparison.marks else "",
+        "interval": f"{start:.2f} s to {end:.2f} s",
+        "blowouts": _blowouts(comparison),
+        "metadata": [(key.replace("_", " "), recording.metadata[key]) for key in _METADATA
+                     if key in recording.metadata],
+        "driven_by": _driven_by(comparison),
+        "notes": comparison.notes,
+        "pictures": comparison_pictures(comparison) if pictures is None else pictures,
+        "marks": [_mark_row(name, marks) for name, marks in comparison.marks.items()],
+        "channels": [_row(channel) for channel in comparison.channels],
+    })  # fmt: skip
+
+
+def _blowouts(comparison: Comparison) -> str:
+    events = comparison.recording.blowouts
+    return ", ".join(f"{' + '.join(event.tires)} at {event.time_s:.2f} s" for event in events)
+
+
+def _driven_by(comparison: Comparison) -> str:
+    if comparison.speed_imposed:
+        return (
+            "the recorded hand-wheel angle; the recorded speed is imposed, "
+            "because throttle or brake pressures were not recorded"
+        )
+    return "the recorded hand-wheel angle, throttle and brake control pressures"
+
+
+def _row(channel: ChannelError) -> Mapping[str, object]:
+    sigma = _ABSENT if channel.rms_sigma is None else f"{channel.rms_sigma:.1f}"
+    cells = [
+        channel.shown(channel.rms),
+        channel.shown(channel.peak),
+        f"{channel.peak_time_s:.2f} s",
+        sigma,
+        *_rating_cells(channel.rating),
+    ]
+    return {
+        "name": channel.name, "label": channel.label, "imposed": channel.imposed, "cells": cells
+    }  # fmt: skip
+
+
+def _rating_cells(rating: Rating | None) -> list[str]:
+    if rating is None:
+        return [_ABSENT] * 6
+    scores = (rating.corridor, rating.phase, rating.magnitude, rating.slope)
+    return [
+        f"{rating.overall:.2f} {rating.grade}",
+        *(f"{score:.2f}" for score in scores),
+        f"{rating.shift_s:+.2f} s",
+    ]
+
+
+def _mark_row(name: str, marks: Marks) -> Mapping[str, str]:
+    shares = {mark: f"{marks.share(mark):.0%}" for mark in MARKS}
+    return {"name": name, **shares, "sources": "; ".join(marks.sources) or _ABSENT}

@@ -1,0 +1,139 @@
+"""Pictures of how well the diagnosed model does: overlays, fit by channel, candidates, pulls."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.ticker import NullFormatter
+
+from truck_blowout_sim.comparison.units import display_unit
+from truck_blowout_sim.diagnosis.result import Calibrated, Candidate, Fit, Overlay
+from truck_blowout_sim.report.style import (
+    AFTER,
+    BEFORE,
+    INK,
+    MEASURED,
+    ORANGE,
+    SOFT,
+    VERMILION,
+    Picture,
+    new_figure,
+)
+
+_COLUMNS = 2
+_GRAY = "#b5bdc5"
+_MOST_BARS = 20
+_IMPLAUSIBLE = 3.0
+
+
+def overlay_picture(
+    overlays: Sequence[Overlay], labels: Mapping[str, str], name: str
+) -> Picture:
+    """Channels of one recording: record, model as given, model as diagnosed."""
+    rows = -(-len(overlays) // _COLUMNS)
+    figure = new_figure((9.6, 2.4 * rows))
+    panels = figure.subplots(rows, _COLUMNS, squeeze=False).ravel()
+    for axes, overlay in zip(panels, overlays, strict=False):
+        _overlay(axes, overlay, labels)
+    for axes in panels[len(overlays) :]:
+        axes.remove()
+    handles, words = panels[0].get_legend_handles_labels()
+    figure.legend(handles, words, loc="outside upper right", ncols=3)
+    first = overlays[0]
+    role = {"train": "fitted to this run", "holdout": "never fitted to this run",
+            "baseline": "without the effect"}[first.role]  # fmt: skip
+    return Picture(
+        name, f"{first.recording} ({first.role})", f"The diagnosed model was {role}."
+        if first.role != "baseline" else f"A run {role}.", figure,
+    )  # fmt: skip
+
+
+def _overlay(axes: Axes, overlay: Overlay, labels: Mapping[str, str]) -> None:
+    unit = display_unit(overlay.channel)
+    axes.set_title(labels.get(overlay.channel, overlay.channel), fontsize=9.5)
+    axes.set_ylabel(unit.symbol)
+    axes.tick_params(labelsize=8)
+    axes.plot(overlay.time_s, overlay.measured * unit.per_si, color=MEASURED, linewidth=1.0,
+              label="record")  # fmt: skip
+    axes.plot(overlay.time_s, overlay.before * unit.per_si, color=BEFORE, linewidth=1.2,
+              linestyle=(0, (4, 2)), label="model as given")  # fmt: skip
+    if overlay.after is not None:
+        axes.plot(overlay.time_s, overlay.after * unit.per_si, color=AFTER, linewidth=1.4,
+                  label="model as diagnosed")  # fmt: skip
+
+
+def fit_picture(fits: Mapping[str, Fit], labels: Mapping[str, str]) -> Picture:
+    """Rms residual of each channel in sigma, before and after, on a logarithmic scale."""
+    shown = [(role, fit) for role, fit in fits.items() if fit.before]
+    channels = sorted({name for _, fit in shown for name in fit.before},
+                      key=lambda n: -max(fit.before.get(n, 0.0) for _, fit in shown))  # fmt: skip
+    figure = new_figure((9.6, 1.2 + 0.21 * len(channels)))
+    panels = figure.subplots(1, len(shown), sharex=True, sharey=True, squeeze=False)[0]
+    for axes, (role, fit) in zip(panels, shown, strict=True):
+        axes.set_title(role)
+        axes.axvspan(0.01, 1.0, color=INK, alpha=0.06, linewidth=0)
+        for k, name in enumerate(channels):
+            before, after = fit.before.get(name), fit.after.get(name)
+            if before is not None and after is not None:
+                axes.plot([before, after], [k, k], color=SOFT, linewidth=1.0, zorder=1)
+            _dot(axes, before, k, BEFORE, "o", "as given")
+            _dot(axes, after, k, AFTER, "D", "as diagnosed")
+        axes.set_xscale("log")
+        axes.xaxis.set_major_formatter(_plain_number)
+        axes.xaxis.set_minor_formatter(NullFormatter())
+        axes.set_xlabel("rms residual (σ)")
+    panels[0].set_xlim(0.5, None)
+    panels[0].set_yticks(np.arange(len(channels)), [labels.get(c, c) for c in channels])
+    panels[0].tick_params(axis="y", labelsize=8, length=0)
+    panels[0].set_ylim(len(channels) - 0.5, -0.5)
+    panels[-1].legend(loc="lower right")
+    return Picture("fit", "Fit by channel", "At 1 σ noise explains all that is left.", figure)
+
+
+def _plain_number(value: float, _: object) -> str:
+    return f"{value:g}"
+
+
+def _dot(axes: Axes, value: float | None, row: int, color: str, marker: str, words: str) -> None:
+    if value is not None and value > 0.0:
+        label = words if row == 0 else None
+        axes.plot(value, row, marker, color=color, markersize=4.5, label=label, linestyle="none")
+
+
+def candidates_picture(candidates: Sequence[Candidate]) -> Picture:
+    """How much of the mismatch each explanation removes, best first."""
+    shown = candidates[:_MOST_BARS]
+    figure = new_figure((9.6, 0.9 + 0.27 * len(shown)))
+    axes = figure.add_subplot()
+    colors = [VERMILION if c.accepted else ORANGE if c.aliased else _GRAY for c in shown]
+    gains = [max(c.delta_chi2, 0.0) for c in shown]
+    axes.barh(np.arange(len(shown)), gains, color=colors, height=0.7)
+    axes.set_yticks(np.arange(len(shown)), [f"{c.name}  {c.where}".strip() for c in shown])
+    axes.tick_params(axis="y", labelsize=8.5, length=0)
+    axes.set_ylim(len(shown) - 0.5, -0.5)
+    axes.set_xlabel("fall of the weighted sum of squares (Δχ²)")
+    for color, words in ((VERMILION, "named"), (ORANGE, "fits as well"), (_GRAY, "rejected")):
+        if color in colors:
+            axes.barh([np.nan], [np.nan], color=color, label=words)
+    axes.legend(loc="lower right")
+    return Picture("candidates", "Candidates", "The longer, the more is explained.", figure)
+
+
+def pulls_picture(calibrated: Sequence[Calibrated]) -> Picture:
+    """How far the recordings move each number of the spec sheet, in its own prior sigma."""
+    figure = new_figure((9.6, 1.0 + 0.25 * len(calibrated)))
+    axes = figure.add_subplot()
+    axes.axvspan(-_IMPLAUSIBLE, _IMPLAUSIBLE, color=INK, alpha=0.06, linewidth=0)
+    axes.axvline(0.0, color=SOFT, linewidth=0.8)
+    for k, number in enumerate(calibrated):
+        color = VERMILION if abs(number.pull) > _IMPLAUSIBLE else AFTER
+        error = number.sigma / number.prior_sigma
+        axes.errorbar(number.pull, k, xerr=error, fmt="o", color=color, markersize=4.5)
+    axes.set_yticks(np.arange(len(calibrated)), [number.name for number in calibrated])
+    axes.tick_params(axis="y", labelsize=8.5, length=0)
+    axes.set_ylim(len(calibrated) - 0.5, -0.5)
+    axes.set_xlabel("distance from the spec sheet (prior σ)")
+    caption = "Bars: 1 σ of the estimate. Beyond 3 prior σ a number is not plausible."
+    return Picture("calibration", "Spec sheet against recordings", caption, figure)

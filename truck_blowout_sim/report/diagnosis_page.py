@@ -1,0 +1,119 @@
+"""The report of a diagnosis: one page that a forensic engineer could put in a file.
+
+Validated with: test/report/test_diagnosis_page.py.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+
+from truck_blowout_sim.comparison.words import labels_for
+from truck_blowout_sim.diagnosis.result import Diagnosis, Fit
+from truck_blowout_sim.report.diagnosis_pictures import diagnosis_pictures
+from truck_blowout_sim.report.diagnosis_rows import (
+    calibrated_row,
+    candidate_row,
+    effect_row,
+    location_rows,
+)
+from truck_blowout_sim.report.page import render, write_text
+from truck_blowout_sim.vehicle import Vehicle
+
+_VERDICTS = {
+    "consistent": ("consistent", "good"),
+    "miscalibrated": ("miscalibrated: the spec sheet's numbers are off", "bad"),
+    "sensor_artefact": ("an instrument, not the truck", "bad"),
+    "missing_physics": ("missing physics", "bad"),
+    "unknown": ("unknown cause", "bad"),
+}
+_ROLES = (("Training", "train"), ("Holdout, never fitted", "holdout"), ("Baseline", "baseline"))
+_ABSENT = "–"
+
+
+def write_diagnosis_report(diagnosis: Diagnosis, vehicle: Vehicle, path: Path) -> None:
+    """Write the page; it needs no other file.
+
+    Raises:
+        StorageError: it cannot be written.
+    """
+    write_text(diagnosis_page(diagnosis, vehicle), path)
+
+
+def diagnosis_page(diagnosis: Diagnosis, vehicle: Vehicle) -> str:
+    """The page as HTML.
+
+    Args:
+        diagnosis: the answer with its evidence.
+        vehicle: the vehicle as given, for its geometry and the names of its channels.
+    """
+    labels = labels_for(vehicle)
+    evidence, words = diagnosis.evidence, _VERDICTS[diagnosis.verdict]
+    pictures = diagnosis_pictures(diagnosis, vehicle, labels)
+    effects = [
+        effect_row(effect, aliases)
+        for effect, aliases in zip(diagnosis.effects, diagnosis.alias_sets, strict=True)
+    ]
+    said = {str(effect["equation"]) for effect in effects}
+    p_value = diagnosis.null_p_value
+    return render("diagnosis.html", {
+        "sentence": diagnosis.sentence,
+        "verdict_words": words[0],
+        "verdict_class": words[1],
+        "null_p_value": "" if p_value is None else f"{p_value:.2g}",
+        "vehicle": evidence.vehicle or vehicle.name,
+        "vehicle_title": vehicle.title,
+        "recordings": _recordings(diagnosis),
+        "facts": evidence.facts,
+        "effects": effects,
+        "equations": [line for line in evidence.equations if line not in said],
+        "next_test": diagnosis.next_test,
+        "truck": pictures.truck,
+        "location": location_rows(diagnosis.location, labels),
+        "maps": pictures.maps,
+        "forces": pictures.forces,
+        "candidates": [candidate_row(c) for c in evidence.candidates],
+        "candidates_picture": pictures.candidates,
+        "fit": pictures.fit,
+        "fit_roles": [role for role, fit in _fits(diagnosis).items() if fit.before],
+        "fit_rows": _fit_rows(diagnosis, labels),
+        "overlays": pictures.overlays,
+        "calibrated": [calibrated_row(c) for c in evidence.calibrated],
+        "pulls": pictures.pulls,
+        "missing_channels": [(labels.get(n, n), w) for n, w in evidence.missing_channels],
+        "assumptions": evidence.assumptions,
+        "notes": evidence.notes,
+    })  # fmt: skip
+
+
+def _recordings(diagnosis: Diagnosis) -> list[tuple[str, str]]:
+    found = []
+    for words, role in _ROLES:
+        names = [name for name, used in diagnosis.evidence.recordings if used == role]
+        if names:
+            found.append((words, ", ".join(names)))
+    return found
+
+
+def _fits(diagnosis: Diagnosis) -> Mapping[str, Fit]:
+    return {"train": diagnosis.train, "holdout": diagnosis.holdout}
+
+
+def _fit_rows(diagnosis: Diagnosis, labels: Mapping[str, str]) -> list[Mapping[str, object]]:
+    """One row a channel, worst first."""
+    fits = [fit for fit in _fits(diagnosis).values() if fit.before]
+    names = {name for fit in fits for name in fit.before}
+    worst = sorted(names, key=lambda n: (-max(fit.before.get(n, 0.0) for fit in fits), n))
+    return [
+        {
+            "label": labels.get(name, name),
+            "cells": [
+                _sigma(numbers.get(name)) for fit in fits for numbers in (fit.before, fit.after)
+            ],
+        }
+        for name in worst
+    ]
+
+
+def _sigma(value: float | None) -> str:
+    return _ABSENT if value is None else f"{value:.2f}"

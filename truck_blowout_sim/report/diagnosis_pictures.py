@@ -1,0 +1,88 @@
+"""All pictures of a diagnosis, in the order of its page."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from itertools import groupby
+
+from truck_blowout_sim.diagnosis.result import Diagnosis, Overlay
+from truck_blowout_sim.report.diagnosis_fits import (
+    candidates_picture,
+    fit_picture,
+    overlay_picture,
+    pulls_picture,
+)
+from truck_blowout_sim.report.diagnosis_maps import force_picture, map_picture
+from truck_blowout_sim.report.style import Picture, styled
+from truck_blowout_sim.report.truck_drawing import draw_truck
+from truck_blowout_sim.vehicle import Vehicle
+
+_MOST_PANELS = 8
+_ORDER = {"train": 0, "holdout": 1, "baseline": 2}
+
+
+@dataclass(frozen=True)
+class DiagnosisPictures:
+    """Pictures by part of the page; empty or ``None`` where there is nothing to draw."""
+
+    truck: Picture | None
+    maps: tuple[Picture, ...]
+    forces: tuple[Picture, ...]
+    candidates: Picture | None
+    fit: Picture | None
+    overlays: tuple[Picture, ...]
+    pulls: Picture | None
+
+    @property
+    def everything(self) -> tuple[Picture, ...]:
+        """All of them in order."""
+        single = (self.truck, self.candidates, self.fit, self.pulls)
+        parts = (*self.maps, *self.forces, *self.overlays, *(p for p in single if p is not None))
+        return tuple(sorted(parts, key=lambda picture: picture.name))
+
+
+@styled
+def diagnosis_pictures(
+    diagnosis: Diagnosis, vehicle: Vehicle, labels: Mapping[str, str]
+) -> DiagnosisPictures:
+    """Draw everything there is evidence for."""
+    evidence = diagnosis.evidence
+    fits = {"train": diagnosis.train, "holdout": diagnosis.holdout}
+    return DiagnosisPictures(
+        truck=_truck(diagnosis, vehicle),
+        maps=tuple(map_picture(m, labels, k) for k, m in enumerate(evidence.maps, 1)),
+        forces=tuple(force_picture(f, k) for k, f in enumerate(evidence.forces, 1)),
+        candidates=candidates_picture(evidence.candidates) if evidence.candidates else None,
+        fit=fit_picture(fits, labels) if any(f.before for f in fits.values()) else None,
+        overlays=_overlays(evidence.overlays, labels),
+        pulls=pulls_picture(evidence.calibrated) if evidence.calibrated else None,
+    )
+
+
+def _truck(diagnosis: Diagnosis, vehicle: Vehicle) -> Picture | None:
+    if not diagnosis.effects and diagnosis.location.line_of_action_x_m is None:
+        return None
+    caption = (
+        "From above, forward to the right. The missing lateral force acts along the line; "
+        "which wheel it comes from, the line alone does not say."
+        if diagnosis.location.line_of_action_x_m is not None
+        else "From above, forward to the right."
+    )
+    figure = draw_truck(vehicle, diagnosis)
+    return Picture("truck", "The truck", caption, figure)
+
+
+def _overlays(overlays: tuple[Overlay, ...], labels: Mapping[str, str]) -> tuple[Picture, ...]:
+    """One picture a recording and up to eight channels, training runs first."""
+
+    def key(overlay: Overlay) -> tuple[int, str]:
+        return _ORDER[overlay.role], overlay.recording
+
+    pictures: list[Picture] = []
+    for (_, _), group in groupby(sorted(overlays, key=key), key=key):
+        members = list(group)
+        for first in range(0, len(members), _MOST_PANELS):
+            name = f"overlay_{len(pictures) + 1}"
+            pictures.append(overlay_picture(members[first : first + _MOST_PANELS], labels, name))
+    return tuple(pictures)

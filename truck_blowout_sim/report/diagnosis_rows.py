@@ -1,0 +1,143 @@
+"""Rows of a diagnosis's tables as text."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+
+from truck_blowout_sim.comparison.errors import shortened
+from truck_blowout_sim.diagnosis.result import (
+    AliasSet,
+    Calibrated,
+    Candidate,
+    Effect,
+    Interval,
+    Location,
+    Parameter,
+)
+
+Row = Mapping[str, object]
+_ABSENT = "–"
+_IMPLAUSIBLE = 3.0
+_MOST_CHANNELS = 5
+
+
+def effect_row(effect: Effect, aliases: AliasSet) -> Row:
+    """An effect with its parameters, onset and look-alikes."""
+    where = str(effect.where)
+    others = [
+        f"{name} ({place})" if place else name
+        for name, place in zip(aliases.names, aliases.places or [""] * len(aliases.names),
+                               strict=True)
+    ][1:]  # fmt: skip
+    onset = effect.onset_s
+    return {
+        "title": f"{effect.name} · {where}" if where else effect.name,
+        "kind": effect.kind,
+        "sentence": effect.sentence,
+        "equation": effect.equation,
+        "parameters": [_parameter(name, p) for name, p in effect.parameters.items()],
+        "has_onset": onset is not None,
+        "onset": "always there" if onset is None else f"{onset:.2f}",
+        "onset_interval": interval_text(effect.onset_ci90_s, _hundredths),
+        "aliases": ", ".join(others),
+        "splits": aliases.splits,
+    }
+
+
+def candidate_row(candidate: Candidate) -> Row:
+    """A candidate with its evidence and what became of it."""
+    outcome, style = ("rejected", "muted")
+    if candidate.accepted:
+        outcome, style = ("named", "bad")
+    elif candidate.aliased:
+        outcome, style = ("fits as well", "")
+    if candidate.reason:
+        outcome += ":"
+    holdout, p_value = candidate.holdout_gain, candidate.p_value
+    return {
+        "name": candidate.name,
+        "where": str(candidate.where) or _ABSENT,
+        "gain": f"{candidate.delta_chi2:,.0f}",
+        "p": _ABSENT if p_value is None else f"{p_value:.2g}",
+        "holdout": _ABSENT if holdout is None else f"{holdout:,.0f}",
+        "amount": candidate.amount,
+        "outcome": outcome,
+        "style": style,
+        "reason": candidate.reason,
+    }
+
+
+def calibrated_row(number: Calibrated) -> Row:
+    """A number of the spec sheet beside its estimate."""
+    return {
+        "name": number.name,
+        "prior": f"{shortened(number.prior)} ± {shortened(number.prior_sigma)}",
+        "estimate": f"{_exact(number.value)} ± {shortened(number.sigma)}",
+        "unit": number.unit,
+        "pull": f"{number.pull:+.1f}",
+        "style": "bad" if abs(number.pull) > _IMPLAUSIBLE else "",
+    }
+
+
+def location_rows(location: Location, labels: Mapping[str, str]) -> list[tuple[str, str]]:
+    """Where and when, line by line; only what is known."""
+    rows = []
+    if location.channels:
+        worst = location.channels[:_MOST_CHANNELS]
+        text = ", ".join(f"{labels.get(c.name, c.name)} ({c.sigma:.1f} σ)" for c in worst)
+        rows.append(("Worst channels", text))
+    if location.interval_s is not None:
+        rows.append(("Interval", f"{interval_text(location.interval_s, _hundredths)} s"))
+    if location.body:
+        rows.append(("Body", location.body))
+    if location.line_of_action_x_m is not None:
+        bounds = interval_text(location.line_of_action_ci90_m, _placed)
+        text = f"{_placed(location.line_of_action_x_m)} base_link; 90 % interval: {bounds}"
+        rows.append(("Line of action", text))
+    if location.wrench is not None:
+        wrench = location.wrench
+        text = (
+            f"{wrench.fx_n:+,.0f} N forward, {wrench.fy_n:+,.0f} N left, "
+            f"{wrench.mz_nm:+,.0f} N m counter-clockwise (mean over the interval)"
+        )
+        rows.append(("Missing wrench", text))
+    return rows
+
+
+def interval_text(interval: Interval | None, form: Callable[[float], str]) -> str:
+    """``0.31 to 0.39``; open bounds said in words."""
+    if interval is None:
+        return _ABSENT
+    low, high = interval
+    if not math.isfinite(low) and not math.isfinite(high):
+        return "open on both sides"
+    if not math.isfinite(low):
+        return f"up to {form(high)}"
+    if not math.isfinite(high):
+        return f"from {form(low)}"
+    return f"{form(low)} to {form(high)}"
+
+
+def _parameter(name: str, parameter: Parameter) -> Row:
+    return {
+        "name": name,
+        "value": _exact(parameter.value),
+        "interval": interval_text(parameter.ci90, _exact),
+        "unit": "" if parameter.unit == "1" else parameter.unit,
+        "note": parameter.note,
+    }
+
+
+def _hundredths(value: float) -> str:
+    return f"{value:.2f}"
+
+
+def _placed(x_m: float) -> str:
+    return f"{abs(x_m):.2f} m {'ahead of' if x_m > 0 else 'behind'}"
+
+
+def _exact(value: float) -> str:
+    """Four significant digits."""
+    text = f"{value:.4g}"
+    return f"{value:.0f}" if "e+" in text else text

@@ -1,0 +1,137 @@
+"""One look for every figure: dark on light, readable in print and by color-blind eyes.
+
+Colors are those of Okabe and Ito. Figures are made without pyplot, so that drawing has no global
+state, and their files are the same bytes for the same content.
+
+References: M. Okabe, K. Ito, "Color universal design", 2008.
+Validated with: test/report/test_style.py.
+"""
+
+from __future__ import annotations
+
+import base64
+import io
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any, ParamSpec, TypeVar
+
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.rcsetup import cycler
+from matplotlib.style import context as style_context
+
+Arguments = ParamSpec("Arguments")
+Result = TypeVar("Result")
+
+INK, SOFT, GRID, PAPER = "#1b1f24", "#5b6570", "#e3e7eb", "#ffffff"
+BLUE, VERMILION, GREEN = "#0072b2", "#d55e00", "#009e73"
+ORANGE, SKY, PURPLE, YELLOW = "#e69f00", "#56b4e9", "#cc79a7", "#f0e442"
+CYCLE = (BLUE, VERMILION, GREEN, ORANGE, PURPLE, SKY)
+
+# What a line stands for has the same color on every page.
+MEASURED, MODEL, BEFORE, AFTER, EVENT = INK, VERMILION, VERMILION, BLUE, SOFT
+
+WIDE = (8.4, 3.5)
+_PNG_DPI = 150
+# The names that are allowed differ between versions of the library, hence no narrower type.
+_STYLE: Any = {
+    "axes.axisbelow": True,
+    "axes.edgecolor": SOFT,
+    "axes.grid": True,
+    "axes.labelcolor": INK,
+    "axes.linewidth": 0.8,
+    "axes.prop_cycle": cycler(color=CYCLE),
+    "axes.spines.right": False,
+    "axes.spines.top": False,
+    "axes.titlelocation": "left",
+    "axes.titlesize": 11,
+    "axes.titleweight": "bold",
+    "figure.facecolor": PAPER,
+    "font.family": "DejaVu Sans",
+    "font.size": 9.5,
+    "grid.color": GRID,
+    "grid.linewidth": 0.8,
+    "legend.fontsize": 8.5,
+    "legend.frameon": False,
+    "lines.linewidth": 1.5,
+    "path.simplify_threshold": 0.3,
+    "savefig.facecolor": PAPER,
+    "svg.fonttype": "path",
+    "svg.hashsalt": "truck_blowout_sim",
+    "text.color": INK,
+    "xtick.color": SOFT,
+    "xtick.labelcolor": INK,
+    "ytick.color": SOFT,
+    "ytick.labelcolor": INK,
+}
+# What is not set here is the library's default, not what the user's own settings say.
+_WHOLE_STYLE = ["default", _STYLE]
+
+
+@dataclass(frozen=True, eq=False)
+class Picture:
+    """A finished figure.
+
+    Attributes:
+        name: file name without ending.
+        title: what it shows.
+        caption: what a reader should see in it.
+        figure: the drawing.
+    """
+
+    name: str
+    title: str
+    caption: str
+    figure: Figure
+
+    def png(self) -> bytes:
+        """Bitmap for documents."""
+        return self._saved("png")
+
+    def svg_uri(self) -> str:
+        """Vector drawing as the address of an image, for a page that needs no other file."""
+        text = base64.b64encode(self._saved("svg")).decode("ascii")
+        return f"data:image/svg+xml;base64,{text}"
+
+    def _saved(self, form: str) -> bytes:
+        buffer = io.BytesIO()
+        # Without a date and the library's version the same figure gives the same file.
+        metadata = {"Software": None} if form == "png" else {"Date": None, "Creator": None}
+        with style_context(_WHOLE_STYLE):
+            self.figure.savefig(buffer, format=form, dpi=_PNG_DPI, metadata=metadata)
+        return buffer.getvalue()
+
+
+def styled(draw: Callable[Arguments, Result]) -> Callable[Arguments, Result]:
+    """Let a function draw in this style, whatever the user's own settings are."""
+
+    def drawn(*args: Arguments.args, **kwargs: Arguments.kwargs) -> Result:
+        with style_context(_WHOLE_STYLE):
+            return draw(*args, **kwargs)
+
+    drawn.__doc__ = draw.__doc__
+    drawn.__name__ = draw.__name__
+    return drawn
+
+
+def new_figure(size: tuple[float, float] = WIDE) -> Figure:
+    """An empty figure, laid out by itself; inches."""
+    return Figure(figsize=size, layout="constrained")
+
+
+def new_axes(size: tuple[float, float] = WIDE, *, x: str = "time (s)", y: str = ""
+             ) -> tuple[Figure, Axes]:  # fmt: skip
+    """A figure with one pair of axes; labels with their units."""
+    figure = new_figure(size)
+    axes = figure.add_subplot()
+    axes.set_xlabel(x)
+    axes.set_ylabel(y)
+    return figure, axes
+
+
+def mark_events(axes: Axes, times_s: tuple[float, ...], words: str = "blowout") -> None:
+    """Thin upright lines with a word at the top."""
+    for time_s in times_s:
+        axes.axvline(time_s, color=EVENT, linewidth=1.0, linestyle=(0, (4, 3)), zorder=1)
+        axes.annotate(words, (time_s, 1.0), xycoords=("data", "axes fraction"), xytext=(3, -2),
+                      textcoords="offset points", va="top", color=EVENT, fontsize=8)  # fmt: skip
