@@ -1,0 +1,110 @@
+"""A short drive of the default truck, with something changed in it, for every test to share.
+
+Seven seconds: straight, a lane change, then braking. The model itself is the truth here, so that
+what is tested is the method and not the likeness of two models.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
+from functools import cache
+
+import numpy as np
+import pytest
+
+from truck_blowout_sim.diagnosis.runs import prepare_run
+from truck_blowout_sim.diagnosis.settings import Settings, load_settings
+from truck_blowout_sim.diagnosis.study import Study, calibrate
+from truck_blowout_sim.recordings import INPUT_NAMES, Recording, Series
+from truck_blowout_sim.simulation.drive import Drive, run_drive
+from truck_blowout_sim.simulation.equilibrium import InitialState
+from truck_blowout_sim.simulation.replay import as_recording
+from truck_blowout_sim.vehicle import Packed, load_vehicle, pack
+
+STEP_S, LENGTH_S = 0.0025, 7.0
+NOISE = {
+    "_vx_mps": 0.01, "_vy_mps": 0.01, "_yaw_rate_radps": 3e-4, "_ax_mps2": 0.03, "_ay_mps2": 0.03,
+    "_roll_rad": 3e-4, "_radps": 0.05,
+}  # fmt: skip
+FEW = {
+    "tractor_mass", "trailer_mass", "trailer_cg_forward", "steer_cornering", "drive_cornering",
+    "trailer_cornering", "steering_zero", "steering_stiffness", "rolling_resistance",
+    "roll_steer_trailer", "toe_trailer", "brake_gain_trailer_2_left", "brake_gain_trailer_2_right",
+}  # fmt: skip
+
+Changes = Mapping[str, float]
+Drives = Callable[..., Recording]
+Studies = Callable[..., Study]
+
+
+@pytest.fixture(scope="session")
+def truck() -> Packed:
+    """The default vehicle."""
+    return pack(load_vehicle("international_9400i_trailmobile"))
+
+
+@pytest.fixture(scope="session")
+def few(truck: Packed) -> Settings:
+    """The default assumptions with a dozen sheet numbers instead of all: a case in a second."""
+    full = load_settings(truck)
+    return replace(full, nuisances=tuple(n for n in full.nuisances if n.name in FEW))
+
+
+@pytest.fixture(scope="session")
+def drive_it(truck: Packed) -> Drives:
+    """Record a drive of the truck with changed parameters; ``seed`` is that of the noise."""
+
+    def record(changes: Changes | None = None, *, seed: int = 1, steer: float = 1.0,
+               name: str = "") -> Recording:
+        return _recorded(truck, tuple(sorted((changes or {}).items())), seed, steer,
+                         name or f"run {seed}")
+
+    return record
+
+
+@pytest.fixture(scope="session")
+def study_of(truck: Packed, few: Settings, drive_it: Drives) -> Studies:
+    """A calibrated case of changed trucks; each caller gets lists of his own."""
+
+    @cache
+    def build(train: tuple[tuple[str, float], ...], holdout: tuple[tuple[str, float], ...] | None,
+              baseline: bool) -> Study:
+        runs = [prepare_run(drive_it(dict(train), seed=1), "train", truck, few, step_s=STEP_S)]
+        if baseline:
+            runs.insert(0, prepare_run(drive_it(seed=5), "baseline", truck, few, step_s=STEP_S))
+        held = () if holdout is None else (prepare_run(
+            drive_it(dict(holdout), seed=3, steer=-0.9), "holdout", truck, few, step_s=STEP_S),)
+        study = Study(tuple(runs), held, truck, few)
+        calibrate(study)
+        return study
+
+    def make(train: Changes | None = None, *, holdout: Changes | None = None,
+             baseline: bool = False) -> Study:
+        one = build(tuple(sorted((train or {}).items())),
+                    None if holdout is None else tuple(sorted(holdout.items())), baseline)
+        return replace(one, models=list(one.models), holdout_models=list(one.holdout_models),
+                       _projectors={})
+
+    return make
+
+
+def _recorded(truck: Packed, changes: Sequence[tuple[str, float]], seed: int, steer: float,
+              name: str) -> Recording:
+    t = STEP_S * np.arange(round(LENGTH_S / STEP_S))
+    inputs = np.zeros((t.size, len(INPUT_NAMES)))
+    inputs[:, 0] = steer * np.where(t > 1.0, np.sin(2.0 * np.pi * 0.4 * (t - 1.0)), 0.0)
+    inputs[:, 1] = 0.1 * (t < 4.5)
+    inputs[:, 2:] = (1.5e5 * np.clip(2.0 * (t - 4.8), 0.0, 1.0))[:, None]
+    none = np.zeros(0, dtype=np.int64)
+    drive = Drive(InitialState(speed_mps=20.0), STEP_S, 4, inputs, np.zeros(0), none, none)
+    exact = as_recording(name, truck.vehicle, drive,
+                         run_drive(truck.with_values(dict(changes)), drive), ())
+    rng = np.random.default_rng(seed)
+    channels = {key: exact[key] for key in INPUT_NAMES}
+    for key, series in exact.channels.items():
+        sigma = next((s for end, s in NOISE.items() if key.endswith(end)), None)
+        if sigma is not None and key.startswith(("tractor", "trailer", "hub_speed")):
+            noise = sigma * rng.standard_normal(series.value.size)
+            channels[key] = Series(series.time_s, series.value + noise)
+    return Recording(name, channels)

@@ -1,0 +1,134 @@
+"""The library: names, neutrality, bounds, words, and that every effect acts."""
+
+from __future__ import annotations
+
+import string
+
+import numpy as np
+import pytest
+
+from truck_blowout_sim.diagnosis.effects import LIBRARY, Effect
+from truck_blowout_sim.diagnosis.hypothesis import Hypothesis
+from truck_blowout_sim.diagnosis.result_parts import Place
+from truck_blowout_sim.diagnosis.settings import load_settings
+from truck_blowout_sim.diagnosis.words import fill
+from truck_blowout_sim.resources import config_names
+from truck_blowout_sim.vehicle import Packed, load_vehicle, pack
+
+PHYSICS = {
+    "blown_tire_drag", "blown_tire_cornering", "slow_deflation", "secondary_blowout",
+    "steering_compliance", "steering_lash", "roll_steer", "tire_relaxation", "tire_saturation",
+    "friction_change", "crosswind", "aerodynamic_drag", "road_grade", "road_bank",
+    "driveline_drag", "brake_lag", "brake_imbalance", "brake_fade", "axle_misalignment",
+    "payload_shift", "fifth_wheel_friction",
+}  # fmt: skip
+EVERY = [pytest.param(effect, id=effect.name) for effect in LIBRARY]
+
+
+def hypotheses(effect: Effect, packed: Packed) -> list[Hypothesis]:
+    times = {"run": (2.0, 4.0)} if effect.timed else {}
+    return [Hypothesis(effect, place, effect.neutral(packed), times)
+            for place in effect.places(packed.vehicle)]
+
+
+def test_names_are_the_canonical_ones() -> None:
+    names = [effect.name for effect in LIBRARY]
+    assert len(names) == len(set(names))
+    assert {e.name for e in LIBRARY if e.kind == "physics"} == PHYSICS
+    assert {e.name for e in LIBRARY if e.kind == "sensor"} == {"steering_angle_offset"}
+
+
+@pytest.mark.parametrize("effect", EVERY)
+@pytest.mark.parametrize("vehicle", config_names("vehicles"))
+def test_the_neutral_amount_changes_no_parameter(effect: Effect, vehicle: str) -> None:
+    packed = pack(load_vehicle(vehicle))
+    for h in hypotheses(effect, packed):
+        values = dict(effect.values(packed, h.place, h.amount))
+        if effect.name == "steering_compliance" and not packed["steering.compliance_on"]:
+            del values["steering.stiffness_gain"]  # of a compliance that is off: nobody reads it
+        if effect.name == "secondary_blowout":  # what is neutral there is having no instant
+            assert h.apply(packed, "another run", 1.0) is packed
+            continue
+        assert {n: packed[n] for n in values} == pytest.approx(values), str(h.place)
+
+
+@pytest.mark.parametrize("effect", EVERY)
+def test_a_step_changes_the_truck_at_every_place_and_in_no_other_run(
+    effect: Effect, truck: Packed
+) -> None:
+    assert effect.places(truck.vehicle)
+    seen = []
+    for h in hypotheses(effect, truck):
+        moved = h.apply(truck, "run", h.amount + effect.amount.step)
+        changed = np.flatnonzero(moved.params != truck.params)
+        assert changed.size, str(h.place)
+        seen.append(tuple(changed))
+        if effect.timed:
+            assert h.apply(truck, "other run", 1.0) is truck
+    assert len(set(seen)) == len(seen), "two places mean the same parameters"
+
+
+@pytest.mark.parametrize("effect", EVERY)
+def test_bounds_hold_the_neutral_amount_the_step_and_every_start(
+    effect: Effect, truck: Packed
+) -> None:
+    amount = effect.amount
+    neutral = effect.neutral(truck)
+    low = min(amount.low, 0.0) if effect.name == "secondary_blowout" else amount.low
+    assert low <= neutral <= amount.high
+    assert low <= neutral + amount.step <= amount.high
+    assert all(amount.low <= start <= amount.high for start in amount.grid)
+    assert 0.0 < amount.material < amount.high - amount.low
+    ends = [amount.report(a) for a in np.linspace(amount.low, amount.high, 9)]
+    assert (np.diff(ends) > 0).all() or (np.diff(ends) < 0).all(), "what is reported must be unique"
+
+
+@pytest.mark.parametrize("effect", EVERY)
+def test_words_fill_for_every_place(effect: Effect, truck: Packed) -> None:
+    fields = {f for text in (effect.sentence, effect.equation)
+              for _, f, _, _ in string.Formatter().parse(text) if f}
+    assert fields <= {"where", "value", "percent", "percent_of", "onset"}
+    assert effect.timing == "always" or "onset" in fields
+    for h in hypotheses(effect, truck):
+        sentence, equation = fill(h, 0.1234, 2.5 if effect.timed else None)
+        assert sentence.endswith(".")
+        assert not set("{}") & set(sentence + equation)
+        assert not effect.timed or "2.5" in sentence
+    assert effect.splits
+
+
+@pytest.mark.parametrize("effect", EVERY)
+def test_only_effects_with_an_onset_have_instants(effect: Effect, truck: Packed) -> None:
+    assert (effect.timed is None) == (effect.timing == "always")
+    if effect.timed is None:
+        return
+    for place in effect.places(truck.vehicle):
+        early = effect.timed(truck, place, 1.0, 3.0)
+        late = effect.timed(truck, place, 2.0, 4.0)
+        assert set(early) <= set(truck.index)
+        assert any(late[n] == early[n] + 1.0 for n in early)
+
+
+@pytest.mark.parametrize("effect", EVERY)
+def test_what_a_nuisance_imitates_is_a_nuisance(effect: Effect, truck: Packed) -> None:
+    known = {n.name for n in load_settings(truck).nuisances}
+    meanings = {h.meaning(truck.vehicle) for h in hypotheses(effect, truck)}
+    assert meanings <= known | {"", "roll_steer_", "toe_"}, meanings - known
+
+
+def test_places_name_body_axle_hub_and_tire(truck: Packed) -> None:
+    by_name = {effect.name: effect for effect in LIBRARY}
+    tire = by_name["blown_tire_drag"].places(truck.vehicle)
+    assert {p.tire for p in tire} == set(truck.vehicle.tires)
+    assert all(p.tire in truck.vehicle.tires_of_hub(p.hub or "") for p in tire)
+    assert {p.hub for p in by_name["brake_imbalance"].places(truck.vehicle)} == set(
+        truck.vehicle.hubs)
+    assert by_name["payload_shift"].places(truck.vehicle) == (Place(body="trailer"),)
+    assert "steer" not in {p.axle for p in by_name["axle_misalignment"].places(truck.vehicle)}
+
+
+def test_a_vehicle_without_trailer_has_no_fifth_wheel() -> None:
+    for name in config_names("vehicles"):
+        vehicle = load_vehicle(name)
+        effect = next(e for e in LIBRARY if e.name == "fifth_wheel_friction")
+        assert len(effect.places(vehicle)) == (len(vehicle.units) == 2)

@@ -1,0 +1,135 @@
+"""From evidence to answer: verdicts, intervals, aliases, location."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from types import SimpleNamespace
+from typing import cast
+
+import numpy as np
+import pytest
+
+from truck_blowout_sim.diagnosis.attribute import Ranked
+from truck_blowout_sim.diagnosis.effects import LIBRARY
+from truck_blowout_sim.diagnosis.hypothesis import Hypothesis
+from truck_blowout_sim.diagnosis.law import Law
+from truck_blowout_sim.diagnosis.locate import Wrenches
+from truck_blowout_sim.diagnosis.outcome import (
+    Material,
+    alias_set,
+    decide,
+    locate,
+    null_p_value,
+    physics_effect,
+    pulled,
+)
+from truck_blowout_sim.diagnosis.result_evidence import ForceHistory
+from truck_blowout_sim.diagnosis.search import Found
+from truck_blowout_sim.diagnosis.sensors import GateResult
+from truck_blowout_sim.diagnosis.study import Study
+from truck_blowout_sim.vehicle import Packed
+
+Studies = Callable[..., Study]
+NO_LAW = Law("fy_n", "trailer", "1", 0.0, 1.0, "F_y = 0", 0.0, {})
+
+
+def ranked(truck: Packed, name: str, amount: float, delta: float = 500.0, *, at: int = 0,
+           sigma: float = 0.05, start_s: float | None = None) -> Ranked:
+    effect = next(e for e in LIBRARY if e.name == name)
+    place = effect.places(truck.vehicle)[at]
+    times = {} if start_s is None else {"run 1": (start_s, start_s + 2.0)}
+    return Ranked(Hypothesis(effect, place, amount, times), delta, sigma, True, delta)
+
+
+def wrench(delta: float, body: str = "trailer") -> Wrenches:
+    t = np.arange(0.5, 6.5)
+    fy = np.where((t > 2.0) & (t < 4.0), 5000.0, 0.0)
+    one = np.full(t.size, 200.0)
+    history = ForceHistory("run 1", body, t, 0.0 * t, fy, 3.0 * fy, one, one, 5.0 * one)
+    return Wrenches(history, 1.0, delta, 18, 3.0, 0.2)
+
+
+def material(study: Study, named: tuple[Ranked, ...] = (), *, faults: int = 0,
+             unnamed: float = 0.0) -> Material:
+    chi2 = study.projector().chi2(study.residual())
+    found = Found(named=list(named), rivals=[(r,) for r in named],
+                  tried=[(r, "accepted") for r in named], models_null=list(study.models),
+                  chi2_null=chi2 + sum(r.delta for r in named), chi2_after=chi2)
+    gate = cast(GateResult, SimpleNamespace(findings=("a faulty gyro",) * faults))
+    left = (wrench(unnamed),)
+    return Material(study, found, gate, left, left, NO_LAW, {}, "a truck")
+
+
+@pytest.fixture
+def calm(study_of: Studies) -> Study:
+    """A study of the true truck, as well explained as runs with nothing missing are."""
+    study = study_of()
+    level = study.projector().chi2(study.residual()) / study.columns.shape[0]
+    study.settings = replace(study.settings, expected_level=level, unknown_level=1.5 * level)
+    return study
+
+
+def test_verdicts_follow_what_was_found(calm: Study, truck: Packed) -> None:
+    drag, zero = ranked(truck, "road_bank", 0.03), ranked(truck, "steering_angle_offset", 0.2)
+    assert decide(material(calm)) == "consistent"
+    assert decide(material(calm, (drag,))) == "missing_physics"
+    assert decide(material(calm, (zero,))) == "sensor_artefact"
+    assert decide(material(calm, faults=1)) == "sensor_artefact"
+    assert decide(material(calm, (drag,), faults=1)) == "missing_physics"
+    assert decide(material(calm, unnamed=1e5)) == "unknown"
+    assert decide(material(calm, (drag,), unnamed=1e5)) == "unknown"
+
+
+def test_a_sheet_number_far_off_is_a_miscalibration_and_named(calm: Study) -> None:
+    calm.amounts = {"trailer_mass": 4.5, "drive_cornering": -0.5}
+    one = material(calm)
+    assert decide(one) == "miscalibrated"
+    (name, amount), = pulled(one)
+    assert name == "trailer_mass"
+    assert amount == pytest.approx(4.5, abs=1.5)
+
+
+def test_chance_falls_with_evidence_and_stays_a_probability(calm: Study, truck: Packed) -> None:
+    chances = [null_p_value(material(calm, (ranked(truck, "road_bank", 0.03, delta),)))
+               for delta in (0.0, 10.0, calm.settings.accept_delta, 1e9)]
+    assert chances[0] == 1.0
+    assert chances[2] == pytest.approx(0.01)
+    assert chances == sorted(chances, reverse=True)
+    assert 0.0 < chances[-1] < 1e-9
+
+
+def test_an_effect_is_reported_in_its_own_unit_with_a_90_percent_interval(
+    calm: Study, truck: Packed
+) -> None:
+    effect = physics_effect(material(calm), ranked(truck, "brake_imbalance", -0.5, sigma=0.1))
+    ratio = effect.parameters["torque_ratio"]
+    assert ratio.value == pytest.approx(0.5)
+    assert ratio.ci90 == pytest.approx((0.5 - 0.1645, 0.5 + 0.1645))
+    assert effect.onset_s is None
+    assert "50 percent" in effect.sentence
+    gust = physics_effect(material(calm), ranked(truck, "crosswind", 12.0, start_s=2.5))
+    assert gust.onset_s == 2.5
+    assert gust.parameters["duration_s in run 1"].value == pytest.approx(2.0)
+    assert "2.50 s" in gust.sentence
+
+
+def test_an_alias_set_names_each_effect_once_best_first(truck: Packed) -> None:
+    rivals = (ranked(truck, "axle_misalignment", 0.02, at=2),
+              ranked(truck, "axle_misalignment", 0.02, at=3), ranked(truck, "road_bank", 0.02))
+    found = alias_set(rivals)
+    assert found.names == ("axle_misalignment", "road_bank")
+    assert found.places[0] == str(rivals[0].hypothesis.place)
+    assert found.splits == rivals[0].hypothesis.effect.splits
+
+
+def test_a_location_is_given_where_a_wrench_is_clear_and_only_there(calm: Study) -> None:
+    quiet = locate(material(calm, unnamed=1.0))
+    assert (quiet.body, quiet.interval_s, quiet.wrench) == (None, None, None)
+    found = locate(material(calm, unnamed=1e4))
+    assert found.body == "trailer"
+    assert found.interval_s == pytest.approx((2.0, 4.0))
+    assert found.line_of_action_x_m == pytest.approx(3.0)
+    assert found.line_of_action_ci90_m == pytest.approx((3.0 - 0.329, 3.0 + 0.329))
+    assert found.wrench is not None
+    assert found.wrench.fy_n == pytest.approx(5000.0)

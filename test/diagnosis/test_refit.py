@@ -1,0 +1,64 @@
+"""Amounts found again in data that the model made itself."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+
+import pytest
+
+from truck_blowout_sim.diagnosis.attribute import Ranked, rank_steady
+from truck_blowout_sim.diagnosis.effects import LIBRARY
+from truck_blowout_sim.diagnosis.hypothesis import Hypothesis
+from truck_blowout_sim.diagnosis.refit import refit
+from truck_blowout_sim.diagnosis.study import Study
+from truck_blowout_sim.vehicle import Packed
+
+Studies = Callable[..., Study]
+HUB = "trailer_2_left"
+
+
+def fitted(study: Study, name: str, hub: str | None = None) -> tuple[Ranked, Ranked]:
+    """Linear and nonlinear answer to one effect at its first place, or at a hub."""
+    effect = next(e for e in LIBRARY if e.name == name)
+    place = next(p for p in effect.places(study.packed.vehicle) if p.hub == hub)
+    linear, = rank_steady(study, study.projector(), [Hypothesis(effect, place)])
+    return linear, refit(study, linear, study.projector().chi2(study.residual()))
+
+
+def weak_brake(truck: Packed, factor: float) -> Mapping[str, float]:
+    return {f"hub.{HUB}.brake_gain": factor * truck[f"hub.{HUB}.brake_gain"]}
+
+
+def test_half_a_brake_is_found_as_half(study_of: Studies, truck: Packed) -> None:
+    study = study_of(weak_brake(truck, 0.5))
+    _, found = fitted(study, "brake_imbalance", HUB)
+    assert found.refitted
+    assert found.hypothesis.amount == pytest.approx(-0.5, abs=3.0 * found.sigma)
+    assert found.hypothesis.amount == pytest.approx(-0.5, abs=0.08)
+    assert found.sigma < 0.08
+    # its own lining is a nuisance that explains much of it: that is held against the sheet
+    assert found.evidence > found.delta
+    assert found.evidence > study.settings.accept_delta > 0.0
+
+
+def test_a_brake_within_its_tolerance_is_no_evidence(study_of: Studies, truck: Packed) -> None:
+    study = study_of(weak_brake(truck, 0.95))
+    _, found = fitted(study, "brake_imbalance", HUB)
+    assert found.hypothesis.amount == pytest.approx(-0.05, abs=3.0 * found.sigma)
+    assert found.evidence < study.settings.accept_delta
+
+
+def test_a_soft_steering_is_found_with_its_factor(study_of: Studies, truck: Packed) -> None:
+    study = study_of({"steering.stiffness_gain": truck["steering.stiffness_gain"] / 2.5})
+    _, found = fitted(study, "steering_compliance")
+    value = found.hypothesis.effect.amount.report(found.hypothesis.amount)
+    assert value == pytest.approx(2.5, abs=max(3.0 * found.sigma, 0.05))
+    assert found.evidence > study.settings.accept_delta
+
+
+def test_nothing_missing_gives_no_amount(study_of: Studies) -> None:
+    study = study_of()
+    for name in ("steering_compliance", "driveline_drag", "road_bank"):
+        _, found = fitted(study, name)
+        assert abs(found.hypothesis.amount) < 4.0 * found.sigma
+        assert found.evidence < study.settings.accept_delta

@@ -1,0 +1,69 @@
+"""Acceptance: what is named, what its rivals are, and what the holdout refuses."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import pytest
+
+from truck_blowout_sim.diagnosis import candidates
+from truck_blowout_sim.diagnosis.effects import LIBRARY
+from truck_blowout_sim.diagnosis.search import Found, search, slack
+from truck_blowout_sim.diagnosis.study import Study
+from truck_blowout_sim.vehicle import Packed
+
+Studies = Callable[..., Study]
+SHORT = {"axle_misalignment", "brake_imbalance", "steering_compliance", "road_bank"}
+
+
+@pytest.fixture(autouse=True)
+def short_library(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Four effects at all their places: enough to choose wrongly from."""
+    few = tuple(e for e in LIBRARY if e.name in SHORT)
+    monkeypatch.setattr(candidates, "LIBRARY", few)
+
+
+def names(found: Found) -> list[str]:
+    return [r.hypothesis.effect.name for r in found.named]
+
+
+TURNED = {"axle.trailer_1.misalignment_rad": 0.02}
+
+
+def test_a_turned_axle_is_named_with_its_twin_as_rival(study_of: Studies) -> None:
+    study = study_of(TURNED, holdout=TURNED)
+    found = search(study, most=1)
+    assert names(found) == ["axle_misalignment"]
+    rivals = {r.hypothesis.place.axle for r in found.rivals[0]}
+    assert {"trailer_1", "trailer_2"} <= rivals
+    assert found.rivals[0][0] is found.named[0]
+    best = found.named[0]
+    assert all(r.delta > best.delta - slack(study, best) for r in found.rivals[0])
+    assert found.chi2_after < found.chi2_null
+    assert sum(p.chi2 for p in found.after) < sum(p.chi2 for p in found.before)
+    assert "accepted" in {why for r, why in found.tried if r.hypothesis.key == best.hypothesis.key}
+
+
+def test_what_does_not_predict_the_holdout_is_refused(study_of: Studies, truck: Packed) -> None:
+    weak = {"hub.trailer_2_left.brake_gain": 0.3 * truck["hub.trailer_2_left.brake_gain"]}
+    found = search(study_of(weak, holdout={}, baseline=True), most=1)
+    assert "brake_imbalance" not in names(found)
+    reasons = {(r.hypothesis.effect.name, r.hypothesis.place.hub): why for r, why in found.tried}
+    assert reasons["brake_imbalance", "trailer_2_left"].startswith("does not predict the holdout")
+
+
+def test_where_nothing_is_missing_nothing_is_named_and_every_reason_is_given(
+    study_of: Studies,
+) -> None:
+    found = search(study_of(holdout={}))
+    assert found.named == []
+    assert found.rivals == []
+    assert found.chi2_after == found.chi2_null
+    assert found.tried
+    assert all(why for _, why in found.tried)
+
+
+def test_the_same_case_gives_the_same_answer_bit_by_bit(study_of: Studies) -> None:
+    first, second = (search(study_of(TURNED), most=1) for _ in range(2))
+    assert [(r.hypothesis.key, r.hypothesis.amount, r.delta, why) for r, why in first.tried] == [
+        (r.hypothesis.key, r.hypothesis.amount, r.delta, why) for r, why in second.tried]

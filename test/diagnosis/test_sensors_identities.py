@@ -1,0 +1,97 @@
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from truck_blowout_sim.diagnosis.sensors import stated_geometry
+from truck_blowout_sim.diagnosis.sensors.case import make_case
+from truck_blowout_sim.diagnosis.sensors.hubs import free_rolling
+from truck_blowout_sim.diagnosis.sensors.identities import (
+    Identity,
+    body_identities,
+    hitch_identities,
+)
+from truck_blowout_sim.diagnosis.sensors.signals import Signals, read_signals
+from truck_blowout_sim.diagnosis.sensors.slow import hitch_position, yaw_closure
+from truck_blowout_sim.diagnosis.sensors.system import assemble
+from truck_blowout_sim.diagnosis.sensors.trial_drive import make_run
+from truck_blowout_sim.diagnosis.sensors.windows import make_windows
+from truck_blowout_sim.recordings import Blowout, Series
+
+EXACT = make_run(1, 12.0, noise=0.0)
+SIGNALS = read_signals(EXACT)
+GEOMETRY = stated_geometry([EXACT])
+WINDOWS = make_windows(SIGNALS.period_s)
+# What is left is the harness's own sampling; channel noise under a bump is 10 to 100 times it.
+TOLERANCE = {"m/s2": 0.006, "m/s": 0.003, "rad/s": 1e-4, "m": 2e-3}
+UNITS = ("tractor", "trailer")
+BODY = [identity for unit in UNITS for identity in body_identities(unit)]
+
+
+def residual(identity: Identity, signals: Signals) -> np.ndarray:
+    out = WINDOWS.mean(identity.algebraic(signals))
+    for channel, factor in identity.rates:
+        out = out - factor * WINDOWS.derivative(signals[channel])
+    return out
+
+
+@pytest.mark.parametrize("identity", [*BODY, *hitch_identities(GEOMETRY)], ids=lambda i: i.name)
+def test_a_rigid_truck_on_a_level_path_breaks_no_identity(identity: Identity) -> None:
+    assert np.abs(residual(identity, SIGNALS)).max() < TOLERANCE[identity.unit]
+
+
+@pytest.mark.parametrize("identity", BODY, ids=lambda i: i.name)
+def test_a_foreign_amount_in_any_needed_channel_breaks_it(identity: Identity) -> None:
+    for channel in identity.needs:
+        moved = SIGNALS.with_values({channel: 1.5 * SIGNALS[channel] + 0.4})
+        change = np.abs(residual(identity, moved) - residual(identity, SIGNALS)).max()
+        assert change > 3.0 * TOLERANCE[identity.unit], channel
+
+
+@pytest.mark.parametrize("identity", hitch_position(GEOMETRY), ids=lambda i: i.name)
+def test_the_hitch_has_one_position(identity: Identity) -> None:
+    assert np.abs(identity.algebraic(SIGNALS)).max() < TOLERANCE["m"]
+
+
+def test_both_units_turn_alike_over_a_run() -> None:
+    mean = float(np.mean(yaw_closure().algebraic(SIGNALS)))
+    bend = EXACT["trailer_yaw_rad"].value - EXACT["tractor_yaw_rad"].value
+    assert mean == pytest.approx((bend[-1] - bend[0]) / EXACT.duration_s, abs=1e-4)
+
+
+def test_gravity_that_was_removed_is_not_looked_for() -> None:
+    roll = EXACT["tractor_roll_rad"].value
+    pitch = EXACT["tractor_pitch_rad"].value
+    series = EXACT["tractor_ay_mps2"]
+    free = EXACT.with_channels(
+        {series_name: Series(series.time_s, series.value - 9.81 * np.sin(roll) * np.cos(pitch))
+         for series_name in ("tractor_ay_mps2",)}
+    ).with_metadata(accelerometers="gravity removed")  # fmt: skip
+    identity = body_identities("tractor")[0]
+    assert np.abs(residual(identity, read_signals(free))).max() < TOLERANCE["m/s2"]
+
+
+def test_braked_and_blown_wheels_are_not_asked() -> None:
+    pressure = Series(SIGNALS.time_s, np.where(SIGNALS.time_s > 6.0, 2e5, 0.0))
+    braked = EXACT.with_channels({"brake_pressure_trailer_pa": pressure})
+    free = free_rolling(read_signals(braked), "trailer")
+    assert free[SIGNALS.time_s < 5.9].all()
+    assert not free[SIGNALS.time_s > 6.1].any()
+    blown = EXACT.__class__(
+        "blown", EXACT.channels, (Blowout(3.0, ("steer_left",)),), EXACT.metadata
+    )
+    rows = assemble(make_case([blown], [], None), (), []).rows[0]
+    assert rows is not None
+    hub = next(i for i in rows.identities if i.name == "tractor hub speeds")
+    assert hub.needs[1:] == ("hub_speed_steer_right_radps",)
+
+
+def test_missing_channels_drop_their_identities_only() -> None:
+    lean = EXACT.without_channels(["tractor_yaw_rad", "trailer_vx_mps"])
+    rows = assemble(make_case([lean], [], None), (), []).rows[0]
+    assert rows is not None
+    assert {i.name for i in rows.identities} == {
+        "tractor lateral acceleration", "tractor longitudinal acceleration", "tractor roll rate",
+        "tractor pitch rate", "trailer heading rate", "trailer roll rate", "trailer pitch rate",
+        "tractor hub speeds",
+    }  # fmt: skip

@@ -1,0 +1,96 @@
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+from scipy.signal import butter, filtfilt
+
+from truck_blowout_sim import read_recording
+from truck_blowout_sim.diagnosis.sensors import channel_noise, series_noise
+from truck_blowout_sim.recordings import Series
+
+TIME = np.arange(0.0, 20.0, 0.01)
+MOTION = 3.0 * np.sin(2 * np.pi * 0.4 * TIME) + np.where(TIME > 10.0, 2.0 * (TIME - 10.0), 0.0)
+
+
+def white(seed: int) -> np.ndarray:
+    return np.random.default_rng(seed).standard_normal(TIME.size)
+
+
+@pytest.mark.parametrize("sigma", [0.001, 0.03, 0.2])
+def test_white_noise_is_found_under_motion(sigma: float) -> None:
+    found = series_noise(Series(TIME, MOTION + sigma * white(1)))
+    assert found.sigma == pytest.approx(sigma, rel=0.08)
+    assert found.white
+    assert found.effective_rate_hz == pytest.approx(100.0)
+    assert found.quantum == 0.0
+
+
+def test_rounding_is_found_and_counts_as_noise() -> None:
+    found = series_noise(Series(TIME, np.round((MOTION + 0.02 * white(2)) / 0.05) * 0.05))
+    assert found.quantum == pytest.approx(0.05)
+    assert found.sigma == pytest.approx(np.hypot(0.02, 0.05 / np.sqrt(12)), rel=0.15)
+
+
+def test_a_channel_at_rest_has_the_noise_of_its_rounding() -> None:
+    value = np.zeros(TIME.size)
+    value[::50] = 0.05
+    assert series_noise(Series(TIME, value)).sigma >= 0.05 / np.sqrt(12) * 0.99
+
+
+def test_filtered_noise_is_seen_as_coloured_with_its_full_sigma() -> None:
+    b, a = butter(2, 0.4)
+    coloured = filtfilt(b, a, white(3))
+    coloured *= 0.1 / coloured.std()
+    found = series_noise(Series(TIME, MOTION + coloured))
+    assert not found.white
+    assert found.sigma == pytest.approx(0.1, rel=0.2)
+    lagged = [np.mean(coloured[k:] * coloured[: coloured.size - k]) for k in range(1, 12)]
+    integral_s = 0.01 * (1.0 + 2.0 * sum(lagged) / np.mean(coloured**2))
+    assert 0.5 * integral_s < found.correlation_s < 2.0 * integral_s
+
+
+def test_noise_that_grows_with_the_level_is_split() -> None:
+    level = 4e5 * (TIME > 10.0)
+    found = series_noise(Series(TIME, level + np.hypot(500.0, 0.005 * level) * white(4)))
+    assert found.relative == pytest.approx(0.005, rel=0.2)
+    assert found.at(np.array([0.0, 4e5])) == pytest.approx([500.0, 2060.0], rel=0.2)
+
+
+def test_a_jolt_does_not_count_as_noise() -> None:
+    jolt = 5.0 * np.exp(-(((TIME - 8.0) / 0.01) ** 2))
+    assert series_noise(Series(TIME, MOTION + jolt + 0.03 * white(5))).sigma == pytest.approx(
+        0.03, rel=0.1
+    )
+
+
+def stated_sigma(metadata: str, quantity: str) -> float:
+    value, unit = re.search(rf"{quantity} ([0-9.]+) (\S+?)(,|$)", metadata).groups()[:2]
+    return float(value) * (np.pi / 180.0 if unit.startswith("deg") else 1.0)
+
+
+QUANTITIES = {
+    "velocity": ("vx_mps", "vy_mps"),
+    "rate": ("yaw_rate_radps", "roll_rate_radps", "pitch_rate_radps"),
+    "acceleration": ("ax_mps2", "ay_mps2", "az_mps2"),
+    "tilt": ("roll_rad", "pitch_rad"),
+    "heading": ("yaw_rad",),
+}
+
+
+@pytest.mark.parametrize("name", ["blowout", "lane_change", "coast_down"])
+def test_stated_noise_of_sample_recordings_is_found(shared_recordings: Path, name: str) -> None:
+    recording = read_recording(shared_recordings / "proving_ground" / "nominal" / f"{name}.csv")
+    noise = channel_noise(recording)
+    for unit in ("tractor", "trailer"):
+        stated = recording.metadata[f"noise_1sigma_{unit}"]
+        for quantity, stems in QUANTITIES.items():
+            for stem in stems:
+                channel = f"{unit}_{stem}"
+                sigma = stated_sigma(stated, quantity)
+                assert noise[channel].sigma == pytest.approx(sigma, rel=0.15), channel
+    for hub in (c for c in noise if c.startswith("hub_speed")):
+        level = float(np.median(recording[hub].value))
+        assert noise[hub].sigma == pytest.approx(0.002 * level, rel=0.15), hub

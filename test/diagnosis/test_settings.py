@@ -1,0 +1,113 @@
+"""What is assumed, read from a file: refusals, wildcards, and that each assumption acts."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+import yaml
+
+from truck_blowout_sim.diagnosis.settings import Settings, load_settings
+from truck_blowout_sim.errors import InputError
+from truck_blowout_sim.resources import config_file, config_names
+from truck_blowout_sim.vehicle import Packed, load_vehicle, pack
+
+Edit = Callable[[dict], None]
+
+
+@pytest.fixture
+def refusal(tmp_path: Path, truck: Packed) -> Callable[[Edit], str]:
+    """The line with which the default file is refused after an edit."""
+
+    def refuse(edit: Edit) -> str:
+        tree = yaml.safe_load(config_file("diagnosis", "default").read_text(encoding="utf-8"))
+        edit(tree)
+        path = tmp_path / "mine.yaml"
+        path.write_text(yaml.safe_dump(tree), encoding="utf-8")
+        with pytest.raises(InputError) as caught:
+            load_settings(truck, str(path))
+        line = str(caught.value)
+        assert line.startswith(str(path)), line
+        assert "\n" not in line
+        return line
+
+    return refuse
+
+
+def test_an_unknown_key_is_refused_with_its_place(refusal: Callable[[Edit], str]) -> None:
+    assert "nuisances.drag_area" in (
+        line := refusal(lambda tree: tree["nuisances"]["drag_area"].update(sigmas=1.0)))
+    assert "'sigmas'" in line
+    assert "expected one of" in line
+    assert "channels._vx_mps" in refusal(lambda tree: tree["channels"]["_vx_mps"].update(flor=1.0))
+    assert "'bin_seconds'" in refusal(
+        lambda tree: tree["method"].update(bin_seconds={"value": 1.0}))
+    assert "'metod'" in refusal(lambda tree: tree.update(metod={}))
+
+
+def test_a_missing_key_is_refused_with_its_name(refusal: Callable[[Edit], str]) -> None:
+    assert "'sigma'" in refusal(lambda tree: tree["nuisances"]["drag_area"].pop("sigma"))
+    assert "'bin_s'" in refusal(lambda tree: tree["method"].pop("bin_s"))
+    assert "'channels'" in refusal(lambda tree: tree.pop("channels"))
+    assert "'floor'" in refusal(lambda tree: tree["channels"]["_vx_mps"].pop("floor"))
+
+
+def test_words_where_numbers_belong_are_refused(refusal: Callable[[Edit], str]) -> None:
+    assert "'much'" in refusal(lambda tree: tree["nuisances"]["drag_area"].update(sigma="much"))
+    assert "'multiply'" in refusal(
+        lambda tree: tree["nuisances"]["drag_area"].update(kind="multiply"))
+    assert "'long'" in refusal(lambda tree: tree["method"]["bin_s"].update(value="long"))
+
+
+def test_a_name_that_is_not_shipped_says_which_are(truck: Packed) -> None:
+    with pytest.raises(InputError, match="default"):
+        load_settings(truck, "nowhere")
+
+
+@pytest.mark.parametrize("name", config_names("diagnosis"))
+def test_every_number_has_a_source_and_every_target_exists(name: str, truck: Packed) -> None:
+    tree = yaml.safe_load(config_file("diagnosis", name).read_text(encoding="utf-8"))
+    entries = [*tree["nuisances"].values(), *tree["channels"].values(), *tree["method"].values()]
+    assert all(entry["source"] for entry in entries)
+    found = load_settings(truck, name)
+    names = [n.name for n in found.nuisances]
+    assert len(names) == len(set(names))
+    vehicles = [pack(load_vehicle(v)) for v in config_names("vehicles")]
+    named = {n.name for v in vehicles for n in load_settings(v, name).nuisances}
+    assert set(tree["nuisances"]) <= named, "no shipped vehicle has such a parameter"
+
+
+def test_every_nuisance_moves_its_targets_by_its_amount(truck: Packed) -> None:
+    settings = load_settings(truck)
+    for n in settings.nuisances:
+        assert n.sigma > 0.0
+        for (target, sign), value in zip(n.targets, n.values(truck, 0.1).values(), strict=True):
+            moved = truck[target] * (1 + sign * 0.1) if n.kind == "scale" else (
+                truck[target] + sign * 0.1)
+            assert value == pytest.approx(moved)
+        assert dict(n.values(truck, 0.0)) == {t: truck[t] for t, _ in n.targets}
+
+
+def test_each_hub_brake_is_a_nuisance_seen_under_braking_only(truck: Packed) -> None:
+    settings = load_settings(truck)
+    brakes = [n for n in settings.nuisances if n.name.startswith("brake_gain_")]
+    assert {n.name.removeprefix("brake_gain_") for n in brakes} == set(truck.vehicle.hubs)
+    assert {n.only for n in brakes} == {"brakes"}
+
+
+def test_raising_the_center_of_gravity_lowers_what_is_attached_to_the_body(truck: Packed) -> None:
+    settings = load_settings(truck)
+    raised = next(n for n in settings.nuisances if n.name == "trailer_cg_height")
+    values = raised.values(truck, 0.1)
+    grown = {n for n, v in values.items() if v > truck[n]}
+    assert grown == {"unit.trailer.cg_height_m"}
+    assert "unit.trailer.hitch_z_m" in set(values) - grown
+
+
+def test_a_channel_finds_its_rule_by_end_or_by_beginning(few: Settings) -> None:
+    assert few.rule("tractor_yaw_rate_radps") is few.channels["_yaw_rate_radps"]
+    assert few.rule("trailer_yaw_rate_radps") is few.channels["trailer_yaw_rate_radps"]
+    assert few.rule("hub_speed_drive_1_left_radps") is few.channels["hub_speed_"]
+    assert few.rule("tractor_x_m") is None
+    assert few.rule("steering_wheel_angle_rad") is None

@@ -1,0 +1,80 @@
+"""Instants of events found again, and tires that fail unasked."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from truck_blowout_sim.diagnosis.attribute import Ranked
+from truck_blowout_sim.diagnosis.candidates import failed_tires
+from truck_blowout_sim.diagnosis.effects import LIBRARY
+from truck_blowout_sim.diagnosis.refit import refit
+from truck_blowout_sim.diagnosis.study import Study
+from truck_blowout_sim.diagnosis.timed import onset_interval, refine_times, scan
+from truck_blowout_sim.recordings import Series
+from truck_blowout_sim.vehicle import Packed
+
+Studies = Callable[..., Study]
+
+
+def located(study: Study, name: str) -> tuple[Ranked, Ranked]:
+    """An event on the trailer: on the grid, and refined."""
+    effect = next(e for e in LIBRARY if e.name == name)
+    place = next(p for p in effect.places(study.packed.vehicle) if p.body == "trailer")
+    projector = study.projector()
+    chi2 = projector.chi2(study.residual())
+    rough = scan(study, projector, effect, place)
+    fine = refine_times(study, refit(study, refine_times(study, rough, chi2), chi2), chi2)
+    return rough, fine
+
+
+def test_a_gust_is_found_with_its_interval(study_of: Studies, truck: Packed) -> None:
+    effect = next(e for e in LIBRARY if e.name == "crosswind")
+    place = next(p for p in effect.places(truck.vehicle) if p.body == "trailer")
+    assert effect.timed is not None
+    study = study_of({**effect.values(truck, place, 18.0),
+                      **effect.timed(truck, place, 2.33, 4.21)})
+    rough, fine = located(study, "crosswind")
+    assert fine.delta >= rough.delta - 1e-6
+    start, end = fine.hypothesis.times["run 1"]
+    assert start == pytest.approx(2.33, abs=0.15)
+    assert end == pytest.approx(4.21, abs=0.15)
+    assert fine.hypothesis.amount == pytest.approx(18.0, rel=0.15)
+
+
+def test_a_shifting_load_is_found_with_its_instant(study_of: Studies, truck: Packed) -> None:
+    effect = next(e for e in LIBRARY if e.name == "payload_shift")
+    place, = effect.places(truck.vehicle)
+    assert effect.timed is not None
+    study = study_of({**effect.values(truck, place, -0.4), **effect.timed(truck, place, 3.17, 9e9)})
+    _, fine = located(study, "payload_shift")
+    assert fine.hypothesis.times["run 1"][0] == pytest.approx(3.17, abs=0.15)
+    assert fine.hypothesis.amount == pytest.approx(-0.4, abs=0.1)
+    low, high = onset_interval(study, fine, "run 1")
+    assert low < fine.hypothesis.times["run 1"][0] < high
+    assert high - low < 1.0
+
+
+def test_no_event_is_worth_nothing(study_of: Studies) -> None:
+    study = study_of()
+    effect = next(e for e in LIBRARY if e.name == "crosswind")
+    place = effect.places(study.packed.vehicle)[0]
+    assert scan(study, study.projector(), effect, place).delta < 0.5 * study.settings.accept_delta
+
+
+def test_a_tire_that_loses_its_air_unasked_is_a_candidate(study_of: Studies) -> None:
+    study = study_of()
+    run = study.runs[0]
+    t = run.drive.times_s
+    flat = Series(t, np.where(t < 3.0, 7e5, 7e5 * np.exp(-(t - 3.0))))
+    sound = Series(t, np.full(t.size, 7e5) - 1e4 * t)
+    recording = replace(run.recording, channels={
+        **run.recording.channels, "tire_pressure_trailer_1_left_outer_pa": flat,
+        "tire_pressure_steer_left_pa": sound})
+    study.runs = (replace(run, recording=recording),)
+    found = failed_tires(study, study.train)
+    assert list(found) == ["trailer_1_left_outer"]
+    assert found["trailer_1_left_outer"]["run 1"] == pytest.approx(3.0, abs=0.1)

@@ -1,0 +1,6 @@
+"""Where simulation and recording differ: locate it, name what is missing, show the fit improve."""
+
+from truck_blowout_sim.diagnosis.diagnose import diagnose, write_diagnosed_vehicle
+from truck_blowout_sim.diagnosis.result import Diagnosis, write_diagnosis
+
+__all__ = ["Diagnosis", "diagnose", "write_diagnosed_vehicle", "write_diagnosis"]

@@ -1,0 +1,79 @@
+"""Rank the candidates: one sensitivity a candidate, nuisances projected out."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from truck_blowout_sim.diagnosis.hypothesis import Hypothesis
+from truck_blowout_sim.diagnosis.linear import Projector, score
+from truck_blowout_sim.diagnosis.study import Progress, Study
+from truck_blowout_sim.vehicle import Packed
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Ranked:
+    """A hypothesis with the evidence for it.
+
+    Attributes:
+        delta: fall of the sum of squares, nuisances refitted.
+        sigma: standard error of the amount.
+        refitted: whether the amount comes from the nonlinear refit.
+        evidence: fall against a truck whose own number of this meaning stays within two prior
+            sigmas; equals ``delta`` where calibration has no such number.
+    """
+
+    hypothesis: Hypothesis
+    delta: float
+    sigma: float
+    refitted: bool = False
+    evidence: float = 0.0
+
+
+def with_effects(packed: Packed, effects: Sequence[Hypothesis], run: str) -> Packed:
+    """The truck with several hypotheses in force."""
+    for effect in effects:
+        packed = effect.apply(packed, run)
+    return packed
+
+
+def column_of(study: Study, hypothesis: Hypothesis, named: Sequence[Hypothesis],
+              step: float) -> list[tuple[int, Packed]]:
+    """Training runs and trucks to simulate for a finite difference of ``step``."""
+    return [(i, hypothesis.apply(
+        with_effects(study.packed, named, study.runs[i].recording.name),
+        study.runs[i].recording.name, hypothesis.amount + step)) for i in study.train]
+
+
+def rank_steady(study: Study, projector: Projector, candidates: Sequence[Hypothesis],
+                named: Sequence[Hypothesis] = (), progress: Progress | None = None
+                ) -> tuple[Ranked, ...]:
+    """Linear scores of candidates without an onset, best first."""
+    jobs = [job for c in candidates for job in column_of(study, c, named, c.effect.amount.step)]
+    results: list[Floats] = []
+    portion = 24
+    for first in range(0, len(jobs), portion):
+        part = jobs[first:first + portion]
+        results += study.simulate([(study.runs[i], truck) for i, truck in part])
+        if progress:
+            progress("candidates", len(results) / len(jobs))
+    residual = study.residual()
+    removed = projector.remove(residual)
+    ranked, k = [], 0
+    for candidate in candidates:
+        parts = {}
+        for i in study.train:
+            parts[i] = study.runs[i].change(results[k], study.models[i])
+            k += 1
+        amount = candidate.effect.amount
+        column = study.stack(parts) / amount.step
+        at = candidate.amount
+        found = score(projector, residual, removed, column, amount.low - at, amount.high - at)
+        ranked.append(Ranked(candidate.at(at + found.amount), found.delta, found.sigma,
+                             evidence=found.delta))
+    return tuple(sorted(ranked, key=lambda r: (-r.delta, r.hypothesis.key)))

@@ -1,0 +1,67 @@
+"""Every effect at every place where it can act and could be seen in these runs."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from truck_blowout_sim.diagnosis.effects import LIBRARY, Effect
+from truck_blowout_sim.diagnosis.hypothesis import Hypothesis
+from truck_blowout_sim.diagnosis.result_parts import Place
+from truck_blowout_sim.diagnosis.study import Study
+
+_PRESSURE_LOST = 0.3  # share of its pressure a tire must lose to count as failed by itself
+
+
+def steady_candidates(study: Study) -> tuple[Hypothesis, ...]:
+    """All hypotheses without an onset of their own that the training runs could show."""
+    found = []
+    for effect in LIBRARY:
+        if effect.timing != "always":
+            continue
+        if not any(study.runs[i].shows(effect.applies) for i in study.train):
+            continue
+        neutral = effect.neutral(study.packed)
+        found += [Hypothesis(effect, place, neutral)
+                  for place in effect.places(study.packed.vehicle)
+                  if _can_show(study, effect, place)]
+    return tuple(found)
+
+
+def _can_show(study: Study, effect: Effect, place: Place) -> bool:
+    """Blowout effects act at tires that were blown, brake effects where pressure was applied."""
+    runs = [study.runs[i] for i in study.train]
+    if effect.applies == "blowout":
+        return any(place.tire in event.tires for run in runs for event in run.recording.blowouts)
+    if effect.applies == "brakes":
+        circuit = place.axle if place.hub is None else (
+            study.packed.vehicle.spec.axles[place.axle or ""].circuit)
+        column = 2 + ("steer", "drive", "trailer").index(circuit or "steer")
+        return any((run.drive.inputs[:, column] > 2e4).any() for run in runs)
+    return True
+
+
+def timed_effects() -> tuple[Effect, ...]:
+    """Effects that begin at an instant of their own."""
+    return tuple(effect for effect in LIBRARY if effect.timing != "always")
+
+
+def failed_tires(study: Study, runs: Sequence[int]) -> Mapping[str, Mapping[str, float]]:
+    """Tires whose recorded pressure falls without a command: {tire: {run: instant}}."""
+    found: dict[str, dict[str, float]] = {}
+    for i in runs:
+        run = study.runs[i]
+        told = {tire for event in run.recording.blowouts for tire in event.tires}
+        for tire in study.packed.vehicle.tires:
+            name = f"tire_pressure_{tire}_pa"
+            if tire in told or name not in run.recording:
+                continue
+            series = run.recording[name]
+            start = float(np.median(series.value[:20]))
+            low = np.flatnonzero(series.value < (1.0 - _PRESSURE_LOST) * start)
+            if low.size > 3:
+                first = np.flatnonzero(series.value[:low[0] + 1] > 0.97 * start)
+                at = series.time_s[first[-1] if first.size else 0]
+                found.setdefault(tire, {})[run.recording.name] = float(at)
+    return found

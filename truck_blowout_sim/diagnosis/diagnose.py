@@ -1,0 +1,128 @@
+"""Diagnose: locate the mismatch, name the missing physics, model it, show the fit improve."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from truck_blowout_sim.diagnosis.hypothesis import Hypothesis
+from truck_blowout_sim.diagnosis.law import plainest_law
+from truck_blowout_sim.diagnosis.locate import Wrenches, missing_wrench
+from truck_blowout_sim.diagnosis.outcome import Material, answer, decide, joint_amounts
+from truck_blowout_sim.diagnosis.result import Diagnosis, Role
+from truck_blowout_sim.diagnosis.runs import Run, prepare_run
+from truck_blowout_sim.diagnosis.search import Found, search
+from truck_blowout_sim.diagnosis.sensors import correct, sensor_gate, vehicle_geometry
+from truck_blowout_sim.diagnosis.settings import load_settings
+from truck_blowout_sim.diagnosis.study import FURTHEST, Progress, Study, calibrate, row_ranges
+from truck_blowout_sim.diagnosis.timed import onset_interval
+from truck_blowout_sim.errors import InputError
+from truck_blowout_sim.recordings import Recording
+from truck_blowout_sim.vehicle import Packed, Vehicle, load_vehicle, pack, write_vehicle
+
+Floats = NDArray[np.float64]
+STEP_S = 0.002  # residuals on 0.1 s bins do not change beyond a tenth of a sigma against 1 ms
+
+
+def diagnose(recordings: Sequence[Recording], *, baseline: Sequence[Recording] = (),
+             holdout: Sequence[Recording] = (),
+             vehicle: Vehicle | str = "international_9400i_trailmobile", settings: str = "default",
+             most_effects: int = 3, step_s: float = STEP_S, workers: int | None = None,
+             impose_speed: bool | None = None, progress: Progress | None = None
+             ) -> tuple[Diagnosis, Mapping[str, float]]:
+    """Diagnose recordings that a model does not reproduce.
+
+    Args:
+        recordings: training runs.
+        baseline: runs of the same truck in which the effect is not at work.
+        holdout: runs that are predicted only.
+        vehicle: the model's vehicle, by name, path or loaded.
+        settings: name of a file in ``config/diagnosis``.
+        most_effects: how many effects may be named.
+        impose_speed: follow the recorded speed; None: only where throttle or brakes are missing.
+        step_s: integration step; ``workers``: threads; ``progress``: called with (stage, share).
+
+    Returns:
+        The diagnosis, and the packed parameters of the diagnosed vehicle that differ from the
+        given one's.
+
+    Raises:
+        InputError: a recording cannot drive the model, or none is given.
+    """
+    if not recordings:
+        raise InputError("no recording to diagnose", expected="at least one recording")
+    loaded = load_vehicle(vehicle) if isinstance(vehicle, str) else vehicle
+    packed = pack(loaded)
+    gate = sensor_gate(list(recordings), list(baseline), vehicle_geometry(loaded))
+    rules = load_settings(packed, settings)
+
+    def cut(recording: Recording, role: Role) -> Run:
+        findings = gate.findings if role != "baseline" else [
+            f for f in gate.findings if f.in_baseline]
+        return prepare_run(correct(recording, findings), role, packed, rules, step_s=step_s,
+                           impose_speed=impose_speed)
+
+    study = Study((*(cut(r, "baseline") for r in baseline), *(cut(r, "train") for r in recordings)),
+                  tuple(cut(r, "holdout") for r in holdout), packed, rules,
+                  workers or os.cpu_count() or 1)
+    calibrate(study, progress=progress)
+    found = search(study, progress, most_effects)
+    named = [r.hypothesis for r in found.named]
+    before = _wrenches(study, found.models_null, (), progress)
+    after = _wrenches(study, study.models, named, progress) if named else before
+    worst = max(after, key=lambda w: w.delta)
+    law = plainest_law(worst, next(r for r in study.runs
+                                   if r.recording.name == worst.history.recording))
+    material = Material(study, found, gate, before, after, law, _onsets(study, found), loaded.name)
+    return answer(material), diagnosed_values(material, packed)
+
+
+def _wrenches(study: Study, models: Sequence[Floats], named: Sequence[Hypothesis],
+              progress: Progress | None) -> tuple[Wrenches, ...]:
+    """Missing wrench on each body in the training run that is explained worst."""
+    removed = study.projector(named).remove(study.residual(dict(enumerate(models))))
+    rows = row_ranges(study)
+    worst = max(study.train, key=lambda i: float(removed[rows[i]] @ removed[rows[i]]))
+    return tuple(missing_wrench(study, worst, body, models, named, progress)
+                 for body in study.packed.vehicle.units)
+
+
+def _onsets(study: Study, found: Found) -> dict[tuple[str, str], tuple[float, float]]:
+    """Interval of the earliest onset of each timed effect."""
+    result = {}
+    for k, ranked in enumerate(found.named):
+        if ranked.hypothesis.times:
+            run = min(ranked.hypothesis.times, key=lambda r: ranked.hypothesis.times[r][0])
+            others = [r.hypothesis for j, r in enumerate(found.named) if j != k]
+            result[ranked.hypothesis.key] = onset_interval(study, ranked, run, others)
+    return result
+
+
+def diagnosed_values(material: Material, given: Packed) -> Mapping[str, float]:
+    """Packed parameters of the diagnosed truck that differ from the given one's."""
+    study, named = material.study, [r.hypothesis for r in material.found.named]
+    truck, joint = study.packed, joint_amounts(material)
+    for nuisance in study.settings.nuisances:
+        amount = float(np.clip(joint.get(nuisance.name, 0.0), -FURTHEST, FURTHEST)) * nuisance.sigma
+        truck = truck.with_values(nuisance.values(truck, amount))
+    if decide(material) == "unknown":
+        truck = truck.with_values(material.law.values)
+    for effect in named:
+        truck = effect.apply(truck, next(iter(effect.times), ""))
+    return {name: float(truck.params[i]) for name, i in given.index.items()
+            if truck.params[i] != given.params[i]}
+
+
+def write_diagnosed_vehicle(path: Path, base: str, values: Mapping[str, float],
+                            diagnosis: Diagnosis) -> None:
+    """Write ``vehicle.yaml``: the given vehicle, extended by what was found."""
+    what = ", ".join(effect.name for effect in diagnosis.effects) or "calibration only"
+    sources = dict.fromkeys(values, f"diagnosed: {what}")
+    write_vehicle(path, base, values, sources, title=f"{base}, diagnosed: {what}")
+
+
+__all__ = ["Diagnosis", "diagnose", "write_diagnosed_vehicle"]

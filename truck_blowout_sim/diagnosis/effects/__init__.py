@@ -1,0 +1,58 @@
+"""The library of candidate effects, one file a name; the order is that of the documentation."""
+
+from __future__ import annotations
+
+from truck_blowout_sim.diagnosis.effects import (
+    aerodynamic_drag,
+    axle_misalignment,
+    blown_tire_cornering,
+    blown_tire_drag,
+    brake_fade,
+    brake_imbalance,
+    brake_lag,
+    crosswind,
+    driveline_drag,
+    fifth_wheel_friction,
+    friction_change,
+    payload_shift,
+    road_bank,
+    road_grade,
+    roll_steer,
+    secondary_blowout,
+    slow_deflation,
+    steering_angle_offset,
+    steering_compliance,
+    steering_lash,
+    tire_relaxation,
+    tire_saturation,
+)
+from truck_blowout_sim.diagnosis.effects.base import Amount, Effect
+
+_MODULES = (
+    blown_tire_drag,
+    blown_tire_cornering,
+    slow_deflation,
+    secondary_blowout,
+    steering_compliance,
+    steering_lash,
+    roll_steer,
+    tire_relaxation,
+    tire_saturation,
+    friction_change,
+    crosswind,
+    aerodynamic_drag,
+    road_grade,
+    road_bank,
+    driveline_drag,
+    brake_lag,
+    brake_imbalance,
+    brake_fade,
+    axle_misalignment,
+    payload_shift,
+    fifth_wheel_friction,
+    steering_angle_offset,
+)
+LIBRARY: tuple[Effect, ...] = tuple(module.EFFECT for module in _MODULES)
+"""Every candidate, physics first."""
+
+__all__ = ["LIBRARY", "Amount", "Effect"]

@@ -1,0 +1,131 @@
+"""What a candidate effect is: parameters of the model that are neutral by default, plus words.
+
+An effect holds no physics. It says which packed parameters it moves, where it can act, how far it
+may go, whether it begins at an instant, and how a person reads it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Literal
+
+from truck_blowout_sim.diagnosis.result_parts import Kind, Place
+from truck_blowout_sim.vehicle import Packed, Vehicle
+
+Values = Mapping[str, float]
+Timing = Literal["always", "step", "pulse"]
+
+
+@dataclass(frozen=True)
+class Amount:
+    """The number that says how strong an effect is; 0 is neutral.
+
+    Attributes:
+        name, unit: as ``diagnosis.json`` reports it.
+        step: finite difference for its sensitivity.
+        low, high: physical bounds.
+        material: smallest size worth naming; below it a truck of this kind may stray anyway.
+        report: value to report from the amount; identity by default.
+        grid: where a nonlinear search may start.
+    """
+
+    name: str
+    unit: str
+    step: float
+    low: float
+    high: float
+    material: float
+    report: Callable[[float], float] = lambda amount: amount
+    grid: tuple[float, ...] = ()
+
+
+@dataclass(frozen=True)
+class Effect:
+    """A named piece of physics that a model may lack.
+
+    Attributes:
+        name: canonical name.
+        amount: how strong.
+        places: where it can act on a vehicle.
+        values: packed parameters for a place and an amount (absolute values).
+        timing: ``always`` there; a ``step`` at an instant; a ``pulse`` over an interval.
+        timed: packed parameters for (place, start, end) of a timed effect.
+        applies: which runs can show it at all.
+        sentence: for a person; fields ``{where}``, ``{value}``, ``{percent}``, ``{onset}``.
+        equation: its law in plain symbols.
+        splits: what observation tells it from look-alikes.
+        kind: of what it is.
+        neutral: amount at which a vehicle is as given; 0 unless it lacks the part altogether.
+        absorbs: calibration number that means the same as this amount; ``{hub}`` and ``{circuit}``
+            are filled in.
+    """
+
+    name: str
+    amount: Amount
+    places: Callable[[Vehicle], Sequence[Place]]
+    values: Callable[[Packed, Place, float], Values]
+    sentence: str
+    equation: str
+    splits: str
+    timing: Timing = "always"
+    timed: Callable[[Packed, Place, float, float], Values] | None = None
+    applies: Literal["any", "blowout", "brakes"] = "any"
+    kind: Kind = "physics"
+    absorbs: str = ""
+    neutral: Callable[[Packed], float] = lambda packed: 0.0
+
+
+def whole_truck(vehicle: Vehicle) -> Sequence[Place]:
+    """Acts on the truck as a whole."""
+    return (Place(),)
+
+
+def each_unit(vehicle: Vehicle) -> Sequence[Place]:
+    """Acts on one unit."""
+    return tuple(Place(body=unit) for unit in vehicle.units)
+
+
+def each_axle(vehicle: Vehicle) -> Sequence[Place]:
+    """Acts on one axle."""
+    return tuple(Place(body=vehicle.spec.axles[a].unit, axle=a) for a in vehicle.axles)
+
+
+def steered_axle(vehicle: Vehicle) -> Sequence[Place]:
+    """Acts on the steered axle, if there is one."""
+    return tuple(p for p in each_axle(vehicle) if p.axle and vehicle.spec.axles[p.axle].steered)
+
+
+def unsteered_axles(vehicle: Vehicle) -> Sequence[Place]:
+    """Acts on one axle that does not steer; on a steered one a hand-wheel offset means the same."""
+    return tuple(p for p in each_axle(vehicle) if p.axle and not vehicle.spec.axles[p.axle].steered)
+
+
+def each_hub(vehicle: Vehicle) -> Sequence[Place]:
+    """Acts on one hub."""
+    return tuple(Place(body=vehicle.spec.axles[vehicle.axle_of_hub(h)].unit,
+                       axle=vehicle.axle_of_hub(h), hub=h) for h in vehicle.hubs)
+
+
+def each_tire(vehicle: Vehicle) -> Sequence[Place]:
+    """Acts on one tire."""
+    return tuple(Place(body=hub.body, axle=hub.axle, hub=hub.hub, tire=tire)
+                 for hub in each_hub(vehicle) if hub.hub
+                 for tire in vehicle.tires_of_hub(hub.hub))
+
+
+def each_circuit(vehicle: Vehicle) -> Sequence[Place]:
+    """Acts on the brakes of one circuit; the place names its first axle's group."""
+    groups = dict.fromkeys(vehicle.spec.axles[a].circuit for a in vehicle.axles)
+    return tuple(Place(body="trailer" if group == "trailer" else "tractor", axle=group)
+                 for group in groups)
+
+
+def added(packed: Packed, name: str, amount: float) -> Values:
+    """The named parameter plus ``amount``."""
+    return {name: packed[name] + amount}
+
+
+def scaled(packed: Packed, names: Sequence[str], amount: float) -> Values:
+    """The named parameters times (1 + ``amount``)."""
+    return {name: packed[name] * (1.0 + amount) for name in names}

@@ -1,0 +1,23 @@
+"""Engine, retarder or driveline slows the drive axles off throttle."""
+
+from __future__ import annotations
+
+from truck_blowout_sim.diagnosis.effects.base import (
+    Amount,
+    Effect,
+    added,
+    whole_truck,
+)
+
+EFFECT = Effect(
+    name="driveline_drag",
+    amount=Amount("extra_drag_n", "N", step=800.0, low=-1500.0, high=40000.0, material=600.0,
+                  grid=(3000.0, 9000.0)),
+    places=whole_truck,
+    values=lambda packed, place, a: added(packed, "driveline.drag_extra_n", a),
+    sentence="Off the throttle the driveline holds the drive wheels back with {value} N more than "
+             "modelled.",
+    equation="F_x,drive = -(F_drag + {value} N) (1 - throttle)",
+    splits="the slip of the drive hubs when the throttle goes",
+    absorbs="driveline_loss",
+)

@@ -1,0 +1,23 @@
+"""The road is more or less slippery from some place or time on."""
+
+from __future__ import annotations
+
+from truck_blowout_sim.diagnosis.effects.base import (
+    Amount,
+    Effect,
+    whole_truck,
+)
+
+EFFECT = Effect(
+    name="friction_change",
+    amount=Amount("friction_factor", "1", step=-0.25, low=-0.9, high=0.5, material=0.12,
+                  report=lambda a: 1.0 + a, grid=(-0.5, -0.7)),
+    places=whole_truck,
+    values=lambda packed, place, a: {"world.friction_change_scale": 1.0 + a},
+    timing="step",
+    timed=lambda packed, place, start, end: {"world.friction_change_time_s": start},
+    sentence="From {onset} on the road gives only {value} times the friction.",
+    equation="mu(t >= {onset}) = {value} * mu",
+    splits="hard braking: both axes feel it, and only near the limit",
+    absorbs="peak_friction",
+)

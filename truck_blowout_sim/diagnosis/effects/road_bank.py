@@ -1,0 +1,21 @@
+"""Gravity across the road."""
+
+from __future__ import annotations
+
+from truck_blowout_sim.diagnosis.effects.base import (
+    Amount,
+    Effect,
+    added,
+    whole_truck,
+)
+
+EFFECT = Effect(
+    name="road_bank",
+    amount=Amount("bank_rad", "rad", step=0.005, low=-0.12, high=0.12, material=0.004),
+    places=whole_truck,
+    values=lambda packed, place, a: added(packed, "world.road_bank_rad", a),
+    sentence="The road is banked by {percent} percent (positive: left side high).",
+    equation="F_y = -m g sin({value} rad)",
+    splits="the lateral accelerometer against yaw rate times speed",
+    absorbs="road_crossfall",
+)

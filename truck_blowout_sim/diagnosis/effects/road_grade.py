@@ -1,0 +1,21 @@
+"""Gravity along the road."""
+
+from __future__ import annotations
+
+from truck_blowout_sim.diagnosis.effects.base import (
+    Amount,
+    Effect,
+    added,
+    whole_truck,
+)
+
+EFFECT = Effect(
+    name="road_grade",
+    amount=Amount("grade_rad", "rad", step=0.003, low=-0.12, high=0.12, material=0.0012),
+    places=whole_truck,
+    values=lambda packed, place, a: added(packed, "world.road_grade_rad", a),
+    sentence="The road climbs by {percent} percent along its course.",
+    equation="F_x = -m g sin({value} rad)",
+    splits="the accelerometer against the wheel speeds, at any speed",
+    absorbs="road_slope",
+)

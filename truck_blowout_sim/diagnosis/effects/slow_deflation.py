@@ -1,0 +1,24 @@
+"""Pressure falls slower, or faster, than modelled."""
+
+from __future__ import annotations
+
+from truck_blowout_sim.diagnosis.effects.base import (
+    Amount,
+    Effect,
+    each_tire,
+)
+
+EFFECT = Effect(
+    name="slow_deflation",
+    amount=Amount("deflation_time_factor", "1", step=0.3, low=-0.8, high=40.0, material=0.4,
+                  report=lambda a: 1.0 + a, grid=(1.0, 4.0, 12.0)),
+    places=each_tire,
+    values=lambda packed, place, a: {
+        f"tire.{place.tire}.hole_scale":
+            packed[f"tire.{place.tire}.hole_scale"] / max(1.0 + a, 0.05)},
+    applies="blowout",
+    sentence="The air leaves tire {where} {value} times as slowly as modelled.",
+    equation="dp/dt = -(1/{value}) * n R T / V * mdot(p)",
+    splits="the pressure of that tire",
+    absorbs="deflation",
+)

@@ -1,0 +1,23 @@
+"""Free play between hand wheel and road wheels."""
+
+from __future__ import annotations
+
+from truck_blowout_sim.diagnosis.effects.base import (
+    Amount,
+    Effect,
+    added,
+    steered_axle,
+)
+
+EFFECT = Effect(
+    name="steering_lash",
+    amount=Amount("extra_lash_rad", "rad", step=0.03, low=-0.1, high=0.6, material=0.04,
+                  grid=(0.1, 0.25)),
+    places=steered_axle,
+    values=lambda packed, place, a: added(packed, "steering.lash_extra_rad", a),
+    sentence="The hand wheel turns {value} rad further than modelled before the road wheels "
+             "follow.",
+    equation="delta = deadzone(delta_hw, (lash + {value}) / 2) / i",
+    splits="small hand-wheel angles and reversals",
+    absorbs="steering_lash",
+)

@@ -1,0 +1,220 @@
+"""Put the answer together: verdict, effects in words, location, fit, evidence."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from truck_blowout_sim.diagnosis import evidence, words
+from truck_blowout_sim.diagnosis.attribute import Ranked
+from truck_blowout_sim.diagnosis.law import Law
+from truck_blowout_sim.diagnosis.locate import Wrenches
+from truck_blowout_sim.diagnosis.result import (
+    AliasSet,
+    ChannelSigma,
+    Diagnosis,
+    Effect,
+    Evidence,
+    Fit,
+    Location,
+    Parameter,
+    Place,
+    Verdict,
+    Wrench,
+)
+from truck_blowout_sim.diagnosis.search import Found
+from truck_blowout_sim.diagnosis.sensors import GateResult, SensorFinding
+from truck_blowout_sim.diagnosis.study import Study
+
+Floats = NDArray[np.float64]
+_NINETY = 1.645
+_PULLED = 2.9  # prior sigmas beyond which a sheet number is reported
+_UNKNOWN_DELTA = 900.0  # what an unnamed wrench must buy to be called a missing effect
+
+
+@dataclass(frozen=True, eq=False)
+class Material:
+    """Everything an answer is made of.
+
+    Attributes:
+        wrenches: missing on each body before anything was named; ``unnamed``: after.
+        law: plainest law of what is left unnamed.
+        onsets: 90 % interval of each timed effect's onset, by key.
+        vehicle: name of the model's vehicle.
+    """
+
+    study: Study
+    found: Found
+    gate: GateResult
+    wrenches: tuple[Wrenches, ...]
+    unnamed: tuple[Wrenches, ...]
+    law: Law
+    onsets: dict[tuple[str, str], tuple[float, float]]
+    vehicle: str
+
+
+def answer(material: Material) -> Diagnosis:
+    """The diagnosis."""
+    found, gate = material.found, material.gate
+    effects = [sensor_effect(f) for f in gate.findings]
+    verdict = decide(material)
+    # what explains less than half of a mismatch is no name for it; it stays among the candidates
+    named = [] if verdict == "unknown" else list(zip(found.named, found.rivals, strict=True))
+    effects += [physics_effect(material, ranked) for ranked, _ in named]
+    aliases = [AliasSet(f.aliases or (f.name,), splits=f.next_test) for f in gate.findings]
+    aliases += [alias_set(rivals) for _, rivals in named]
+    next_test = words.next_test(found, gate)
+    return Diagnosis(
+        verdict=verdict, sentence=words.verdict_sentence(
+            verdict, effects, pulled(material), material.law),
+        effects=tuple(effects), alias_sets=tuple(aliases), location=locate(material),
+        train=fit(material, "train"), holdout=fit(material, "holdout"),
+        null_p_value=null_p_value(material), next_test=next_test,
+        evidence=gather(material))
+
+
+def decide(material: Material) -> Verdict:
+    """Which of the five verdicts the evidence supports."""
+    found, gate = material.found, material.gate
+    physics = [r for r in found.named if r.hypothesis.effect.kind == "physics"]
+    if _unexplained(material):
+        return "unknown"
+    if physics:
+        return "missing_physics"
+    if gate.findings or found.named:
+        return "sensor_artefact"
+    return "miscalibrated" if pulled(material) else "consistent"
+
+
+def _unexplained(material: Material) -> bool:
+    """Whether much is left, and what was named explains less than half of it."""
+    found, rules = material.found, material.study.settings
+    rows = material.study.columns.shape[0]
+    bought = found.chi2_null - found.chi2_after
+    unnamed = max((w.delta - 2.0 * w.degrees for w in material.unnamed), default=0.0)
+    excess = found.chi2_null - rules.expected_level * rows
+    left = found.chi2_after > rules.unknown_level * rows
+    return (left and bought < 0.5 * excess) or unnamed > max(_UNKNOWN_DELTA, bought)
+
+
+def pulled(material: Material) -> list[tuple[str, float]]:
+    """Sheet numbers beyond three prior sigmas, with their pull, strongest first."""
+    study = material.study
+    own = joint_amounts(material)
+    total = {n.name: study.amounts.get(n.name, 0.0) + own.get(n.name, 0.0)
+             for n in study.settings.nuisances}
+    return sorted(((n, a) for n, a in total.items() if abs(a) > _PULLED), key=lambda p: -abs(p[1]))
+
+
+def joint_amounts(material: Material) -> dict[str, float]:
+    """What the joint fit adds to each nuisance, in prior sigmas, the named effects in force."""
+    study, named = material.study, [r.hypothesis for r in material.found.named]
+    amounts = study.projector(named).amounts(study.residual())
+    return {study.names[k]: float(a) for k, a in zip(study.kept(named), amounts, strict=True)}
+
+
+def physics_effect(material: Material, ranked: Ranked) -> Effect:
+    """An accepted hypothesis as the answer gives it."""
+    h = ranked.hypothesis
+    amount = h.effect.amount
+    wide = _NINETY * ranked.sigma
+    value = amount.report(h.amount)
+    ends = sorted((amount.report(h.amount - wide), amount.report(h.amount + wide)))
+    onset = min((start for start, _ in h.times.values()), default=None)
+    interval = material.onsets.get(h.key)
+    parameters = {amount.name: Parameter(value, amount.unit, (ends[0], ends[1]))}
+    for run, (start, end) in h.times.items():
+        if np.isfinite(end):
+            length = end - start
+            parameters[f"duration_s in {run}"] = Parameter(length, "s", (length, length),
+                                                           "from a grid, no interval")
+    sentence, equation = words.fill(h, value, onset)
+    return Effect(name=h.effect.name, kind=h.effect.kind, where=h.place, parameters=parameters,
+                  equation=equation, sentence=sentence, onset_s=onset, onset_ci90_s=interval)
+
+
+def sensor_effect(finding: SensorFinding) -> Effect:
+    """A faulty instrument as the answer gives it."""
+    return Effect(name=finding.name, kind="sensor", where=Place(body=finding.body or None),
+                  parameters={n: Parameter(a.value, a.unit, a.ci90)
+                              for n, a in finding.parameters.items()},
+                  equation=finding.equation, sentence=finding.sentence)
+
+
+def alias_set(rivals: Sequence[Ranked]) -> AliasSet:
+    """Names that explain as much, best first, each once."""
+    first: dict[str, Ranked] = {}
+    for r in rivals:
+        first.setdefault(r.hypothesis.effect.name, r)
+    return AliasSet(tuple(first), tuple(str(r.hypothesis.place) for r in first.values()),
+                    rivals[0].hypothesis.effect.splits)
+
+
+def locate(material: Material) -> Location:
+    """Channels that differ before anything is named; where what is then left unnamed acts."""
+    study = material.study
+    before = fit(material, "train").before
+    channels = tuple(ChannelSigma(n, s) for n, s in sorted(before.items(), key=lambda p: -p[1])
+                     if s > 1.5)
+    if not material.wrenches:
+        return Location(channels=channels)
+    # along the course both bodies move as one: what was named, by its wheels, says which it is
+    bodies = [r.hypothesis.place.body for r in material.found.named[:1]]
+    best = max(material.wrenches, key=lambda w: (w.history.body in bodies, w.delta))
+    history = best.history
+    z = (np.abs(history.fx_n / history.fx_sigma_n) + np.abs(history.fy_n / history.fy_sigma_n)
+         + np.abs(history.mz_nm / history.mz_sigma_nm))
+    strong = np.flatnonzero(z > 0.5 * z.max()) if z.size else np.zeros(0, dtype=int)
+    if best.delta < study.settings.accept_delta or not strong.size:
+        return Location(channels=channels)
+    a, b = strong[0], strong[-1] + 1
+    wide = _NINETY * best.x_sigma_m
+    known = np.isfinite(best.x_m)
+    return Location(
+        channels=channels,
+        interval_s=(float(history.time_s[a]) - 0.5 * best.window_s,
+                    float(history.time_s[b - 1]) + 0.5 * best.window_s),
+        body=history.body, line_of_action_x_m=best.x_m if known else None,
+        line_of_action_ci90_m=(best.x_m - wide, best.x_m + wide) if known else None,
+        wrench=Wrench(float(history.fx_n[a:b].mean()), float(history.fy_n[a:b].mean()),
+                      float(history.mz_nm[a:b].mean())))
+
+
+def fit(material: Material, role: str) -> Fit:
+    """Rms residual in units of instrument noise, before and after, pooled over runs."""
+    before = evidence.pooled(evidence.left_before(material.study, material.found, role))
+    after = evidence.pooled(evidence.left_after(material.study, material.found, role))
+    return Fit(before, after)
+
+
+def null_p_value(material: Material) -> float:
+    """Chance of the best evidence if nothing were missing, from the calibrated exponential tail."""
+    best = max((r.delta for r, _ in material.found.tried), default=0.0)
+    scale = material.study.settings.accept_delta / np.log(100.0)
+    return float(np.clip(np.exp(-max(best, 0.0) / scale), 1e-12, 1.0))
+
+
+def gather(material: Material) -> Evidence:
+    """What stands behind the answer."""
+    study, found = material.study, material.found
+    rows = study.columns.shape[0]
+    law = (material.law.equation,) if decide(material) == "unknown" else ()
+    return Evidence(
+        vehicle=material.vehicle,
+        recordings=tuple((r.recording.name, r.role) for r in (*study.runs, *study.holdout)),
+        candidates=evidence.candidates(found), maps=evidence.maps(study, found),
+        overlays=evidence.overlays(study, found),
+        forces=tuple(w.history for w in material.wrenches),
+        calibrated=evidence.calibrated(study, joint_amounts(material)),
+        equations=tuple(words.fill(r.hypothesis, r.hypothesis.effect.amount.report(
+            r.hypothesis.amount), None)[1] for r in found.named) + law,
+        assumptions=words.assumptions(study), missing_channels=words.missing_channels(study),
+        notes=(*material.gate.notes, *(note for r in study.runs for note in r.recording.notes)),
+        facts=(*((f"unnamed wrench on the {w.history.body} buys", f"{w.delta:.0f} with {w.degrees}")
+                 for w in material.unnamed),
+               ("simulations", str(study.simulations)),
+               ("sum of squares a row, calibrated", f"{found.chi2_null / rows:.3f}"),
+               ("sum of squares a row, diagnosed", f"{found.chi2_after / rows:.3f}")))

@@ -1,0 +1,233 @@
+"""Look for what is missing, one effect after another, until nothing passes.
+
+A hypothesis is accepted only if it buys enough (threshold calibrated on nulls), is strong enough to
+matter, is far from zero for its standard error, and predicts the holdout runs better.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from truck_blowout_sim.diagnosis.attribute import Ranked, rank_steady, with_effects
+from truck_blowout_sim.diagnosis.candidates import failed_tires, steady_candidates, timed_effects
+from truck_blowout_sim.diagnosis.effects import secondary_blowout
+from truck_blowout_sim.diagnosis.holdout import Prediction, predict
+from truck_blowout_sim.diagnosis.hypothesis import Hypothesis
+from truck_blowout_sim.diagnosis.linear import Projector
+from truck_blowout_sim.diagnosis.refit import refit
+from truck_blowout_sim.diagnosis.study import Progress, Study
+from truck_blowout_sim.diagnosis.timed import refine_times, scan
+
+Floats = NDArray[np.float64]
+_MOST_EFFECTS = 3
+_REFIT_STEADY = 6
+_REFIT_TIMED = 2
+_TIMED_COST = 8.0  # evidence that choosing an instant in a run costs
+_TIMED_SHARE = 0.15  # and the share that freedom of shape costs: steady causes come first
+_FAR_FROM_ZERO = 3.0
+_AT_BOUND = 0.002  # of the range
+_TIMED_FACTOR = 2.0
+_EVENT_WORTH = 0.8
+_NEXT_SHARE = 0.12
+_WORTH_REFITTING = 0.25  # of the threshold
+
+
+@dataclass(eq=False)
+class Found:
+    """What the search ends with.
+
+    Attributes:
+        named: accepted effects, in order, each with its rivals (itself first).
+        tried: every candidate of the first round, best first, with the reason why it fell.
+        chi2_null, chi2_after: sums of squares without and with the named effects.
+        models_null: training models before anything was named.
+        before, after: holdout predictions without and with them.
+    """
+
+    named: list[Ranked] = field(default_factory=list)
+    rivals: list[tuple[Ranked, ...]] = field(default_factory=list)
+    tried: list[tuple[Ranked, str]] = field(default_factory=list)
+    chi2_null: float = 0.0
+    chi2_after: float = 0.0
+    models_null: list[Floats] = field(default_factory=list)
+    before: tuple[Prediction, ...] = ()
+    after: tuple[Prediction, ...] = ()
+
+
+def search(study: Study, progress: Progress | None = None, most: int = _MOST_EFFECTS) -> Found:
+    """Find up to ``most`` effects; leaves the study's training models with them in force."""
+    projector = study.projector()
+    found = Found()
+    residual = study.residual()
+    found.models_null = list(study.models)
+    found.chi2_null = found.chi2_after = projector.chi2(residual)
+    found.before = found.after = predict(study, residual, ())
+    for turn in range(most):
+        named = [r.hypothesis for r in found.named]
+        ranked = candidates(study, named, progress)
+        if turn == 0:
+            found.tried = [(r, "") for r in ranked]
+        best = _accept(study, found, ranked, named)
+        if best is None:
+            break
+        found.rivals.append(_rivals(study, best, ranked, named))
+    return found
+
+
+def candidates(study: Study, named: Sequence[Hypothesis],
+               progress: Progress | None) -> list[Ranked]:
+    """All hypotheses not yet named, the promising ones refitted, best first."""
+    projector, taken = study.projector(named), {h.key for h in named}
+    chi2 = projector.chi2(study.residual())
+    steady = [h for h in steady_candidates(study) if h.key not in taken]
+    ranked = list(rank_steady(study, projector, steady, named, progress))
+    worth = _WORTH_REFITTING * study.settings.accept_delta
+    done: list[Ranked] = []
+    for k, one in enumerate(ranked):
+        if k < _REFIT_STEADY and one.delta > worth:
+            done.append(refit(study, one, chi2, named))
+            if progress:
+                progress("refitting", (k + 1) / _REFIT_STEADY)
+        else:
+            done.append(one)
+    best = max((r.delta for r in done if r.refitted), default=0.0)
+    done += _timed(study, projector, named, chi2, max(worth, 0.5 * best), taken, progress)
+    return sorted(done, key=lambda r: (-r.delta, r.hypothesis.key))
+
+
+def _timed(study: Study, projector: Projector, named: Sequence[Hypothesis], chi2: float,
+           worth: float, taken: set[tuple[str, str]], progress: Progress | None) -> list[Ranked]:
+    """Events: tires that lost pressure by themselves, and everything scanned over time."""
+    found: list[Ranked] = []
+    for tire, times in failed_tires(study, study.train).items():
+        found += [_failed(study, named, chi2, tire, times)]
+    scanned = []
+    for effect in timed_effects():
+        if effect.name == "secondary_blowout":
+            continue
+        for place in effect.places(study.packed.vehicle):
+            if (effect.name, str(place)) not in taken:
+                scanned.append(scan(study, projector, effect, place, named))
+                if progress:
+                    progress("events", len(scanned) / 5)
+    scanned.sort(key=lambda r: -r.delta)
+    for k, one in enumerate(scanned):
+        cost = _TIMED_COST * len(one.hypothesis.times) + _TIMED_SHARE * one.delta
+        if k < _REFIT_TIMED and one.delta - cost > worth:
+            one = refine_times(study, one, chi2, named)
+            one = refit(study, one, chi2, named)
+            one = refine_times(study, one, chi2, named)
+        found.append(replace(one, delta=one.delta - cost, evidence=one.evidence - cost))
+    return [r for r in found if r.hypothesis.key not in taken]
+
+
+def _failed(study: Study, named: Sequence[Hypothesis], chi2: float, tire: str,
+            times: Mapping[str, float]) -> Ranked:
+    """A tire seen to lose its pressure: the hypothesis at those instants, refitted."""
+    effect = secondary_blowout.EFFECT
+    place = next(p for p in effect.places(study.packed.vehicle) if p.tire == tire)
+    spans = {run: (t, np.inf) for run, t in times.items()}
+    start = Ranked(Hypothesis(effect, place, 1.0, spans), 0.0, 1.0)
+    one = refit(study, start, chi2, named)
+    return refine_times(study, one, chi2, named)
+
+
+def _accept(study: Study, found: Found, ranked: Sequence[Ranked],
+            named: Sequence[Hypothesis]) -> Ranked | None:
+    """Take the best hypothesis that passes every test; record why others fell.
+
+    Among those that training cannot tell apart, the one that predicts the holdout best is taken.
+    """
+    strongest = max((r.evidence for r in found.named), default=0.0)
+    passing: list[tuple[Ranked, float, list[Floats], tuple[Prediction, ...]]] = []
+    for one in ranked:
+        reason = _weak(study, one, strongest)
+        if not reason and passing and _worth(one) < max(
+                _worth(p[0]) for p in passing) - slack(study, passing[0][0]):
+            reason = "explains less"
+        elif not reason:
+            models, after = _predict_with(study, [*named, one.hypothesis])
+            gain = sum(p.chi2 for p in found.after) - sum(p.chi2 for p in after)
+            if study.holdout and gain <= 0.0 and _can_judge(study, one.hypothesis):
+                reason = f"does not predict the holdout better ({gain:+.1f})"
+            else:
+                passing.append((one, _worth(one) + gain, models, after))
+                reason = "explains as much, predicts less"
+        _note(found, one, reason)
+    if not passing:
+        return None
+    best, _, study.models, found.after = max(passing, key=lambda p: p[1])
+    found.named.append(best)
+    found.chi2_after -= best.delta
+    _note(found, best, "accepted")
+    return best
+
+
+def _worth(one: Ranked) -> float:
+    """Evidence, less a share where instants were free to choose: steady causes come first."""
+    return one.delta * (_EVENT_WORTH if one.hypothesis.times else 1.0)
+
+
+def slack(study: Study, best: Ranked) -> float:
+    """Evidence within which training does not tell explanations apart."""
+    return max(study.settings.keep_within * best.delta, 0.5 * study.settings.accept_delta)
+
+
+def _can_judge(study: Study, hypothesis: Hypothesis) -> bool:
+    """Whether any holdout run could show the effect at all."""
+    return any(run.shows(hypothesis.effect.applies) for run in study.holdout)
+
+
+def _weak(study: Study, one: Ranked, strongest: float) -> str:
+    """Why a hypothesis is too weak to name; empty if it is not."""
+    amount = one.hypothesis.effect.amount
+    if not one.refitted:
+        return "not refitted: others explain more"
+    if one.evidence < study.settings.accept_delta:
+        return f"buys only {one.evidence:.0f} of {study.settings.accept_delta:.0f}"
+    away = one.hypothesis.amount - one.hypothesis.effect.neutral(study.packed)
+    if abs(away) < amount.material:
+        return (f"{one.hypothesis.amount:.3g} {amount.unit} is within what trucks of one kind "
+                f"differ ({amount.material:.3g})")
+    if min(one.hypothesis.amount - amount.low, amount.high - one.hypothesis.amount) < _AT_BOUND * (
+            amount.high - amount.low):
+        return "its amount runs to the bound of what is physical"
+    if one.hypothesis.times and one.evidence < _TIMED_FACTOR * study.settings.accept_delta:
+        return f"buys {one.evidence:.0f}, too little for an event whose instant was searched"
+    if one.evidence < _NEXT_SHARE * strongest:
+        return f"buys {one.evidence:.0f}, which the stronger effect's own inexactness may leave"
+    if abs(away) < _FAR_FROM_ZERO * one.sigma:
+        return "its interval comes near zero"
+    return ""
+
+
+def _note(found: Found, one: Ranked, reason: str) -> None:
+    """Keep the reason beside the first-round entry of the hypothesis."""
+    found.tried = [(one if r.hypothesis.key == one.hypothesis.key else r,
+                    reason if r.hypothesis.key == one.hypothesis.key else why)
+                   for r, why in found.tried]
+
+
+def _predict_with(study: Study, named: Sequence[Hypothesis]
+                  ) -> tuple[list[Floats], tuple[Prediction, ...]]:
+    """Training models and holdout predictions with effects in force."""
+    jobs = [(study.runs[i], with_effects(study.packed, named, study.runs[i].recording.name))
+            for i in study.train]
+    models = list(study.models)
+    for i, model in zip(study.train, study.simulate(jobs), strict=True):
+        models[i] = model
+    residual = study.residual(dict(enumerate(models)))
+    return models, predict(study, residual, named)
+
+
+def _rivals(study: Study, best: Ranked, ranked: Sequence[Ranked], named: Sequence[Hypothesis]
+            ) -> tuple[Ranked, ...]:
+    """Hypotheses of the same round that explain nearly as much: the alias set, best first."""
+    room = slack(study, best)
+    others = [r for r in ranked if r.hypothesis.key != best.hypothesis.key
+              and r.delta > best.delta - room and r.refitted]
+    return (best, *others)

@@ -1,0 +1,35 @@
+"""Stages 1 and 2 of the diagnosis: noise of the channels, and the sensor gate."""
+
+from __future__ import annotations
+
+from truck_blowout_sim.diagnosis.sensors.correction import correct
+from truck_blowout_sim.diagnosis.sensors.findings import (
+    Amount,
+    GateResult,
+    IdentityResidual,
+    SensorFinding,
+    SteeringZero,
+)
+from truck_blowout_sim.diagnosis.sensors.gate import sensor_gate
+from truck_blowout_sim.diagnosis.sensors.geometry import (
+    Geometry,
+    stated_geometry,
+    vehicle_geometry,
+)
+from truck_blowout_sim.diagnosis.sensors.noise import Noise, channel_noise, series_noise
+
+__all__ = [
+    "Amount",
+    "GateResult",
+    "Geometry",
+    "IdentityResidual",
+    "Noise",
+    "SensorFinding",
+    "SteeringZero",
+    "channel_noise",
+    "correct",
+    "sensor_gate",
+    "series_noise",
+    "stated_geometry",
+    "vehicle_geometry",
+]

@@ -1,0 +1,206 @@
+"""Which distortions are asked about: normal imperfections and candidate faults.
+
+Every instrument has small errors; their usual size is the prior here, so that a mounting error
+never becomes a fault. A fault is the same distortion without that prior.
+
+References: mounting errors of the test instruments (gyro 0.006 deg/s, accelerometer 0.006 m/s2,
+angles 0.05 deg on the tractor, twice that on the trailer); gain, timing and position tolerances
+of a good installation (0.1-0.5 %, 3 ms, 2 cm) are engineering judgement.
+Validated with: test/diagnosis/test_sensors_gate.py.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from truck_blowout_sim.diagnosis.sensors.distortions import (
+    Bias,
+    Delay,
+    Distortion,
+    LeverArm,
+    RollLeak,
+    Scale,
+    Turn,
+)
+from truck_blowout_sim.diagnosis.sensors.identities import channel_names
+from truck_blowout_sim.diagnosis.sensors.towed import ROLL
+
+_GYRO_RADPS = float(np.radians(0.006))
+_ACCELEROMETER_MPS2 = 0.006
+_ANGLE_RAD = float(np.radians(0.05))
+_GRAVITY_MPS2 = 9.81
+_GYRO_SCALE, _ACCELEROMETER_SCALE, _SPEED_SCALE = 0.002, 0.005, 0.001
+# Where the angle was not recorded, gravity enters in proportion to the acceleration itself.
+_UNKNOWN_TILT_SCALE = 0.3
+_DELAY_S = 0.003  # a good part of a sample, and unequal filters
+_POSITION_M, _HITCH_M = 0.02, 0.03
+# Bodies that twist move like instruments half a metre higher or lower.
+_HEIGHT_M = 0.5
+_HUB_DELAY_S = 0.02  # wheels follow the road with the tire's own lag
+# Where the angle was not recorded, gravity enters in proportion to the acceleration itself.
+_UNKNOWN_TILT_SCALE = 0.3
+_ROLL_LEAK = 0.02
+_RADIUS_KNOWN, _RADIUS_UNKNOWN = 0.0015, 0.05
+_UNITS = ("tractor", "trailer")
+_TRAILER_FACTOR = 2.0
+
+
+@dataclass(frozen=True)
+class Imperfection:
+    """A distortion and how large it normally is (1 sigma of each parameter)."""
+
+    distortion: Distortion
+    usual: tuple[float, ...]
+
+
+def imperfections(
+    present: set[str], *, radius_known: bool, gravity_read: bool = True
+) -> tuple[Imperfection, ...]:
+    """Normal errors of the instruments whose channels were recorded.
+
+    Args:
+        present: channels recorded anywhere in the case.
+        radius_known: rolling radii come from baseline recordings of the same truck.
+        gravity_read: accelerometers read gravity, so a tilt that was not recorded matters.
+    """
+    found: list[Imperfection] = []
+    for unit in _UNITS:
+        found += _unit_imperfections(unit, present, gravity_read=gravity_read)
+        hubs = tuple(sorted(c for c in present if c.startswith("hub_speed_")
+                            and _hub_belongs(c, unit)))  # fmt: skip
+        radius = _RADIUS_KNOWN if radius_known else _RADIUS_UNKNOWN
+        found.append(Imperfection(Scale("rolling_radius", unit, f"{unit} hubs", hubs), (radius,)))
+    hubs = tuple(sorted(c for c in present if c.startswith("hub_speed_")))
+    found.append(Imperfection(Delay("channel_delay", "", "hub speeds", hubs), (_HUB_DELAY_S,)))
+    kept = [(i, _recorded(i.distortion, present)) for i in found]
+    return tuple(Imperfection(d, i.usual) for i, d in kept if d is not None)
+
+
+def candidates(present: set[str]) -> tuple[Distortion, ...]:
+    """Faults worth asking about, for the channels that were recorded."""
+    found: list[Distortion] = []
+    for unit in _UNITS:
+        found += _unit_candidates(unit)
+    hubs = tuple(sorted(c for c in present if c.startswith("hub_speed_")))
+    found.append(Delay("channel_delay", "", "hub speeds", hubs))
+    kept: list[Distortion] = []
+    seen: set[tuple[str, tuple[str, ...]]] = set()
+    for wanted in found:
+        distortion = _recorded(wanted, present)
+        if distortion is None or (type(distortion).__name__, distortion.channels) in seen:
+            continue
+        roll = channel_names(distortion.unit or "tractor")["roll"]
+        if isinstance(distortion, RollLeak) and roll not in present:
+            continue
+        seen.add((type(distortion).__name__, distortion.channels))
+        kept.append(distortion)
+    return tuple(kept)
+
+
+def _unit_imperfections(unit: str, present: set[str], *, gravity_read: bool) -> list[Imperfection]:
+    n = channel_names(unit)
+    k = _TRAILER_FACTOR if unit == "trailer" else 1.0
+    accel = k * float(np.hypot(_ACCELEROMETER_MPS2, _GRAVITY_MPS2 * _ANGLE_RAD))
+
+    def bias(name: str, key: str, si_unit: str) -> Bias:
+        return Bias(name, unit, f"{unit} {key}", (n[key],), "bias", si_unit)
+
+    def tilted(angle: str) -> float:
+        reckoned = ROLL in present and n["vy"] not in present and unit == "trailer"
+        known = angle in present or not gravity_read or (reckoned and angle == n["roll"])
+        return _ACCELEROMETER_SCALE if known else _UNKNOWN_TILT_SCALE
+
+    found = [Imperfection(bias("yaw_rate_bias" if key == "r" else "gyro_bias", key, "rad/s"),
+                          (k * _GYRO_RADPS,)) for key in ("p", "q", "r")]  # fmt: skip
+    found += [Imperfection(bias("accelerometer_bias", key, "m/s2"), (accel,))
+              for key in ("ax", "ay")]  # fmt: skip
+    found += [Imperfection(bias("angle_bias", key, "rad"), (k * _ANGLE_RAD,))
+              for key in ("roll", "pitch", "yaw")]  # fmt: skip
+    turn = Turn("velocity_mounting", unit, f"{unit} velocity", (n["vx"], n["vy"]))
+    found.append(Imperfection(turn, (k * _ANGLE_RAD,)))
+    found += [
+        Imperfection(_scale("yaw_rate_scale", unit, "r"), (_GYRO_SCALE,)),
+        Imperfection(_scale("longitudinal_accel_scale", unit, "ax"), (tilted(n["pitch"]),)),
+        Imperfection(_scale("lateral_accel_scale", unit, "ay"), (tilted(n["roll"]),)),
+        Imperfection(_scale("speed_scale", unit, "vx"), (_SPEED_SCALE,)),
+        Imperfection(RollLeak("lateral_accel_roll", unit, f"{unit} ay", (n["ay"],)), (_ROLL_LEAK,)),
+    ]
+    for label, keys in _delay_groups()[:5]:
+        channels = tuple(n[key] for key in keys)
+        delay = Delay("channel_delay", unit, f"{unit} {label}", channels)
+        found.append(Imperfection(delay, (_DELAY_S,)))
+    for label, keys, usual in (("accelerometer", ("ax", "ay", "az"), _POSITION_M),
+                               ("velocity", ("vx", "vy"), _POSITION_M),
+                               ("position", ("x", "y"), _HITCH_M)):  # fmt: skip
+        channels = tuple(n[key] for key in keys)
+        arm = LeverArm("lever_arm", unit, f"{unit} {label}", channels, ("forward", "left", "up"))
+        found.append(Imperfection(arm, (usual, usual, _HEIGHT_M)))
+    return found
+
+
+def _unit_candidates(unit: str) -> list[Distortion]:
+    n = channel_names(unit)
+    found: list[Distortion] = [
+        Bias("yaw_rate_bias", unit, f"{unit} yaw rate", (n["r"],), "bias", "rad/s"),
+        _scale("yaw_rate_scale", unit, "r"),
+        _scale("lateral_accel_scale", unit, "ay"),
+        RollLeak("lateral_accel_roll", unit, f"{unit} ay", (n["ay"],)),
+        _scale("speed_scale", unit, "vx"),
+        Scale("speed_scale", unit, f"{unit} velocity", (n["vx"], n["vy"])),
+    ]
+    for label, keys in _delay_groups():
+        channels = tuple(n[key] for key in keys)
+        found.append(Delay("channel_delay", unit, f"{unit} {label}", channels))
+    for label, keys in _lever_groups():
+        channels = tuple(n[key] for key in keys)
+        found.append(LeverArm("lever_arm", unit, f"{unit} {label}", channels))
+    return found
+
+
+def _delay_groups() -> tuple[tuple[str, tuple[str, ...]], ...]:
+    """Instruments first, then what hangs on one box together, then single channels."""
+    gyro, accelerometer, velocity = ("p", "q", "r"), ("ax", "ay", "az"), ("vx", "vy")
+    position, attitude = ("x", "y"), ("roll", "pitch", "yaw")
+    together = gyro + accelerometer + velocity + position + attitude
+    singles = tuple((key, (key,)) for key in together)
+    return (
+        ("gyros", gyro), ("accelerometer", accelerometer), ("velocity", velocity),
+        ("position", position), ("attitude", attitude),
+        ("inertial unit (rates and accelerations)", gyro + accelerometer),
+        ("satellite receiver (position and velocity)", position + velocity),
+        ("odometry (position, velocity, attitude)", position + velocity + attitude),
+        ("tilt angles", ("roll", "pitch")),
+        ("whole instrument", together),
+        *singles,
+    )  # fmt: skip
+
+
+def _lever_groups() -> tuple[tuple[str, tuple[str, ...]], ...]:
+    accelerometer, velocity, position = ("ax", "ay", "az"), ("vx", "vy"), ("x", "y")
+    return (
+        ("accelerometer", accelerometer), ("velocity", velocity), ("position", position),
+        ("velocity and accelerometer", velocity + accelerometer),
+        ("position and velocity", position + velocity),
+        ("whole instrument", position + velocity + accelerometer),
+    )  # fmt: skip
+
+
+def _scale(name: str, unit: str, key: str) -> Scale:
+    words = {"r": "yaw rate", "ay": "lateral acceleration", "ax": "longitudinal acceleration",
+             "vx": "forward speed"}  # fmt: skip
+    return Scale(name, unit, f"{unit} {words[key]}", (channel_names(unit)[key],))
+
+
+def _recorded(distortion: Distortion, present: set[str]) -> Distortion | None:
+    """The distortion restricted to recorded channels; ``None`` if nothing is left."""
+    channels = tuple(c for c in distortion.channels if c in present)
+    if not channels:
+        return None
+    values = {**distortion.__dict__, "channels": channels}
+    return type(distortion)(**values)
+
+
+def _hub_belongs(channel: str, unit: str) -> bool:
+    return channel.startswith("hub_speed_trailer") == (unit == "trailer")

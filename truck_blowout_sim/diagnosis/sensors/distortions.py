@@ -1,0 +1,190 @@
+"""What an instrument can do to its channels: one small class for each kind.
+
+Measured = true + error. A distortion knows how its channels move per unit of each parameter
+(``slope``) and how to take a known amount out again (``undo``). Small amounts of each are normal
+mounting errors and tolerances; large ones are faults.
+
+Validated with: test/diagnosis/test_sensors_distortions.py (undo of an injected amount).
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from truck_blowout_sim.diagnosis.sensors.identities import channel_names
+from truck_blowout_sim.diagnosis.sensors.signals import GRAVITY_MPS2
+
+FloatArray = NDArray[np.float64]
+Reader = Callable[[str], FloatArray]
+"""Gives a channel at the instants in question, zeros where it was not recorded."""
+
+
+@dataclass(frozen=True)
+class Distortion(ABC):
+    """A way in which channels of one instrument go wrong.
+
+    Attributes:
+        name: canonical name of the fault it is when it is large.
+        unit: ``tractor`` or ``trailer`` (empty for a channel of neither).
+        instrument: what went wrong, in words.
+        channels: channels it touches.
+    """
+
+    name: str
+    unit: str
+    instrument: str
+    channels: tuple[str, ...]
+
+    @property
+    @abstractmethod
+    def parameters(self) -> tuple[tuple[str, str], ...]:
+        """Name and unit of each parameter."""
+
+    @abstractmethod
+    def slope(self, index: int, channel: str, read: Reader, period_s: float) -> FloatArray:
+        """d(measured channel) / d(parameter ``index``), from smooth true signals."""
+
+    def undo(
+        self, amounts: tuple[float, ...], channel: str, time_s: FloatArray, value: FloatArray,
+        read: Reader,
+    ) -> tuple[FloatArray, FloatArray]:  # fmt: skip
+        """Times and values of a channel with known amounts taken out."""
+        period_s = float(np.median(np.diff(time_s)))
+        error = np.zeros_like(value)
+        for index, amount in enumerate(amounts):
+            error = error + amount * self.slope(index, channel, read, period_s)
+        return time_s, value - error
+
+
+@dataclass(frozen=True)
+class Bias(Distortion):
+    """A constant added to the channel; parameter named after what it is."""
+
+    symbol: str = "bias"
+    si_unit: str = "rad/s"
+
+    @property
+    def parameters(self) -> tuple[tuple[str, str], ...]:
+        """One offset."""
+        return ((self.symbol, self.si_unit),)
+
+    def slope(self, index: int, channel: str, read: Reader, period_s: float) -> FloatArray:
+        """One everywhere."""
+        del index, period_s
+        return np.ones_like(read(channel))
+
+
+@dataclass(frozen=True)
+class Scale(Distortion):
+    """Measured = (1 + scale_error) * true."""
+
+    @property
+    def parameters(self) -> tuple[tuple[str, str], ...]:
+        """Gain error as a fraction."""
+        return (("scale_error", "1"),)
+
+    def slope(self, index: int, channel: str, read: Reader, period_s: float) -> FloatArray:
+        """The channel itself."""
+        del index, period_s
+        return read(channel)
+
+    def undo(
+        self, amounts: tuple[float, ...], channel: str, time_s: FloatArray, value: FloatArray,
+        read: Reader,
+    ) -> tuple[FloatArray, FloatArray]:  # fmt: skip
+        """Take the excess out of the motion and leave the noise as it is.
+
+        Dividing would shrink the noise with the motion, and a wild gain would then look good.
+        """
+        return time_s, value - amounts[0] / (1.0 + amounts[0]) * read(channel)
+
+
+@dataclass(frozen=True)
+class Delay(Distortion):
+    """Measured(t) = true(t - delay)."""
+
+    @property
+    def parameters(self) -> tuple[tuple[str, str], ...]:
+        """Seconds late."""
+        return (("delay", "s"),)
+
+    def slope(self, index: int, channel: str, read: Reader, period_s: float) -> FloatArray:
+        """Minus the time derivative."""
+        del index
+        return np.asarray(-np.gradient(read(channel), period_s), dtype=np.float64)
+
+    def undo(
+        self, amounts: tuple[float, ...], channel: str, time_s: FloatArray, value: FloatArray,
+        read: Reader,
+    ) -> tuple[FloatArray, FloatArray]:  # fmt: skip
+        """Stamp the samples earlier; the values are untouched."""
+        del channel, read
+        return time_s - amounts[0], value
+
+
+@dataclass(frozen=True)
+class RollLeak(Distortion):
+    """Measured ay = true ay + leak * g * sin(roll)."""
+
+    @property
+    def parameters(self) -> tuple[tuple[str, str], ...]:
+        """Share of gravity that leaks in."""
+        return (("roll_leak", "1"),)
+
+    def slope(self, index: int, channel: str, read: Reader, period_s: float) -> FloatArray:
+        """Gravity along the rolled axis."""
+        del index, channel, period_s
+        return np.asarray(GRAVITY_MPS2 * np.sin(read(channel_names(self.unit)["roll"])))
+
+
+@dataclass(frozen=True)
+class Turn(Distortion):
+    """The velocity instrument is mounted turned about its vertical axis (a mounting error)."""
+
+    @property
+    def parameters(self) -> tuple[tuple[str, str], ...]:
+        """Angle, left positive."""
+        return (("mounting_angle", "rad"),)
+
+    def slope(self, index: int, channel: str, read: Reader, period_s: float) -> FloatArray:
+        """Forward speed read as sideways speed and the reverse."""
+        del index, period_s
+        n = channel_names(self.unit)
+        return read(n["vy"]) if channel == n["vx"] else -read(n["vx"])
+
+
+@dataclass(frozen=True)
+class LeverArm(Distortion):
+    """The instrument sits off from where it is said to sit, along the given directions."""
+
+    directions: tuple[str, ...] = ("forward", "left")
+
+    @property
+    def parameters(self) -> tuple[tuple[str, str], ...]:
+        """Offset in the unit's axes."""
+        return tuple((direction, "m") for direction in self.directions)
+
+    def slope(self, index: int, channel: str, read: Reader, period_s: float) -> FloatArray:
+        """Velocity ``w x l``, acceleration ``dw/dt x l + w x (w x l)``, position ``R l``."""
+        n = channel_names(self.unit)
+        x, y, z = (float(self.directions[index] == d) for d in ("forward", "left", "up"))
+        p, q, r = read(n["p"]), read(n["q"]), read(n["r"])
+        if channel == n["vx"]:
+            return np.asarray(q * z - r * y)
+        if channel == n["vy"]:
+            return np.asarray(r * x - p * z)
+        if channel == n["x"]:
+            return np.asarray(np.cos(read(n["yaw"])) * x - np.sin(read(n["yaw"])) * y)
+        if channel == n["y"]:
+            return np.asarray(np.sin(read(n["yaw"])) * x + np.cos(read(n["yaw"])) * y)
+        dp, dq, dr = (np.gradient(rate, period_s) for rate in (p, q, r))
+        if channel == n["ax"]:
+            return np.asarray(dq * z - dr * y - (q**2 + r**2) * x + p * q * y + p * r * z)
+        if channel == n["ay"]:
+            return np.asarray(dr * x - dp * z - (r**2 + p**2) * y + p * q * x + q * r * z)
+        return np.asarray(dp * y - dq * x - (p**2 + q**2) * z + p * r * x + q * r * y)

@@ -1,0 +1,172 @@
+"""The sensor gate: is an instrument at fault, before any vehicle model is asked?
+
+References: fault isolation by parity relations, e.g. R. Isermann, Fault-Diagnosis Systems (2006),
+chapter 10; here the parity relations are kinematic identities in weak form.
+Known limits: channels that no identity reads (pressures, throttle) pass unchecked and are listed;
+a fault shared by all instruments of the truck alike cannot show.
+Validated with: test/diagnosis/test_sensors_gate.py; figures in docs/diagnosis_sensors.md.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from truck_blowout_sim.diagnosis.sensors.case import Case, make_case, undone
+from truck_blowout_sim.diagnosis.sensors.findings import Amount, GateResult, SensorFinding
+from truck_blowout_sim.diagnosis.sensors.geometry import Geometry
+from truck_blowout_sim.diagnosis.sensors.residuals import broken_identities, identity_residuals
+from truck_blowout_sim.diagnosis.sensors.search import Found, SearchResult, applied, search
+from truck_blowout_sim.diagnosis.sensors.steering import steering_zero
+from truck_blowout_sim.diagnosis.sensors.words import equation, next_test, sentence
+from truck_blowout_sim.recordings import Recording
+
+FloatArray = NDArray[np.float64]
+
+_Z90 = 1.645
+
+
+def sensor_gate(
+    recordings: Sequence[Recording],
+    baseline: Sequence[Recording] = (),
+    geometry: Geometry | None = None,
+) -> GateResult:
+    """Check the instruments of a case against kinematics.
+
+    Args:
+        recordings: runs that may have a fault; one individual truck, one set of instruments.
+        baseline: runs of the same truck in which the effect is not at work; they show what its
+            normal mounting errors are.
+        geometry: lengths of the combination; instrument positions that the recordings' metadata
+            state take precedence.
+
+    Returns:
+        Findings, residuals of every identity, what could not be asked.
+
+    Raises:
+        InputError: a recording has no motion channel.
+        ValueError: no recording is given.
+    """
+    if not recordings:
+        raise ValueError("at least one recording is needed")
+    case = make_case(recordings, baseline, geometry)
+    result = search(case)
+    findings = [
+        _finding(found, knows_roll=_has_roll(case, found.hypothesis.distortion.unit))
+        for found in result.found
+    ]
+    signals = [
+        undone(s, applied(result.found), baseline=b)
+        for s, b in zip(case.signals, case.is_baseline, strict=True)
+    ]
+    zero, wheel, notes = steering_zero(signals, case.is_baseline, [*recordings, *baseline])
+    if wheel is not None:
+        findings.append(wheel)
+    residuals = identity_residuals(result)
+    return GateResult(
+        findings=tuple(findings),
+        identities=residuals,
+        broken=broken_identities(result, residuals),
+        untestable=_untestable(case, recordings, result),
+        steering=zero,
+        inflation=result.inflation,
+        chi2=result.chi2,
+        rows=result.rows,
+        mounting=_mounting(case, result),
+        notes=(*_notes(case), *notes),
+    )
+
+
+def _finding(found: Found, *, knows_roll: bool) -> SensorFinding:
+    distortion = found.hypothesis.distortion
+    names = tuple(dict.fromkeys([distortion.name, *[h.distortion.name for h, _ in found.rivals]]))
+    if distortion.name == "lateral_accel_scale" and not knows_roll:
+        # Roll follows lateral acceleration: without its channel a leak looks like a gain.
+        names = tuple(dict.fromkeys([*names, "lateral_accel_roll"]))
+    sigmas = np.sqrt(np.diag(found.covariance))
+    shown = _determined(found.amounts, sigmas)
+    parameters = {
+        name: Amount(value, unit, (value - _Z90 * sigma, value + _Z90 * sigma))
+        for k, ((name, unit), value, sigma) in enumerate(
+            zip(distortion.parameters, found.amounts, sigmas.tolist(), strict=True)
+        )
+        if k in shown
+    }
+    kept = [list(distortion.parameters).index((n, a.unit)) for n, a in parameters.items()]
+    return SensorFinding(
+        name=distortion.name,
+        body=distortion.unit,
+        instrument=distortion.instrument,
+        channels=distortion.channels,
+        parameters=parameters,
+        delta_chi2=found.delta_chi2,
+        p_value=found.p_value,
+        aliases=names,
+        alternatives=_alternatives(found),
+        in_baseline=found.hypothesis.everywhere,
+        sentence=sentence(distortion, found.amounts, sigmas.tolist(), kept),
+        equation=equation(distortion.name),
+        next_test=next_test(distortion.name, names),
+        distortion=distortion,
+    )
+
+
+def _has_roll(case: Case, unit: str) -> bool:
+    return any(f"{unit}_roll_rad" in signals for signals in case.signals)
+
+
+def _determined(amounts: Sequence[float], sigmas: FloatArray) -> list[int]:
+    """Parameters worth stating: those that differ from zero, at least the clearest one."""
+    clear = np.abs(np.array(amounts)) / sigmas
+    return [k for k in range(len(amounts)) if clear[k] > 3.0 or k == int(np.argmax(clear))]
+
+
+def _alternatives(found: Found) -> tuple[str, ...]:
+    own = found.hypothesis.distortion
+    said = [
+        f"{h.distortion.name} of {h.distortion.instrument} (worse by {extra:.1f} in chi2)"
+        for h, extra in found.rivals
+        if h.distortion != own
+    ]
+    return tuple(dict.fromkeys(said))
+
+
+def _mounting(case: Case, result: SearchResult) -> Mapping[str, Amount]:
+    out = {}
+    k = 0
+    for item in case.usual:
+        for (name, unit), usual in zip(item.distortion.parameters, item.usual, strict=True):
+            value = float(result.usual[k])
+            label = f"{item.distortion.name} of {item.distortion.instrument} ({name})"
+            sigma = min(usual, float(result.usual_sigma[k]))
+            out[label] = Amount(value, unit, (value - _Z90 * sigma, value + _Z90 * sigma))
+            k += 1
+    return out
+
+
+def _untestable(
+    case: Case, recordings: Sequence[Recording], result: SearchResult
+) -> tuple[str, ...]:
+    read: set[str] = set()
+    for rows, slow in zip(result.before.rows, result.before.slow, strict=True):
+        if rows is not None:
+            for a, identity in enumerate(rows.identities):
+                if rows.valid[:, a].any():
+                    read.update(identity.channels)
+        read.update(c for row in slow for c in row.identity.channels)
+    present = {name for recording in recordings for name in recording.channels}
+    return tuple(sorted(present - read))
+
+
+def _notes(case: Case) -> tuple[str, ...]:
+    notes = []
+    if not case.geometry.knows_hitch and any("trailer_vx_mps" in s for s in case.signals):
+        notes.append("hitch identities not asked: metadata do not state where instruments sit")
+    if not any(case.is_baseline) and case.radii:
+        notes.append("no baseline: hub speeds show changes, not a common gain of the speed channel")
+    unsaid = [s for s in case.signals if "tractor_roll_rad" not in s]
+    if unsaid:
+        notes.append("roll not recorded: gravity in the lateral acceleration cannot be taken out")
+    return tuple(notes)

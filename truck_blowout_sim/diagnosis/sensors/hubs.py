@@ -1,0 +1,105 @@
+"""Hub speeds against the body's speed, on wheels that roll freely.
+
+A braked, driven or flat wheel slips, and physics may explain that; so only hubs that neither
+brake nor drive nor carry a blown tire are asked, and all hubs of a unit are averaged: a speed
+sensor's gain moves them together, a tire's radius moves one.
+
+Known limits: without a baseline the rolling radius is unknown to about a percent, so the mean
+level says nothing about a gain; only changes against the baseline do.
+Validated with: test/diagnosis/test_sensors_identities.py.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from truck_blowout_sim.diagnosis.sensors.geometry import Geometry
+from truck_blowout_sim.diagnosis.sensors.identities import Identity, channel_names
+from truck_blowout_sim.diagnosis.sensors.signals import Signals, smoothed
+
+FloatArray = NDArray[np.float64]
+BoolArray = NDArray[np.bool_]
+
+_BRAKE_FREE_PA = 8000.0
+_BRAKE_RELEASE_S = 2.0
+_COASTING_MPS2 = 0.6
+_SLOWEST_MPS = 4.0
+_MODEL_SIGMA_MPS = 0.01
+
+
+def hub_channels(signals: Signals, unit: str) -> tuple[str, ...]:
+    """Hub-speed channels of undriven hubs of a unit."""
+    names = [n for n in signals.values if n.startswith("hub_speed_")]
+    mine = [n for n in names if hub_of(n).startswith("trailer") == (unit == "trailer")]
+    return tuple(n for n in mine if not hub_of(n).startswith("drive"))
+
+
+def hub_of(channel: str) -> str:
+    """The hub's name in ``hub_speed_<hub>_radps``."""
+    return channel.removeprefix("hub_speed_").removesuffix("_radps")
+
+
+def free_rolling(signals: Signals, unit: str) -> BoolArray:
+    """Samples at which no brake acts on the unit's undriven hubs and the truck rolls."""
+    circuit = "trailer" if unit == "trailer" else "steer"
+    speed = signals[channel_names(unit)["vx"]]
+    free = speed > _SLOWEST_MPS
+    pressure = f"brake_pressure_{circuit}_pa"
+    if pressure in signals:
+        braked = ~(signals[pressure] < _BRAKE_FREE_PA)
+        tail = round(_BRAKE_RELEASE_S / signals.period_s)
+        lingering = np.convolve(braked, np.ones(tail + 1), mode="full")[: braked.size] > 0
+        return np.asarray(free & ~lingering)
+    slowing = np.gradient(smoothed(speed, 0.3 / signals.period_s), signals.period_s)
+    return np.asarray(free & (np.abs(slowing) < _COASTING_MPS2))
+
+
+def rolling_radii(all_signals: Sequence[Signals], geometry: Geometry) -> Mapping[str, float]:
+    """Median rolling radius of every undriven hub over the given recordings, by channel."""
+    ratios: dict[str, list[FloatArray]] = {}
+    for signals in all_signals:
+        for unit in ("tractor", "trailer"):
+            n = channel_names(unit)
+            if n["vx"] not in signals:
+                continue
+            free = free_rolling(signals, unit)
+            for channel in hub_channels(signals, unit):
+                sound = free & _sound(signals, channel)
+                speed = signals[n["vx"]] - signals[n["r"]] * geometry.hub_left_m(hub_of(channel))
+                usable = sound & (signals[channel] > 1.0) & np.isfinite(speed)
+                if usable.sum() > 50:
+                    ratio = speed[usable] / signals[channel][usable]
+                    ratios.setdefault(channel, []).append(ratio)
+    return {channel: float(np.median(np.concatenate(r))) for channel, r in ratios.items()}
+
+
+def hub_identity(
+    signals: Signals, unit: str, radii: Mapping[str, float], geometry: Geometry
+) -> Identity | None:
+    """Mean of ``radius * hub speed`` equals forward speed at the hubs; ``None`` if not asked."""
+    n = channel_names(unit)
+    hubs = tuple(
+        c for c in hub_channels(signals, unit)
+        if c in radii and hub_of(c) not in signals.blown_since_s
+    )  # fmt: skip
+    if not hubs or n["vx"] not in signals:
+        return None
+    masked = np.where(free_rolling(signals, unit), 0.0, np.nan)
+    left = {c: geometry.hub_left_m(hub_of(c)) for c in hubs}
+
+    def residual(s: Signals) -> FloatArray:
+        rolled = sum((radii[c] * s[c] + s[n["r"]] * left[c] for c in hubs), np.zeros(1))
+        return np.asarray(rolled / len(hubs) - s[n["vx"]] + masked)
+
+    return Identity(
+        f"{unit} hub speeds", "m/s", "R omega = vx (mean of freely rolling hubs)",
+        (n["vx"], *hubs), (n["r"],), residual, (), _MODEL_SIGMA_MPS,
+    )  # fmt: skip
+
+
+def _sound(signals: Signals, channel: str) -> BoolArray:
+    since = signals.blown_since_s.get(hub_of(channel), np.inf)
+    return np.asarray(signals.time_s < since)

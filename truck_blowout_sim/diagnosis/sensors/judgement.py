@@ -1,0 +1,50 @@
+"""When a hypothesis counts: significance, plausibility, and what it must earn against others.
+
+Validated with: test/diagnosis/test_sensors_solve.py (calibration on runs without a fault).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from scipy.stats import chi2 as chi2_law
+
+from truck_blowout_sim.diagnosis.sensors.case import Case, Hypothesis
+from truck_blowout_sim.diagnosis.sensors.distortions import Delay, Scale
+
+# A rival within this of the best sum of squares cannot be told from it (odds of about 90 to 1).
+ALIAS_CHI2 = 9.0
+_PER_PARAMETER = 2.0  # what a parameter must earn when hypotheses of different size compete
+_NEVER_ALONE = ("_x_m", "_y_m", "_vx_mps", "_vy_mps", "_roll_rad", "_pitch_rad")
+_ODD = 6.0
+_WILDEST_SCALE = 0.45
+
+
+def family_p(delta_chi2: float, parameters: int, tests: int) -> float:
+    """Chance that any of ``tests`` hypotheses gains as much from noise alone."""
+    single = float(chi2_law.sf(max(delta_chi2, 0.0), parameters))
+    return min(1.0, single * tests)
+
+
+def admissible(hypothesis: Hypothesis, amounts: Sequence[float]) -> bool:
+    """Whether the amounts make sense: nothing arrives early, no gain is off by half."""
+    kind = hypothesis.distortion
+    return (
+        amounts[0] > 0.0
+        if isinstance(kind, Delay)
+        else (not isinstance(kind, Scale) or abs(amounts[0]) < _WILDEST_SCALE)
+    )
+
+
+def handicap(case: Case, hypothesis: Hypothesis) -> float:
+    """What a hypothesis must earn: by its size, for contradicting a sound baseline, for oddity.
+
+    One channel of an instrument seldom comes late alone.
+    """
+    distortion = hypothesis.distortion
+    earned = _PER_PARAMETER * len(distortion.parameters)
+    if hypothesis.everywhere and any(case.is_baseline):
+        earned += ALIAS_CHI2
+    if isinstance(distortion, Delay) and distortion.channels[0].endswith(_NEVER_ALONE):
+        earned += _ODD if len(distortion.channels) == 1 else 0.0
+    return earned

@@ -1,0 +1,170 @@
+"""How noisy each channel is, from the recording itself.
+
+The white part comes from fourth differences: they remove everything that moves slower than about
+a fifth of the sampling rate and keep white noise with a known gain. Colour shows as a residual
+about local cubics that is larger than the fourth differences promise. Quiet stretches decide, so
+a manoeuvre or a blowout does not count as noise.
+
+References: the variance of a k-th difference of white noise is sigma² * binom(2k, k).
+Known limits: colour slower than about half a second cannot be told from motion here; constant
+offsets are found only against another channel (see ``gate``).
+Validated with: test/diagnosis/test_sensors_noise.py (stated sigmas of sample recordings).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.linalg import toeplitz
+from scipy.signal import savgol_coeffs, savgol_filter
+
+from truck_blowout_sim.recordings import Recording, Series
+
+FloatArray = NDArray[np.float64]
+
+_DIFFERENCE_GAIN = np.sqrt(70.0)  # binom(8, 4)
+_MAD_TO_SIGMA = 1.4826
+_STRETCH_S = 0.5
+_LOCAL_CUBIC = 31  # samples of the local cubic whose residual shows coloured noise
+_MIN_SAMPLES = 40
+_CLEAR_COLOUR = 1.5  # times the white sigma, before colour is believed
+
+
+@dataclass(frozen=True)
+class Noise:
+    """Random error of one channel, in the channel's unit.
+
+    Attributes:
+        sigma: 1 sigma of a single sample at the recording's typical level.
+        floor: part of it that does not depend on the level.
+        relative: part that grows with the level, as a fraction of it.
+        correlation_s: integral correlation time; one sampling interval when white.
+        effective_rate_hz: independent samples a second.
+        quantum: smallest step between samples, 0 where none is visible.
+        period_s: sampling interval.
+        white: whether colour is below what can be told from white noise.
+    """
+
+    sigma: float
+    floor: float
+    relative: float
+    correlation_s: float
+    effective_rate_hz: float
+    quantum: float
+    period_s: float
+    white: bool
+
+    def at(self, level: FloatArray) -> FloatArray:
+        """1 sigma of single samples at given levels of the channel."""
+        return np.asarray(np.hypot(self.floor, self.relative * np.abs(level)), dtype=np.float64)
+
+
+def channel_noise(recording: Recording) -> Mapping[str, Noise]:
+    """Noise of every channel that has enough samples to show it.
+
+    Args:
+        recording: any recording; channels shorter than 40 samples are left out.
+
+    Returns:
+        Noise by channel name.
+    """
+    return {
+        name: series_noise(series)
+        for name, series in recording.channels.items()
+        if len(series) >= _MIN_SAMPLES
+    }
+
+
+def series_noise(series: Series) -> Noise:
+    """Noise of one channel, see :func:`channel_noise`."""
+    value, period_s = series.value, series.period_s
+    quantum = _quantum(value)
+    levels, local = _local_sigmas(value, max(12, round(_STRETCH_S / period_s)))
+    # A quantised channel at rest shows no difference at all; its error is still the rounding.
+    local = np.maximum(local, quantum / np.sqrt(12.0))
+    # a computed series may show none at all; a millionth of its spread keeps the weights finite
+    sigma = max(float(np.median(local)), 1e-6 * float(np.std(value)), 1e-12)
+    floor, relative = _level_dependence(levels, local, sigma)
+    coloured, correlation_s = _colour(value, sigma, period_s)
+    if coloured > sigma:
+        floor, relative = floor * coloured / sigma, relative * coloured / sigma
+        sigma = coloured
+    white = correlation_s <= period_s * (1.0 + 1e-9)
+    return Noise(
+        sigma=sigma,
+        floor=floor,
+        relative=relative,
+        correlation_s=correlation_s,
+        effective_rate_hz=1.0 / correlation_s,
+        quantum=quantum,
+        period_s=period_s,
+        white=white,
+    )
+
+
+def _quantum(value: FloatArray) -> float:
+    """Largest step of which all differences are multiples; 0 if the values are continuous.
+
+    Values printed with few digits are multiples only to within their last digit, hence the slack.
+    """
+    steps = np.abs(np.diff(value))
+    steps = steps[steps > 1e-12 * max(1.0, float(np.abs(value).max()))]
+    if steps.size < 5:
+        return 0.0
+    step = float(np.percentile(steps, 1))
+    near = steps[steps < 20.0 * step]
+    off = np.abs(near / step - np.round(near / step))
+    return step if near.size > 20 and float(np.percentile(off, 95)) < 0.03 else 0.0
+
+
+def _local_sigmas(value: FloatArray, length: int) -> tuple[FloatArray, FloatArray]:
+    """Mean level and noise of consecutive stretches of ``length`` samples."""
+    difference = np.diff(value, 4) / _DIFFERENCE_GAIN
+    count = max(1, difference.size // length)
+    parts = np.array_split(difference, count)
+    levels = np.array([np.mean(part) for part in np.array_split(value[2:-2], count)])
+    return levels, np.array([np.sqrt(np.mean(part**2)) for part in parts])
+
+
+def _level_dependence(levels: FloatArray, local: FloatArray, sigma: float) -> tuple[float, float]:
+    """Split local² = floor² + (relative * level)² where the level varies enough to show it."""
+    square = levels**2
+    spread = float(np.percentile(square, 90) - np.percentile(square, 10))
+    if levels.size < 6 or spread <= 0.25 * float(np.percentile(square, 90)):
+        return sigma, 0.0
+    high = square > np.median(square)
+    if not high.any():  # at its highest level most of the time, like a brake held on
+        return sigma, 0.0
+    low_var, high_var = float(np.median(local[~high] ** 2)), float(np.median(local[high] ** 2))
+    low_sq, high_sq = float(np.median(square[~high])), float(np.median(square[high]))
+    # Only a marked growth counts: a few stretches scatter by themselves.
+    if high_sq <= low_sq or high_var < 2.0 * low_var:
+        return sigma, 0.0
+    slope = (high_var - low_var) / (high_sq - low_sq)
+    return float(np.sqrt(max(low_var - slope * low_sq, 0.0))), float(np.sqrt(slope))
+
+
+def _colour(value: FloatArray, sigma: float, period_s: float) -> tuple[float, float]:
+    """Sigma of the residual about local cubics in the quieter half, and its correlation time."""
+    residual = value - savgol_filter(value, _LOCAL_CUBIC, 3)
+    pieces = np.array_split(residual, max(2, residual.size // (2 * _LOCAL_CUBIC)))
+    power = np.array([float(np.mean(piece**2)) for piece in pieces])
+    quiet = [k for k in np.argsort(power)[: max(1, power.size // 2)] if power[k] > 0.0]
+    if not quiet:
+        return sigma, period_s
+    seen = float(np.mean(power[quiet]))
+    if seen < _CLEAR_COLOUR**2 * _kept(0.0) * sigma**2:
+        return sigma, period_s
+    lagged = [float(np.mean(pieces[k][1:] * pieces[k][:-1])) / float(power[k]) for k in quiet]
+    first = float(np.clip(np.mean(lagged), 0.0, 0.98))
+    return float(np.sqrt(seen / _kept(first))), period_s * (1.0 + first) / (1.0 - first)
+
+
+def _kept(first: float) -> float:
+    """Share of the power of first-order noise (lag-one correlation given) that a cubic leaves."""
+    weights = -savgol_coeffs(_LOCAL_CUBIC, 3)
+    weights[_LOCAL_CUBIC // 2] += 1.0
+    return float(weights @ toeplitz(first ** np.arange(_LOCAL_CUBIC)) @ weights)

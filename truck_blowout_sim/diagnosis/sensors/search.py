@@ -1,0 +1,222 @@
+"""Which faults there are: one after another, each tested against all others.
+
+A fault is accepted if dropping its prior (its normal size) lowers the sum of squares by more than
+chance would, over all candidates together, and never if another accepted fault already explains
+the same. Candidates that do almost as well as the accepted one are its aliases.
+
+References: forward selection with backward check; family-wise error by Bonferroni.
+Validated with: test/diagnosis/test_sensors_gate.py (power, naming, false alarms).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from truck_blowout_sim.diagnosis.sensors.case import Applied, Case, Hypothesis
+from truck_blowout_sim.diagnosis.sensors.judgement import (
+    ALIAS_CHI2,
+    admissible,
+    family_p,
+    handicap,
+)
+from truck_blowout_sim.diagnosis.sensors.solve import Estimate, noise_inflation, refine, solve
+from truck_blowout_sim.diagnosis.sensors.system import System, assemble, normal_equations
+
+FloatArray = NDArray[np.float64]
+
+_FAMILY_P = 1e-4
+_MOST_FAULTS = 5
+_FORBIDDEN = 1e9
+_SHORTLIST = 4
+_WORTH_A_LOOK = 0.5  # share of the leader's linear gain that earns a nonlinear try
+
+
+@dataclass(frozen=True)
+class Found:
+    """An accepted fault.
+
+    Attributes:
+        hypothesis: what and where.
+        amounts: of its parameters.
+        covariance: of its parameters, all else free.
+        delta_chi2: rise of the sum of squares without it, everything else re-estimated.
+        p_value: chance of that anywhere among the candidates.
+        rivals: other hypotheses that do as well, best first, with their sums of squares above it.
+    """
+
+    hypothesis: Hypothesis
+    amounts: tuple[float, ...]
+    covariance: FloatArray
+    delta_chi2: float
+    p_value: float
+    rivals: tuple[tuple[Hypothesis, float], ...]
+
+
+@dataclass(frozen=True)
+class SearchResult:
+    """Accepted faults and what is left.
+
+    Attributes:
+        found: strongest first.
+        before: system as measured.
+        after: system with the faults taken out.
+        inflation: noise factor by identity with the faults taken out.
+        chi2: penalised sum of squares that is left, with ``rows`` rows.
+        rows: number of rows.
+        usual: estimates of the normal imperfections.
+        usual_in_baseline: the same in the baseline recordings.
+        usual_sigma: standard errors of ``usual``.
+    """
+
+    found: tuple[Found, ...]
+    before: System
+    after: System
+    inflation: Mapping[str, float]
+    chi2: float
+    rows: int
+    usual: FloatArray
+    usual_in_baseline: FloatArray
+    usual_sigma: FloatArray
+
+
+def search(case: Case) -> SearchResult:
+    """Find the sensor faults of a case."""
+    before = system = assemble(case)
+    chosen: list[Hypothesis] = []
+    rivals: dict[Hypothesis, tuple[tuple[Hypothesis, float], ...]] = {}
+    inflation = noise_inflation(before)
+    estimate = solve(case, normal_equations(before, inflation), ())
+    while len(chosen) < _MOST_FAULTS:
+        best = _next(case, system, chosen, estimate, inflation)
+        if best is None:
+            break
+        hypothesis, estimate, near = best
+        rivals[hypothesis] = near
+        chosen.append(hypothesis)
+        system = assemble(case, _amounts_out(chosen, estimate))
+        inflation = noise_inflation(system)
+        chosen, estimate = _pruned(case, chosen, estimate, inflation)
+        if hypothesis not in chosen:
+            break
+    return _summary(case, chosen, rivals, before, estimate)
+
+
+def _amounts_out(chosen: Sequence[Hypothesis], estimate: Estimate) -> tuple[Applied, ...]:
+    return tuple(Applied(h, a) for h, a in zip(chosen, estimate.amounts, strict=True))
+
+
+def _next(
+    case: Case, system: System, chosen: Sequence[Hypothesis], found: Estimate,
+    inflation: Mapping[str, float],
+) -> tuple[Hypothesis, Estimate, tuple[tuple[Hypothesis, float], ...]] | None:  # fmt: skip
+    """The best further hypothesis, the joint estimate, its rivals; ``None`` if none counts."""
+    normal = normal_equations(system, inflation)
+    base = solve(case, normal, chosen)
+    scored: list[tuple[float, int, Hypothesis]] = []
+    for order, hypothesis in enumerate(case.hypotheses):
+        if hypothesis in chosen:
+            continue
+        trial = solve(case, normal, [*chosen, hypothesis])
+        gain = base.chi2 - trial.chi2
+        size = len(hypothesis.distortion.parameters)
+        significant = family_p(gain, size, len(case.hypotheses)) < _FAMILY_P
+        if significant and admissible(hypothesis, trial.amounts[-1]):
+            scored.append((handicap(case, hypothesis) - gain, order, hypothesis))
+    if not scored:
+        return None
+    scored.sort()
+    return _refined_best(case, scored, chosen, found, inflation)
+
+
+def _refined_best(
+    case: Case, scored: Sequence[tuple[float, int, Hypothesis]], chosen: Sequence[Hypothesis],
+    found: Estimate, inflation: Mapping[str, float],
+) -> tuple[Hypothesis, Estimate, tuple[tuple[Hypothesis, float], ...]]:  # fmt: skip
+    """Compare the leaders at their own nonlinear optimum; the linear score ranks the rest."""
+    linear = {h: score for score, _, h in scored}
+    short = [h for score, _, h in scored if score < _WORTH_A_LOOK * scored[0][0]]
+    exact: dict[Hypothesis, float] = {}
+    estimates: dict[Hypothesis, Estimate] = {}
+    for hypothesis in short[:_SHORTLIST]:
+        start = [*found.amounts, (0.0,) * len(hypothesis.distortion.parameters)]
+        estimates[hypothesis] = refine(case, [*chosen, hypothesis], inflation, start)
+        exact[hypothesis] = estimates[hypothesis].chi2 + handicap(case, hypothesis)
+        if not admissible(hypothesis, estimates[hypothesis].amounts[-1]):
+            exact[hypothesis] += _FORBIDDEN
+    best = min(exact, key=lambda h: exact[h])
+    above = {h: value - exact[best] for h, value in exact.items() if h != best}
+    for hypothesis in short[_SHORTLIST:]:
+        above[hypothesis] = max(0.0, linear[hypothesis] - linear[best])
+    near = sorted((v, i, h) for i, (h, v) in enumerate(above.items()) if v <= ALIAS_CHI2)
+    return best, estimates[best], tuple((h, v) for v, _, h in near)
+
+
+def _pruned(
+    case: Case, chosen: Sequence[Hypothesis], estimate: Estimate, inflation: Mapping[str, float]
+) -> tuple[list[Hypothesis], Estimate]:
+    """Drop, weakest first, what later faults or the true noise have made insignificant."""
+    kept = list(chosen)
+    estimate = refine(case, kept, inflation, estimate.amounts)
+    while kept:
+        gains = [_gain(kept, estimate, k) for k in range(len(kept))]
+        doubtful = [
+            not admissible(h, a) or family_p(g, len(a), len(case.hypotheses)) >= _FAMILY_P
+            for h, a, g in zip(kept, estimate.amounts, gains, strict=True)
+        ]
+        if not any(doubtful):
+            break
+        weakest = int(np.argmin([g if d else np.inf for g, d in zip(gains, doubtful, strict=True)]))
+        amounts = [a for k, a in enumerate(estimate.amounts) if k != weakest]
+        del kept[weakest]
+        estimate = refine(case, kept, inflation, amounts)
+    return kept, estimate
+
+
+def _gain(chosen: Sequence[Hypothesis], estimate: Estimate, which: int) -> float:
+    """Rise of the sum of squares without one fault (Wald: all else re-estimated)."""
+    amounts, covariance = part(chosen, estimate, which)
+    return float(amounts @ np.linalg.solve(covariance, amounts))
+
+
+def part(
+    chosen: Sequence[Hypothesis], estimate: Estimate, which: int
+) -> tuple[FloatArray, FloatArray]:
+    """Amounts of one fault and their covariance."""
+    start = sum(len(h.distortion.parameters) for h in chosen[:which])
+    end = start + len(chosen[which].distortion.parameters)
+    return np.array(estimate.amounts[which]), estimate.covariance[start:end, start:end]
+
+
+def _summary(
+    case: Case, chosen: Sequence[Hypothesis],
+    rivals: Mapping[Hypothesis, tuple[tuple[Hypothesis, float], ...]],
+    before: System, estimate: Estimate,
+) -> SearchResult:  # fmt: skip
+    after = assemble(case, _amounts_out(chosen, estimate))
+    inflation = noise_inflation(after)
+    normal = normal_equations(after, inflation)
+    final = solve(case, normal, chosen)
+    found = []
+    for k, hypothesis in enumerate(chosen):
+        covariance = part(chosen, final, k)[1]
+        amounts = np.array(estimate.amounts[k])
+        gain = float(amounts @ np.linalg.solve(covariance, amounts))
+        p_value = family_p(gain, amounts.size, len(case.hypotheses))
+        found.append(
+            Found(hypothesis, estimate.amounts[k], covariance, gain, p_value,
+                  rivals.get(hypothesis, ()))
+        )  # fmt: skip
+    order = sorted(found, key=lambda f: -f.delta_chi2)
+    return SearchResult(
+        tuple(order), before, after, inflation, final.chi2, normal.count, final.usual,
+        final.usual_in_baseline, final.usual_sigma,
+    )  # fmt: skip
+
+
+def applied(found: Sequence[Found]) -> tuple[Applied, ...]:
+    """Found faults as amounts to take out."""
+    return tuple(Applied(f.hypothesis, f.amounts) for f in found)

@@ -1,0 +1,233 @@
+"""Least squares with priors on sums of squares, and how much noise the identities really have.
+
+Validated with: test/diagnosis/test_sensors_solve.py.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.linalg import cho_factor, cho_solve
+
+from truck_blowout_sim.diagnosis.sensors.case import Applied, Case, Hypothesis
+from truck_blowout_sim.diagnosis.sensors.distortions import Distortion
+from truck_blowout_sim.diagnosis.sensors.rows import Rows
+from truck_blowout_sim.diagnosis.sensors.system import Normal, System, assemble, normal_equations
+
+FloatArray = NDArray[np.float64]
+
+# How large a fault of each kind could conceivably be; keeps undetermined directions finite.
+_CONCEIVABLE = {"rad/s": 0.1, "1": 1.0, "s": 0.5, "m": 3.0}
+# Beyond these a "correction" would erase the channel it corrects, and every residual with it.
+_FARTHEST = {"rad/s": 0.5, "scale_error": 0.5, "roll_leak": 2.0, "s": 0.6, "m": 10.0}
+# Correlation of a normal error between the baseline runs and the others: it may change by its
+# own size from one day to the next.
+_REPEATS = 0.5
+_STEPS = 6
+_CONVERGED = 0.02  # of the parameter's own standard error
+_BLOCK = 10  # bumps of a block mean that shows coloured misfit
+
+
+@dataclass(frozen=True)
+class Estimate:
+    """Solution for one set of hypotheses.
+
+    Attributes:
+        chi2: penalised sum of squares that is left.
+        amounts: of each hypothesis.
+        covariance: of all amounts, in order.
+        usual: estimates of the normal imperfections.
+        usual_in_baseline: the same in the baseline recordings.
+        usual_sigma: standard errors of ``usual``.
+    """
+
+    chi2: float
+    amounts: tuple[tuple[float, ...], ...]
+    covariance: FloatArray
+    usual: FloatArray
+    usual_in_baseline: FloatArray
+    usual_sigma: FloatArray
+
+
+def solve(case: Case, normal: Normal, hypotheses: Sequence[Hypothesis]) -> Estimate:
+    """Estimate amounts of the given faults together with all normal imperfections.
+
+    Args:
+        case: names the columns.
+        normal: sums of squares.
+        hypotheses: faults allowed, without priors.
+    """
+    unknowns = _unknowns(case, normal.faults, hypotheses)
+    index = unknowns.column
+    gram, right = unknowns.prior.copy(), np.zeros(index.size)
+    for group, acts in enumerate((unknowns.in_recordings, unknowns.in_baseline)):
+        gram += normal.gram[group][np.ix_(index, index)] * np.outer(acts, acts)
+        right += normal.right[group][index] * acts
+    factor = cho_factor(gram, lower=True)
+    solution = cho_solve(factor, right)
+    inverse = cho_solve(factor, np.eye(index.size))
+    usual, first = case.prior_precision.size, unknowns.first_fault
+    amounts, at = [], first
+    for hypothesis in hypotheses:
+        size = len(hypothesis.distortion.parameters)
+        amounts.append(tuple(float(v) for v in solution[at : at + size]))
+        at += size
+    return Estimate(
+        chi2=normal.energy - float(right @ solution),
+        amounts=tuple(amounts),
+        covariance=inverse[first:, first:],
+        usual=solution[:usual],
+        usual_in_baseline=solution[first - usual : first],
+        usual_sigma=np.sqrt(np.diag(inverse)[:usual]),
+    )
+
+
+def refine(
+    case: Case, hypotheses: Sequence[Hypothesis], inflation: Mapping[str, float],
+    start: Sequence[tuple[float, ...]] | None = None,
+) -> Estimate:  # fmt: skip
+    """Gauss-Newton: take the faults out, estimate what is left of them, repeat.
+
+    Returns:
+        The estimate; amounts in full, not increments.
+    """
+    amounts = [np.zeros(len(h.distortion.parameters)) for h in hypotheses]
+    if start is not None:
+        amounts = [np.array(s, dtype=np.float64) for s in start]
+    for _ in range(_STEPS):
+        applied = [Applied(h, tuple(a)) for h, a in zip(hypotheses, amounts, strict=True)]
+        system = assemble(case, applied, [h.distortion for h in hypotheses])
+        estimate = solve(case, normal_equations(system, inflation), hypotheses)
+        steps = [np.array(step) for step in estimate.amounts]
+        amounts = [
+            _held(h, a + step) for h, a, step in zip(hypotheses, amounts, steps, strict=True)
+        ]
+        sigma = np.sqrt(np.diag(estimate.covariance))
+        if not hypotheses or np.all(np.abs(np.concatenate(steps)) <= _CONVERGED * sigma):
+            break
+    full = tuple(tuple(float(v) for v in a) for a in amounts)
+    return replace(estimate, amounts=full)
+
+
+def _held(hypothesis: Hypothesis, amounts: FloatArray) -> FloatArray:
+    """Amounts kept within what an instrument can do."""
+    limits = [
+        _FARTHEST[name if name in _FARTHEST else si_unit]
+        for name, si_unit in hypothesis.distortion.parameters
+    ]
+    return np.asarray(np.clip(amounts, -np.array(limits), np.array(limits)), dtype=np.float64)
+
+
+def noise_inflation(system: System) -> dict[str, float]:
+    """Factor by which each identity scatters more than its channels' noise explains.
+
+    Every candidate fault may act at once here, so a fault does not count as noise; what remains
+    is the identity's own misfit. Block means of a second catch misfit that is coloured.
+    """
+    inflation: dict[str, float] = {}
+    both = list(system.case.hypotheses)
+    for _ in range(2):
+        normal = normal_equations(system, inflation)
+        estimate = solve(system.case, normal, both)
+        inflation = _scatter(system, both, estimate)
+    return inflation
+
+
+@dataclass(frozen=True)
+class _Unknowns:
+    """Unknowns of one solution: normal errors, those of the baseline if any, then faults."""
+
+    column: NDArray[np.int64]
+    in_recordings: FloatArray
+    in_baseline: FloatArray
+    prior: FloatArray
+    first_fault: int
+
+
+def _unknowns(
+    case: Case, faults: Sequence[Distortion], hypotheses: Sequence[Hypothesis]
+) -> _Unknowns:
+    """Where each unknown's column is, where it acts, and what is known of it beforehand."""
+    usual = case.prior_precision
+    groups = 2 if any(case.is_baseline) else 1
+    start, at = {}, usual.size
+    for fault in faults:
+        start[fault] = at
+        at += len(fault.parameters)
+    column = list(range(usual.size)) * groups
+    everywhere, conceivable = [], []
+    for hypothesis in hypotheses:
+        for j, (_, si_unit) in enumerate(hypothesis.distortion.parameters):
+            column.append(start[hypothesis.distortion] + j)
+            everywhere.append(1.0 if hypothesis.everywhere else 0.0)
+            conceivable.append(1.0 / _CONCEIVABLE[si_unit] ** 2)
+    own = np.ones(usual.size)
+    first = groups * usual.size
+    prior = np.diag(np.concatenate([np.zeros(first), conceivable]))
+    between = np.linalg.inv(np.array([[1.0, _REPEATS], [_REPEATS, 1.0]])) if groups == 2 else [[1]]
+    prior[:first, :first] = np.kron(between, np.diag(usual))
+    return _Unknowns(
+        column=np.array(column),
+        in_recordings=np.concatenate(
+            [own, *([0.0 * own] * (groups - 1)), np.ones(len(everywhere))]
+        ),
+        in_baseline=np.concatenate([*([0.0 * own] * (groups - 1)), own, everywhere]),
+        prior=prior,
+        first_fault=first,
+    )
+
+
+def _scatter(
+    system: System, hypotheses: Sequence[Hypothesis], estimate: Estimate
+) -> dict[str, float]:
+    total: dict[str, list[FloatArray]] = {}
+    blocks: dict[str, list[FloatArray]] = {}
+    unknowns = _unknowns(system.case, system.faults, hypotheses)
+    amounts = [np.array(a) for a in estimate.amounts]
+    usual = [estimate.usual]
+    if unknowns.first_fault > estimate.usual.size:
+        usual.append(estimate.usual_in_baseline)
+    theta = np.concatenate([*usual, *amounts])
+    for rows, is_baseline in zip(system.rows, system.case.is_baseline, strict=True):
+        if rows is None:
+            continue
+        active = theta * (unknowns.in_baseline if is_baseline else unknowns.in_recordings)
+        left = rows.residual - rows.slopes[:, :, unknowns.column] @ active
+        variance = rows.variance
+        block_variance = _block_variance(rows)
+        for a, identity in enumerate(rows.identities):
+            valid = rows.valid[:, a]
+            if valid.sum() < 2 * _BLOCK:
+                continue
+            total.setdefault(identity.name, []).append(left[valid, a] ** 2 / variance[valid, a])
+            z = _block_means(left[:, a], valid)
+            blocks.setdefault(identity.name, []).append(z**2 / block_variance[a])
+    out = {}
+    for name, values in total.items():
+        square = float(np.mean(np.concatenate(values)))
+        slow = np.concatenate(blocks[name])
+        if slow.size >= 8:
+            square = max(square, float(np.mean(slow)) * (1.0 - 2.0 / np.sqrt(slow.size)))
+        out[name] = float(np.sqrt(max(1.0, square)))
+    return out
+
+
+def _block_variance(rows: Rows) -> FloatArray:
+    """Variance of the mean of consecutive rows of each identity."""
+    out = np.zeros(len(rows.identities))
+    for lag, block in enumerate(rows.blocks):
+        both = rows.valid[: block.shape[0]] & rows.valid[lag:]
+        own = np.where(both, np.einsum("kaa->ka", block), np.nan)
+        for a in np.flatnonzero(both.any(axis=0)):
+            out[a] += (1.0 if lag == 0 else 2.0) * (_BLOCK - lag) * float(np.nanmedian(own[:, a]))
+    return np.asarray(np.maximum(out / _BLOCK**2, 1e-30))
+
+
+def _block_means(left: FloatArray, valid: NDArray[np.bool_]) -> FloatArray:
+    count = left.size // _BLOCK
+    cut = slice(0, count * _BLOCK)
+    whole = valid[cut].reshape(count, _BLOCK).all(axis=1)
+    return np.asarray(left[cut].reshape(count, _BLOCK).mean(axis=1)[whole])

@@ -1,0 +1,195 @@
+"""Hand-wheel zero: the angle at which the truck runs straight.
+
+No kinematic identity reads the hand wheel. What there is: over a run, the wheel angle is
+proportional to front slip geometry (from measured velocity and yaw rate), lateral acceleration
+and yaw acceleration, plus a constant. The gains are free and shared by all runs; the constant of
+each run is its zero. Play in the steering, the driver's wander and tire non-linearity scatter it
+by a degree or two of hand wheel, which is why only several degrees are named here; a vehicle
+model with the right play can do better and gets the figures.
+
+References: single-track steering geometry, e.g. T. D. Gillespie, Fundamentals of Vehicle
+Dynamics, chapter 6.
+Known limits: a turned axle, a banked road or a steady side wind needs a held wheel as well; they
+also change sideslip, bend or roll on the straight, and then no sensor is blamed.
+Validated with: test/diagnosis/test_sensors_steering.py.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.stats import norm
+
+from truck_blowout_sim.diagnosis.sensors.distortions import Bias
+from truck_blowout_sim.diagnosis.sensors.findings import Amount, SensorFinding, SteeringZero
+from truck_blowout_sim.diagnosis.sensors.identities import channel_names
+from truck_blowout_sim.diagnosis.sensors.signals import Signals, smoothed
+from truck_blowout_sim.diagnosis.sensors.words import equation, next_test, sentence
+from truck_blowout_sim.recordings import Recording
+
+FloatArray = NDArray[np.float64]
+
+_WHEEL = "steering_wheel_angle_rad"
+_SMOOTH_S = 0.2
+_STRIDE_S = 0.25
+_BRAKE_FREE_PA = 8000.0
+_SLOWEST_MPS = 4.0
+_SCATTER_RAD = float(np.radians(1.4))  # between runs of one sound truck, from play and wander
+_NORMAL_ZERO_RAD = float(np.radians(1.1))  # 0.05 deg at the road wheel, ratio 22
+_SIGNIFICANT = 4.0
+_SAME_STANCE_RAD = float(np.radians(0.15))
+_LEAST_SAMPLES = 8
+
+
+@dataclass(frozen=True)
+class _Run:
+    """What is used of one run: wheel angle, motion that needs it, how the truck stands."""
+
+    name: str
+    is_baseline: bool
+    wheel: FloatArray
+    motion: FloatArray  # columns: r/vx, lateral and yaw acceleration, vy/vx
+    stance: FloatArray  # columns: sideslip, bend, roll
+
+
+def steering_zero(
+    signals: Sequence[Signals], is_baseline: Sequence[bool], recordings: Sequence[Recording]
+) -> tuple[SteeringZero | None, SensorFinding | None, tuple[str, ...]]:
+    """Estimate the hand-wheel zero and say whether its sensor is to blame.
+
+    Args:
+        signals: corrected for other sensor faults.
+        is_baseline: flag of each.
+        recordings: the same, for the hand wheel itself.
+
+    Returns:
+        The zero, a finding if it is far off, and notes.
+    """
+    runs = [
+        run
+        for s, b, r in zip(signals, is_baseline, recordings, strict=True)
+        for run in (_run(s, b, r),)
+        if run is not None
+    ]
+    if not any(not run.is_baseline for run in runs):
+        return None, None, ("hand-wheel zero: too little free rolling with the wheel measured",)
+    offsets = _intercepts([run.wheel for run in runs], [run.motion for run in runs])
+    here = [offsets[k] for k, run in enumerate(runs) if not run.is_baseline]
+    there = [offsets[k] for k, run in enumerate(runs) if run.is_baseline]
+    zero = SteeringZero(
+        offset_rad=float(np.mean(here)),
+        sigma_rad=_SCATTER_RAD / float(np.sqrt(len(here))),
+        baseline_rad=float(np.mean(there)) if there else None,
+        baseline_sigma_rad=_SCATTER_RAD / float(np.sqrt(len(there))) if there else None,
+        by_recording={run.name: float(o) for run, o in zip(runs, offsets, strict=True)},
+    )
+    finding, notes = _judge(zero, runs)
+    return zero, finding, notes
+
+
+def _judge(
+    zero: SteeringZero, runs: Sequence[_Run]
+) -> tuple[SensorFinding | None, tuple[str, ...]]:
+    if zero.baseline_rad is not None and zero.baseline_sigma_rad is not None:
+        offset = zero.offset_rad - zero.baseline_rad
+        sigma = float(np.hypot(zero.sigma_rad, zero.baseline_sigma_rad))
+    else:
+        offset = zero.offset_rad
+        sigma = float(np.hypot(zero.sigma_rad, _NORMAL_ZERO_RAD))
+    if abs(offset) < _SIGNIFICANT * sigma:
+        return None, ()
+    moved = _stance_change(runs)
+    if moved > _SAME_STANCE_RAD:
+        return None, (
+            f"the hand wheel is held {np.degrees(offset):.1f} deg off, but the truck also stands "
+            f"{np.degrees(moved):.2f} deg differently on the straight: not the sensor",
+        )
+    return _finding(offset, sigma), ()
+
+
+def _finding(offset: float, sigma: float) -> SensorFinding:
+    distortion = Bias("steering_angle_offset", "", "hand wheel", (_WHEEL,), "offset", "rad")
+    aliases = ("steering_angle_offset", "axle_misalignment")
+    half = 1.645 * sigma
+    return SensorFinding(
+        name="steering_angle_offset",
+        body="tractor",
+        instrument="hand wheel",
+        channels=(_WHEEL,),
+        parameters={"offset": Amount(offset, "rad", (offset - half, offset + half))},
+        delta_chi2=(offset / sigma) ** 2,
+        p_value=float(2.0 * norm.sf(abs(offset) / sigma)),
+        aliases=aliases,
+        alternatives=("axle_misalignment of the steer axle (same straight-line signature)",),
+        in_baseline=False,
+        sentence=sentence(distortion, (offset,), (sigma,)),
+        equation=equation("steering_angle_offset"),
+        next_test=next_test("steering_angle_offset", aliases[:1]),
+        distortion=distortion,
+    )
+
+
+def _run(signals: Signals, is_baseline: bool, recording: Recording) -> _Run | None:
+    n, m = channel_names("tractor"), channel_names("trailer")
+    if _WHEEL not in recording or any(n[key] not in signals for key in ("vx", "vy", "r")):
+        return None
+    width = _SMOOTH_S / signals.period_s
+    wheel = smoothed(recording.at(_WHEEL, signals.time_s), width)
+    vx, vy, r = (smoothed(signals[n[key]], width) for key in ("vx", "vy", "r"))
+    usable = _quiet(signals) & (vx > _SLOWEST_MPS)
+    stride = max(1, round(_STRIDE_S / signals.period_s))
+    chosen = np.flatnonzero(usable)[::stride]
+    if chosen.size < _LEAST_SAMPLES:
+        return None
+    lateral = np.gradient(vy, signals.period_s) + vx * r
+    turning = np.gradient(r, signals.period_s)
+    motion = np.column_stack([r / vx, lateral, turning, vy / vx])[chosen]
+    both = m["yaw"] in signals and n["yaw"] in signals
+    bend = smoothed(signals[m["yaw"]] - signals[n["yaw"]], width) if both else np.zeros_like(vx)
+    stance = np.column_stack([vy / vx, bend, smoothed(signals[n["roll"]], width)])[chosen]
+    return _Run(signals.name, is_baseline, wheel[chosen], motion, np.nan_to_num(stance))
+
+
+def _quiet(signals: Signals) -> NDArray[np.bool_]:
+    """Before any blowout, brakes off, away from the ends."""
+    quiet = np.ones(signals.time_s.size, dtype=bool)
+    edge = max(1, round(3.0 * _SMOOTH_S / signals.period_s))
+    quiet[:edge] = quiet[-edge:] = False
+    for since in signals.blown_since_s.values():
+        quiet &= signals.time_s < since
+    for name in signals.values:
+        if name.startswith("brake_pressure_"):
+            quiet &= signals[name] < _BRAKE_FREE_PA
+    return quiet
+
+
+def _intercepts(targets: Sequence[FloatArray], motions: Sequence[FloatArray]) -> FloatArray:
+    """Constant of each run; gains shared, long runs do not outweigh short ones."""
+    weights = [1.0 / np.sqrt(target.size) for target in targets]
+    wanted = np.concatenate([t * w for t, w in zip(targets, weights, strict=True)])
+    motion = np.vstack([m * w for m, w in zip(motions, weights, strict=True)])
+    which = np.concatenate([np.full(t.size, k) for k, t in enumerate(targets)])
+    own = (which[:, None] == np.arange(len(targets))) * np.array(weights)[which][:, None]
+    # A tiny ridge: straight runs alone do not determine the gains.
+    spread = motion.std(axis=0) + 1e-12
+    ridge = np.diag(1e-3 * np.concatenate([spread, np.zeros(len(targets))]))
+    a = np.vstack([np.hstack([motion, own]), ridge])
+    b = np.concatenate([wanted, np.zeros(ridge.shape[0])])
+    solution, *_ = np.linalg.lstsq(a, b, rcond=None)
+    return np.asarray(solution[motion.shape[1] :])
+
+
+def _stance_change(runs: Sequence[_Run]) -> float:
+    """Largest change of straight-line sideslip, bend or roll against the baseline."""
+    before = np.array([run.is_baseline for run in runs])
+    if not before.any():
+        return 0.0
+    motions = [run.motion[:, :3] for run in runs]
+    changes = []
+    for column in range(runs[0].stance.shape[1]):
+        stood = _intercepts([run.stance[:, column] for run in runs], motions)
+        changes.append(abs(float(stood[~before].mean() - stood[before].mean())))
+    return max(changes)

@@ -1,0 +1,173 @@
+"""What a diagnosis assumes, read from ``config/diagnosis/*.yaml``."""
+
+from __future__ import annotations
+
+import fnmatch
+import math
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass, fields
+from pathlib import Path
+from typing import Any
+
+import yaml
+
+from truck_blowout_sim.errors import InputError
+from truck_blowout_sim.resources import config_file
+from truck_blowout_sim.vehicle import Packed
+
+_TOP_KEYS = {"nuisances", "brake_gain_sigma", "channels", "method"}
+_KINDS = ("scale", "add")
+_ONLY = ("", "blowout", "brakes")
+_LEAST_SCALE = 0.1  # a number of the sheet never shrinks below this share
+_CHANNEL_KEYS = {"floor", "relative", "bias", "gain", "source"}
+_NUISANCE_KEYS = {"kind", "sigma", "step", "sign", "targets", "opposite", "only", "source"}
+
+
+@dataclass(frozen=True)
+class Nuisance:
+    """A number of the spec sheet that strays from truck to truck.
+
+    Attributes:
+        name: of the number; ``scale`` or ``add`` says how the amount enters.
+        sigma: 1 sigma of the amount; ``step`` its finite difference.
+        targets: packed names with the factor (+1 or -1) of the amount.
+        only: kind of run that shows it, or empty.
+    """
+
+    name: str
+    kind: str
+    sigma: float
+    step: float
+    targets: tuple[tuple[str, float], ...]
+    only: str = ""
+
+    def values(self, packed: Packed, amount: float) -> Mapping[str, float]:
+        """Packed parameters at an amount, starting from ``packed``."""
+        if self.kind == "scale":
+            return {n: packed[n] * max(1.0 + sign * amount, _LEAST_SCALE)
+                    for n, sign in self.targets}
+        return {n: packed[n] + sign * amount for n, sign in self.targets}
+
+
+@dataclass(frozen=True)
+class ChannelRule:
+    """How far good models of one truck differ in a channel, and how a normal instrument errs."""
+
+    floor: float
+    relative: float
+    bias: float = 0.0
+    gain: float = 0.0
+
+
+@dataclass(frozen=True)
+class Settings:
+    """Everything the method assumes.
+
+    Attributes:
+        nuisances: spec-sheet numbers with priors, made for one vehicle.
+        channels: rules by a piece of the channel's name.
+        bin_s, skip_s, correlation_s: averaging time, start left out, duration of a difference.
+        accept_delta: fall of the sum of squares that a named effect must buy.
+        keep_within: share of the evidence within which explanations count as aliases.
+        expected_level, unknown_level: sum of squares a row when nothing is missing, and from which
+            on something must be.
+    """
+
+    nuisances: tuple[Nuisance, ...]
+    channels: Mapping[str, ChannelRule]
+    bin_s: float
+    skip_s: float
+    correlation_s: float
+    accept_delta: float
+    keep_within: float
+    expected_level: float
+    unknown_level: float
+
+    def rule(self, channel: str) -> ChannelRule | None:
+        """The rule of a channel, None for channels the diagnosis does not use."""
+        for piece, rule in self.channels.items():
+            matches = channel.endswith(piece) if piece.startswith("_") else piece in channel
+            if matches:
+                return rule
+        return None
+
+
+def load_settings(packed: Packed, name: str = "default") -> Settings:
+    """Read the settings and expand them for one vehicle.
+
+    Raises:
+        InputError: unknown or missing key, or no number where one belongs; says file and key.
+    """
+    path = config_file("diagnosis", name)
+    try:
+        tree = yaml.safe_load(path.read_text(encoding="utf-8"))
+    except (yaml.YAMLError, UnicodeDecodeError) as error:
+        raise InputError(f"not YAML: {error}", file=path) from None
+    _check(path, "", tree, _TOP_KEYS, _TOP_KEYS)
+    for part in ("nuisances", "channels"):
+        _check(path, part, tree[part], set(tree[part] or ()))
+    method_keys = {f.name for f in fields(Settings)} - {"nuisances", "channels"}
+    _check(path, "method", tree["method"], method_keys, method_keys)
+    nuisances = [_nuisance(path, key, entry, packed) for key, entry in tree["nuisances"].items()]
+    nuisances += _brake_gains(packed, _number(path, "brake_gain_sigma", tree["brake_gain_sigma"],
+                                              "value"))
+    method = {key: _number(path, f"method.{key}", entry, "value")
+              for key, entry in tree["method"].items()}
+    channels = {key: _rule(path, key, entry) for key, entry in tree["channels"].items()}
+    return Settings(tuple(n for n in nuisances if n.targets), channels, **method)
+
+
+def _nuisance(path: Path, name: str, entry: Mapping[str, Any], packed: Packed) -> Nuisance:
+    """One nuisance with its wildcards expanded; without targets if the vehicle has none."""
+    where = f"nuisances.{name}"
+    _check(path, where, entry, _NUISANCE_KEYS, {"kind", "targets"})
+    kind, only = entry["kind"], entry.get("only", "")
+    if kind not in _KINDS or only not in _ONLY:
+        wrong, known = (kind, _KINDS) if kind not in _KINDS else (only, _ONLY)
+        raise InputError(f"{wrong!r}", file=path, where=where,
+                         expected="one of " + ", ".join(k for k in known if k))
+    sign = _number(path, where, {"sign": 1.0, **entry}, "sign")
+    targets = [(n, sign) for pattern in entry["targets"] for n in _expand(packed, pattern)]
+    opposite = entry.get("opposite", ())
+    targets += [(n, -sign) for pattern in opposite for n in _expand(packed, pattern)]
+    return Nuisance(name, kind, _number(path, where, entry, "sigma"),
+                    _number(path, where, entry, "step"), tuple(targets), only)
+
+
+def _brake_gains(packed: Packed, sigma: float) -> list[Nuisance]:
+    """One nuisance for the brake of each hub."""
+    return [Nuisance(f"brake_gain_{hub}", "scale", sigma, 0.05, ((f"hub.{hub}.brake_gain", 1.0),),
+                     "brakes") for hub in packed.vehicle.hubs]
+
+
+def _expand(packed: Packed, pattern: str) -> list[str]:
+    """Packed names that match; none if the vehicle lacks them."""
+    return [n for n in packed.index if fnmatch.fnmatchcase(n, pattern)]
+
+
+def _rule(path: Path, name: str, entry: Mapping[str, Any]) -> ChannelRule:
+    where = f"channels.{name}"
+    _check(path, where, entry, _CHANNEL_KEYS, {"floor", "relative"})
+    return ChannelRule(**{k: _number(path, where, entry, k) for k in entry if k != "source"})
+
+
+def _number(path: Path, where: str, entry: Mapping[str, Any], key: str) -> float:
+    """A finite number under ``key``."""
+    _check(path, where, entry, set(entry) if isinstance(entry, Mapping) else set(), {key})
+    value = entry[key]
+    if isinstance(value, bool) or not isinstance(value, (int, float)) or not math.isfinite(value):
+        raise InputError(f"{key} is {value!r}", file=path, where=where, expected="a number")
+    return float(value)
+
+
+def _check(path: Path, where: str, entry: object, known: set[str],
+           needed: Collection[str] = ()) -> None:
+    """A mapping with all needed keys and none but the known ones."""
+    if not isinstance(entry, Mapping):
+        raise InputError(f"{entry!r}", file=path, where=where, expected="keys with values")
+    if unknown := set(entry) - known:
+        raise InputError(f"unknown key {min(map(str, unknown))!r}", file=path, where=where,
+                         expected="one of " + ", ".join(sorted(known)))
+    if missing := set(needed) - set(entry):
+        raise InputError(f"key {min(missing)!r} is missing", file=path, where=where,
+                         expected="each of " + ", ".join(sorted(needed)))

@@ -1,0 +1,230 @@
+"""The case under study: runs, the calibrated truck, residuals and nuisance columns, stacked.
+
+Rows of the stack: baseline runs first (nothing missing there), then training runs. Nuisances are
+shared by all runs of the case; an effect acts in training only.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from truck_blowout_sim.diagnosis.hypothesis import Hypothesis
+from truck_blowout_sim.diagnosis.linear import Projector
+from truck_blowout_sim.diagnosis.runs import Run, simulate_bins
+from truck_blowout_sim.diagnosis.settings import Nuisance, Settings
+from truck_blowout_sim.simulation.equilibrium import initial_vector
+from truck_blowout_sim.vehicle import Packed
+
+Floats = NDArray[np.float64]
+Progress = Callable[[str, float], None]
+FURTHEST = 3.0  # prior sigmas a number of the sheet may stray
+_START_SPEED_SIGMA_MPS = 0.02
+_START_SPEED_STEP_MPS = 0.1
+
+
+@dataclass(eq=False)
+class Study:
+    """A case being worked on.
+
+    Attributes:
+        runs: baseline and training; ``holdout``: predicted only.
+        packed: the truck at its reference (sheet, then calibrated).
+        settings: assumptions; ``workers``: threads.
+        models: bin means of the model for each of ``runs`` as it stands now.
+        columns: [rows, k] nuisance columns over ``runs``, scaled by prior sigma.
+        holdout_models, holdout_columns: the same, run by run, for holdout.
+        names: of the nuisances, in the order of the columns.
+        amounts: calibrated amount of each sheet nuisance, in prior sigmas.
+    """
+
+    runs: tuple[Run, ...]
+    holdout: tuple[Run, ...]
+    packed: Packed
+    settings: Settings
+    workers: int = 2
+    models: list[Floats] = field(default_factory=list)
+    columns: Floats = field(default_factory=lambda: np.zeros((0, 0)))
+    holdout_models: list[Floats] = field(default_factory=list)
+    holdout_columns: list[Floats] = field(default_factory=list)
+    names: tuple[str, ...] = ()
+    amounts: dict[str, float] = field(default_factory=dict)
+    simulations: int = 0
+    _projectors: dict[frozenset[str], tuple[Projector, list[int]]] = field(default_factory=dict)
+
+    @property
+    def train(self) -> tuple[int, ...]:
+        """Positions of the training runs in ``runs``."""
+        return tuple(i for i, run in enumerate(self.runs) if run.role == "train")
+
+    @property
+    def baseline(self) -> tuple[int, ...]:
+        """Positions of the baseline runs in ``runs``."""
+        return tuple(i for i, run in enumerate(self.runs) if run.role == "baseline")
+
+    def projector(self, hypotheses: Sequence[Hypothesis] = ()) -> Projector:
+        """Projector without the nuisances that mean the same as one of the hypotheses."""
+        drop = frozenset(h.meaning(self.packed.vehicle) for h in hypotheses)
+        if drop not in self._projectors:
+            keep = [k for k, name in enumerate(self.names) if name not in drop]
+            self._projectors[drop] = (Projector.of(self.columns[:, keep]), keep)
+        return self._projectors[drop][0]
+
+    def kept(self, hypotheses: Sequence[Hypothesis] = ()) -> list[int]:
+        """Positions of the nuisances that :meth:`projector` keeps."""
+        self.projector(hypotheses)
+        drop = frozenset(h.meaning(self.packed.vehicle) for h in hypotheses)
+        return self._projectors[drop][1]
+
+    def simulate(self, jobs: Sequence[tuple[Run, Packed]]) -> list[Floats]:
+        """Bin means of many (run, truck) pairs."""
+        self.simulations += len(jobs)
+        return simulate_bins([r for r, _ in jobs], [t for _, t in jobs], self.workers)
+
+    def stack(self, parts: Mapping[int, Floats]) -> Floats:
+        """Join whitened vectors of some runs into one over all rows, zero elsewhere."""
+        return np.concatenate([parts.get(i, np.zeros(run.measured.size))
+                               for i, run in enumerate(self.runs)])
+
+    def residual(self, models: Mapping[int, Floats] | None = None) -> Floats:
+        """Whitened measured - model over all rows; ``models`` replaces some runs' models."""
+        models = models or {}
+        return self.stack({i: run.residual(models.get(i, self.models[i]))
+                           for i, run in enumerate(self.runs)})
+
+    def update_models(self, trucks: Mapping[int, Packed] | None = None) -> None:
+        """Simulate every run at the reference, or at the given trucks."""
+        trucks = trucks or {}
+        self.models = self.simulate([(run, trucks.get(i, self.packed))
+                                     for i, run in enumerate(self.runs)])
+
+
+def build_columns(study: Study, progress: Progress | None = None) -> None:
+    """Fill the nuisance columns of all runs, holdout too, at the present reference."""
+    everything = [*study.runs, *study.holdout]
+    bases = [*study.models, *study.holdout_models]
+    sheet = study.settings.nuisances
+    shown = [[bool(run.shows(n.only)) for n in sheet] for run in everything]
+    jobs: list[tuple[Run, Packed]] = []
+    for run, flags in zip(everything, shown, strict=True):
+        jobs += [(run, study.packed.with_values(n.values(study.packed, n.step)))
+                 for n, flag in zip(sheet, flags, strict=True) if flag]
+        jobs.append((_faster(run), study.packed))
+    results = iter(_with_progress(study, jobs, "sensitivities", progress))
+    blocks = []
+    for k, (run, flags, base) in enumerate(zip(everything, shown, bases, strict=True)):
+        own = [run.change(next(results), base) * (n.sigma / n.step) if flag
+               else np.zeros(base.size) for n, flag in zip(sheet, flags, strict=True)]
+        start = run.change(next(results), base) * (_START_SPEED_SIGMA_MPS / _START_SPEED_STEP_MPS)
+        starts = [start if j == k else np.zeros(base.size) for j in range(len(everything))]
+        blocks.append(np.stack([*own, *starts, *instrument_columns(study, run)], axis=1))
+    n_runs = len(study.runs)
+    study.columns = np.concatenate(blocks[:n_runs], axis=0)
+    study._projectors.clear()
+    study.holdout_columns = blocks[n_runs:]
+    study.names = (*(n.name for n in sheet), *(f"start speed of {r.recording.name}"
+                                               for r in everything), *instrument_names(study))
+
+
+def _with_progress(study: Study, jobs: Sequence[tuple[Run, Packed]], what: str,
+                   progress: Progress | None) -> list[Floats]:
+    """Simulate in portions so that progress can be told."""
+    done: list[Floats] = []
+    portion = max(len(jobs) // 20, 8)
+    for first in range(0, len(jobs), portion):
+        done += study.simulate(jobs[first:first + portion])
+        if progress:
+            progress(what, len(done) / len(jobs))
+    return done
+
+
+def _faster(run: Run) -> Run:
+    """The same run begun a little faster."""
+    initial = replace(run.drive.initial,
+                      speed_mps=run.drive.initial.speed_mps + _START_SPEED_STEP_MPS)
+    return replace(run, drive=replace(run.drive, initial=initial))
+
+
+def instrument_names(study: Study) -> tuple[str, ...]:
+    """Names of the mounting errors and gains of all channels of the case."""
+    channels = dict.fromkeys(c for run in (*study.runs, *study.holdout) for c in run.channels)
+    names = []
+    for channel in channels:
+        rule = study.settings.rule(channel)
+        if rule and rule.bias:
+            names.append(f"bias of {channel}")
+        if rule and rule.gain:
+            names.append(f"gain of {channel}")
+    return tuple(names)
+
+
+def instrument_columns(study: Study, run: Run) -> list[Floats]:
+    """Whitened columns of a normal instrument's constant error and gain, for one run."""
+    columns = []
+    for name in instrument_names(study):
+        kind, channel = name.split(" of ")
+        column = np.zeros(run.measured.shape)
+        if channel in run.channels:
+            k = run.channels.index(channel)
+            rule = study.settings.rule(channel)
+            assert rule is not None
+            value = rule.bias if kind == "bias" else rule.gain * run.measured[:, k]
+            column[:, k] = np.nan_to_num(value / run.sigma[:, k], nan=0.0)
+        columns.append(column.ravel())
+    return columns
+
+
+def calibrate(study: Study, rounds: int = 2, progress: Progress | None = None) -> None:
+    """Move the reference to the sheet numbers that the baseline runs ask for.
+
+    Without baseline runs, training runs serve, with the same priors; what they ask for is then
+    shared between calibration and effects by the joint fit that follows.
+    """
+    warm_up(study)
+    study.update_models()
+    study.holdout_models = study.simulate([(run, study.packed) for run in study.holdout])
+    build_columns(study, progress)
+    chosen = study.baseline
+    if not chosen:
+        return
+    sheet = study.settings.nuisances
+    total = np.zeros(len(sheet))
+    start = study.packed
+    rows = row_ranges(study)
+    columns = np.concatenate([study.columns[rows[i]] for i in chosen])
+    projector = Projector.of(columns)
+    for _ in range(rounds):
+        residual = np.concatenate([study.runs[i].residual(study.models[i]) for i in chosen])
+        # columns explain measured - model as + J amount; keep the prior centred on the sheet
+        residual = residual + columns[:, :len(sheet)] @ total
+        total = np.clip(projector.amounts(residual)[:len(sheet)], -FURTHEST, FURTHEST)
+        study.packed = apply_amounts(start, sheet, total)
+        study.update_models()
+    study.holdout_models = study.simulate([(run, study.packed) for run in study.holdout])
+    study.amounts = dict(zip((n.name for n in sheet), total.tolist(), strict=True))
+
+
+def warm_up(study: Study) -> None:
+    """Settle the reference truck once for each run, so that its variants settle quickly."""
+    def warmed(run: Run) -> Run:
+        state = initial_vector(study.packed, run.drive.initial, run.drive.step_s)
+        return replace(run, drive=replace(run.drive, warm=state))
+    study.runs = tuple(warmed(run) for run in study.runs)
+    study.holdout = tuple(warmed(run) for run in study.holdout)
+
+
+def row_ranges(study: Study) -> list[slice]:
+    """Rows of each run in the stack."""
+    ends = np.cumsum([run.measured.size for run in study.runs])
+    return [slice(int(end - run.measured.size), int(end))
+            for end, run in zip(ends, study.runs, strict=True)]
+
+
+def apply_amounts(packed: Packed, sheet: Sequence[Nuisance], amounts: Floats) -> Packed:
+    """The truck with nuisances at the given amounts [prior sigmas], one after another."""
+    for nuisance, amount in zip(sheet, amounts, strict=True):
+        packed = packed.with_values(nuisance.values(packed, float(amount) * nuisance.sigma))
+    return packed

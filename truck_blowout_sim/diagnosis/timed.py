@@ -1,0 +1,166 @@
+"""Effects that begin at an instant: find the instant in each run, then the amount.
+
+Linear first: the response to the effect switched on at each grid time is simulated once; for a
+pulse the responses to short windows add up. Then the instants are refined by simulation.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.linalg import cho_solve
+
+from truck_blowout_sim.diagnosis.attribute import Ranked, with_effects
+from truck_blowout_sim.diagnosis.effects import Effect
+from truck_blowout_sim.diagnosis.hypothesis import Hypothesis
+from truck_blowout_sim.diagnosis.linear import Projector, score
+from truck_blowout_sim.diagnosis.refit import chi2_of, models_at
+from truck_blowout_sim.diagnosis.result_parts import Place
+from truck_blowout_sim.diagnosis.runs import Run
+from truck_blowout_sim.diagnosis.study import Study, row_ranges
+
+Floats = NDArray[np.float64]
+Times = Mapping[str, tuple[float, float]]
+_GRID_S = 1.0
+_MOST_INSTANTS = 20
+_MARGIN_S = 0.5
+_REFINE_S = (0.5, 0.25, 0.12, 0.06, 0.03)
+
+
+def grid_of(run: Run) -> Floats:
+    """Instants tried in a run."""
+    return np.arange(run.edges_s[0] + _MARGIN_S, run.edges_s[-1] - _MARGIN_S, spacing_s(run))
+
+
+def spacing_s(run: Run) -> float:
+    """Distance of the instants tried in a run: a second, more in long runs."""
+    return max(_GRID_S, float(run.edges_s[-1] - run.edges_s[0]) / _MOST_INSTANTS)
+
+
+def scan(study: Study, projector: Projector, effect: Effect, place: Place,
+         named: Sequence[Hypothesis] = ()) -> Ranked:
+    """Best instants on the grid in all training runs, and the common amount."""
+    step = effect.amount.step
+    jobs, keys = [], []
+    for i in study.train:
+        run = study.runs[i]
+        truck = with_effects(study.packed, named, run.recording.name)
+        grid = grid_of(study.runs[i])
+        for k, time in enumerate(grid):
+            end = time + spacing_s(study.runs[i]) if effect.timing == "pulse" else np.inf
+            trial = Hypothesis(effect, place, step, {run.recording.name: (float(time), end)})
+            jobs.append((run, trial.apply(truck, run.recording.name)))
+            keys.append((i, k))
+    results = dict(zip(keys, study.simulate(jobs), strict=True))
+    residual = study.residual()
+    removed = projector.remove(residual)
+    best: Ranked | None = None
+    for sign in (1.0, -1.0):
+        found = _best_of_sign(study, projector, effect, place, results, residual, removed, sign)
+        if best is None or found.delta > best.delta:
+            best = found
+    assert best is not None
+    return best
+
+
+def _best_of_sign(study: Study, projector: Projector, effect: Effect, place: Place,
+                  results: Mapping[tuple[int, int], Floats], residual: Floats, removed: Floats,
+                  sign: float) -> Ranked:
+    """Choose the instants for a positive or a negative amount, run by run, then join them."""
+    low = max(effect.amount.low, 0.0) if sign > 0 else effect.amount.low
+    high = effect.amount.high if sign > 0 else min(effect.amount.high, 0.0)
+    times: dict[str, tuple[float, float]] = {}
+    total = np.zeros(residual.size)
+    for i in study.train:
+        run, grid = study.runs[i], grid_of(study.runs[i])
+        single = [run.change(results[(i, k)], study.models[i]) / effect.amount.step
+                  for k in range(grid.size)]
+        delta, span, column = _best_span(study, projector, effect, i, grid, single, residual,
+                                         removed, low, high)
+        if delta > 4.0:
+            times[run.recording.name] = span
+            total = total + study.stack({i: column})
+    found = score(projector, residual, removed, total, low, high)
+    return Ranked(Hypothesis(effect, place, found.amount, times), found.delta, found.sigma,
+                  evidence=found.delta)
+
+
+def _best_span(study: Study, projector: Projector, effect: Effect, i: int, grid: Floats,
+               single: Sequence[Floats], residual: Floats, removed: Floats, low: float, high: float
+               ) -> tuple[float, tuple[float, float], Floats]:
+    """Best instant (or interval, for pulses) in one run."""
+    rows = row_ranges(study)[i]
+    part = removed[rows]
+    matrix = np.stack(single, axis=1)
+    own = projector.columns[rows]
+    reach = own.T @ matrix
+    gram = matrix.T @ matrix - reach.T @ cho_solve(projector.factor, reach)
+    gradient = matrix.T @ part
+    best = (0.0, (float(grid[0]), np.inf), matrix[:, 0])
+    for first in range(grid.size):
+        lasts = range(first, grid.size) if effect.timing == "pulse" else (first,)
+        for last in lasts:
+            pick = np.arange(first, last + 1)
+            information = float(gram[np.ix_(pick, pick)].sum())
+            slope = float(gradient[pick].sum())
+            if information < 1e-12:
+                continue
+            amount = float(np.clip(slope / information, low, high))
+            delta = 2.0 * amount * slope - amount**2 * information
+            if delta > best[0]:
+                end = float(grid[last]) + spacing_s(study.runs[i])
+                end = end if effect.timing == "pulse" else np.inf
+                best = (delta, (float(grid[first]), end), matrix[:, pick].sum(axis=1))
+    return best
+
+
+def refine_times(study: Study, start: Ranked, chi2_null: float,
+                 named: Sequence[Hypothesis] = ()) -> Ranked:
+    """Move each run's instants by simulation, coarse to fine, at the present amount."""
+    projector = study.projector([*named, start.hypothesis])
+    best = start.hypothesis
+    models = models_at(study, [best], named)[0]
+    fall = chi2_null - chi2_of(study, projector, models)
+    for width in _REFINE_S:
+        for i in study.train:
+            name = study.runs[i].recording.name
+            if name not in best.times:
+                continue
+            trials = _moved(best, name, width, best.effect.timing == "pulse")
+            truck = with_effects(study.packed, named, name)
+            results = study.simulate([(study.runs[i], t.apply(truck, name)) for t in trials])
+            falls = [chi2_null - chi2_of(study, projector, {**models, i: r}) for r in results]
+            k = int(np.argmax(falls))
+            if falls[k] > fall:
+                best, fall = trials[k], falls[k]
+                models[i] = results[k]
+    bonus = max(start.evidence - start.delta, 0.0)
+    return Ranked(best, fall, start.sigma, refitted=True, evidence=fall + bonus)
+
+
+def _moved(hypothesis: Hypothesis, run: str, width: float, pulse: bool) -> list[Hypothesis]:
+    """The hypothesis with one run's start (and end) moved to either side."""
+    start, end = hypothesis.times[run]
+    spans = [(start - width, end), (start + width, end)]
+    if pulse:
+        spans += [(start, end - width), (start, end + width)]
+    return [replace(hypothesis, times={**hypothesis.times, run: span})
+            for span in spans if span[1] > span[0] + 0.05]
+
+
+def onset_interval(study: Study, found: Ranked, run: str,
+                   named: Sequence[Hypothesis] = ()) -> tuple[float, float]:
+    """90 % interval of a run's onset from the curvature of the sum of squares."""
+    projector = study.projector([*named, found.hypothesis])
+    start, end = found.hypothesis.times[run]
+    width = 0.05
+    trials = [replace(found.hypothesis, times={**found.hypothesis.times, run: (start + d, end)})
+              for d in (-width, 0.0, width)]
+    left, middle, right = (chi2_of(study, projector, m)
+                           for m in models_at(study, trials, named))
+    curvature = max((left - 2.0 * middle + right) / width**2, 1e-6)
+    spread = 1.645 * float(np.sqrt(2.0 / curvature))
+    return start - spread, start + spread

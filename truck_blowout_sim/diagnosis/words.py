@@ -1,0 +1,84 @@
+"""Sentences a driver could check and equations an engineer could."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from truck_blowout_sim.diagnosis.hypothesis import Hypothesis
+from truck_blowout_sim.diagnosis.law import Law
+from truck_blowout_sim.diagnosis.result import Effect, Verdict
+from truck_blowout_sim.diagnosis.search import Found
+from truck_blowout_sim.diagnosis.sensors import GateResult
+from truck_blowout_sim.diagnosis.study import Study
+
+_SPLITTERS = (
+    ("hub_speed_", "wheel speeds", "which wheel drags, brakes or slips"),
+    ("tire_pressure_", "tire pressures", "a failing tire from a moving load or a dragging brake"),
+    ("brake_chamber_", "brake chamber pressures", "late or weak pressure from weak brakes"),
+    ("trailer_yaw_rate_radps", "trailer yaw rate", "a force on the trailer from one ahead of it"),
+    ("trailer_ay_mps2", "trailer lateral acceleration", "where on the trailer a side force acts"),
+    ("tractor_roll_rad", "roll angle", "roll steer from steering compliance"),
+    ("throttle", "throttle", "driveline drag from drag of the truck"),
+)
+
+
+def fill(hypothesis: Hypothesis, value: float, onset_s: float | None) -> tuple[str, str]:
+    """Sentence and equation of an effect, the numbers filled in."""
+    where = str(hypothesis.place) or "truck"
+    onset = f"{onset_s:.2f} s" if onset_s is not None else "the start"
+    blanks = {"where": where, "value": f"{value:.3g}", "onset": onset,
+              "percent": f"{100.0 * value:.2g}", "percent_of": f"{100.0 * value:.0f}"}
+    effect = hypothesis.effect
+    return effect.sentence.format(**blanks), effect.equation.format(**blanks)
+
+
+def verdict_sentence(verdict: Verdict, effects: Sequence[Effect],
+                     pulled: Sequence[tuple[str, float]], law: Law) -> str:
+    """The verdict in one sentence."""
+    if verdict == "consistent":
+        return ("The model explains these recordings within what instruments and trucks of one "
+                "kind differ; nothing is missing that they could show.")
+    if verdict == "miscalibrated":
+        names = ", ".join(f"{n.replace('_', ' ')} ({a:+.1f} sigma)" for n, a in pulled[:3])
+        return f"No physics is missing, but the sheet is off: {names}."
+    if verdict == "unknown":
+        return (f"Something acts on the {law.body} that no known effect explains; its plainest law "
+                f"is {law.equation}, which left-out windows confirm to "
+                f"{100.0 * law.explained:.0f} percent.")
+    return " ".join(effect.sentence for effect in effects)
+
+
+def next_test(found: Found, gate: GateResult) -> str:
+    """The run or channel that would decide, or confirm."""
+    for rivals in found.rivals:
+        if len({r.hypothesis.effect.name for r in rivals}) > 1:
+            pair = [r.hypothesis.effect for r in rivals[:2]]
+            return f"To tell {pair[0].name} from {pair[1].name}: {pair[0].splits}."
+    for finding in gate.findings:
+        return finding.next_test
+    if found.named:
+        return f"To confirm: {found.named[0].hypothesis.effect.splits}."
+    return "None is needed for these manoeuvres; a harder one would test more of the model."
+
+
+def assumptions(study: Study) -> tuple[str, ...]:
+    """Everything that was taken for granted."""
+    base = ["All recordings are of one truck with one set of instruments.",
+            "Hand wheel, throttle and brake pressures are as recorded.",
+            "Sheet numbers stray from truck to truck as config/diagnosis states.",
+            f"Model differences last about {study.settings.correlation_s:g} s."]
+    if study.baseline:
+        base.append("What is missing is not at work in the baseline recordings.")
+    else:
+        base.append("Without baseline recordings, the effect may be at work in every run.")
+    if any(run.drive.speed_imposed for run in study.runs):
+        base.append("Speed is imposed where throttle or brakes were not recorded.")
+    return tuple(base)
+
+
+def missing_channels(study: Study) -> tuple[tuple[str, str], ...]:
+    """Channels no run has, and what each would have told apart."""
+    have = {c for run in study.runs for c in run.recording.channels}
+    return tuple((label, splits) for piece, label, splits in _SPLITTERS
+                 if not any(piece in c for c in have)
+                 and (not piece.startswith("trailer") or len(study.packed.vehicle.units) > 1))
