@@ -1,0 +1,192 @@
+"""Real nodes as processes, real messages over DDS, a domain to themselves."""
+
+from __future__ import annotations
+
+import fcntl
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Callable, Iterator
+from contextlib import suppress
+from pathlib import Path
+from typing import IO, Any
+
+import pytest
+
+pytest.importorskip("rclpy", reason="rclpy is not installed")
+
+import rclpy
+from rclpy.context import Context
+from rclpy.node import Node
+from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
+
+from truck_blowout_sim.nodes.runtime import new_executor
+
+REPOSITORY = Path(__file__).resolve().parents[2]
+LATCHED = QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+DEEP = QoSProfile(depth=5000, reliability=ReliabilityPolicy.RELIABLE)
+
+# UDP leaves nothing in shared memory when a node is killed.
+TRANSPORT = {
+    "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
+    "FASTDDS_BUILTIN_TRANSPORTS": "UDPv4",
+}
+
+
+def _lock_a_domain() -> tuple[int, IO[str]]:
+    for domain in range(10, 100):
+        handle = (Path(tempfile.gettempdir()) / f"truck_blowout_sim_domain_{domain}.lock").open("w")
+        try:
+            fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except OSError:
+            handle.close()
+        else:
+            return domain, handle
+    raise RuntimeError("no free ROS domain")
+
+
+@pytest.fixture(scope="session")
+def domain() -> Iterator[int]:
+    """A ROS domain that no other test process on this machine uses."""
+    number, handle = _lock_a_domain()
+    os.environ.update(TRANSPORT)
+    yield number
+    handle.close()
+
+
+class Running:
+    """A node in a process of its own."""
+
+    def __init__(self, words: list[str], env: dict[str, str], log: Path, **options: Any) -> None:  # noqa: ANN401
+        self.log_path = log
+        self._log = log.open("w")
+        self.process = subprocess.Popen(
+            words, env=env, stdout=self._log, stderr=subprocess.STDOUT, **options
+        )
+
+    @property
+    def output(self) -> str:
+        return self.log_path.read_text()
+
+    def wait_for(self, text: str, timeout_s: float = 300.0) -> str:
+        """Wait until the node has said something; returns all it said."""
+        end_s = time.monotonic() + timeout_s
+        while text not in self.output:
+            assert self.process.poll() is None, f"ended early:\n{self.output}"
+            assert time.monotonic() < end_s, f"never said {text!r}:\n{self.output}"
+            time.sleep(0.02)
+        return self.output
+
+    def stop(self, number: int = signal.SIGINT, timeout_s: float = 120.0) -> int:
+        """Send a signal and return the exit status."""
+        if self.process.poll() is None:
+            self.process.send_signal(number)
+        return self.wait(timeout_s)
+
+    def wait(self, timeout_s: float = 300.0) -> int:
+        status = self.process.wait(timeout_s)
+        self._log.close()
+        return status
+
+    def kill(self) -> None:
+        with suppress(ProcessLookupError):
+            self.process.kill()
+        self.process.wait(10)
+        self._log.close()
+
+
+Start = Callable[..., Running]
+
+
+@pytest.fixture(scope="module")
+def start(domain: int, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Start]:
+    """Starts nodes: start("simulator", "--initial-speed-mps", "20"); kills what is left."""
+    folder = tmp_path_factory.mktemp("nodes")
+    running: list[Running] = []
+
+    def run(name: str, *words: object, **options: Any) -> Running:  # noqa: ANN401
+        env = {
+            **os.environ,
+            **TRANSPORT,
+            "ROS_DOMAIN_ID": str(domain),
+            "ROS_LOG_DIR": str(folder / "ros_log"),
+            "PYTHONPATH": str(REPOSITORY),
+        }
+        command = [sys.executable, "-m", f"truck_blowout_sim.nodes.{name}", *map(str, words)]
+        node = Running(command, env, folder / f"{name}_{len(running)}.log", **options)
+        running.append(node)
+        return node
+
+    yield run
+    for node in running:
+        if node.process.poll() is None:
+            node.kill()
+
+
+class Client:
+    """A node inside the test."""
+
+    latched = LATCHED
+
+    def __init__(self, domain: int) -> None:
+        self.context = Context()
+        rclpy.init(context=self.context, domain_id=domain)
+        self.node = Node("test_client", context=self.context)
+        self.executor = new_executor(self.context)
+        self.executor.add_node(self.node)
+
+    def close(self) -> None:
+        self.executor.shutdown()
+        self.node.destroy_node()
+        rclpy.shutdown(context=self.context)
+
+    def spin(self, duration_s: float) -> None:
+        end_s = time.monotonic() + duration_s
+        while (left_s := end_s - time.monotonic()) > 0:
+            self.executor.spin_once(timeout_sec=left_s)
+
+    def until(self, done: Callable[[], object], timeout_s: float = 60.0, what: str = "") -> None:
+        end_s = time.monotonic() + timeout_s
+        while not done():
+            assert time.monotonic() < end_s, f"waited {timeout_s} s for {what or done}"
+            self.executor.spin_once(timeout_sec=0.05)
+
+    def listen(self, kind: type, topic: str, qos: QoSProfile = DEEP) -> list[Any]:
+        """A list that messages are appended to."""
+        heard: list[Any] = []
+        self.node.create_subscription(kind, topic, heard.append, qos)
+        return heard
+
+    def first(self, kind: type, topic: str, qos: QoSProfile = DEEP) -> Any:  # noqa: ANN401
+        """The next message of a topic."""
+        heard = self.listen(kind, topic, qos)
+        self.until(lambda: heard, what=topic)
+        return heard[0]
+
+    def call(
+        self, kind: type, service: str, request: object = None, timeout_s: float = 60.0
+    ) -> Any:  # noqa: ANN401
+        """Call a service and return its response."""
+        client = self.node.create_client(kind, service)
+        self.until(client.service_is_ready, timeout_s, service)
+        future = client.call_async(request or kind.Request())
+        self.until(future.done, timeout_s, f"answer of {service}")
+        self.node.destroy_client(client)
+        return future.result()
+
+    def talk(self, kind: type, topic: str, qos: QoSProfile | int = 10) -> Any:  # noqa: ANN401
+        """A publisher that has been matched."""
+        publisher = self.node.create_publisher(kind, topic, qos)
+        self.until(lambda: publisher.get_subscription_count() > 0, what=f"a reader of {topic}")
+        self.spin(0.3)  # the reader may find its writer a little later
+        return publisher
+
+
+@pytest.fixture
+def client(domain: int) -> Iterator[Client]:
+    made = Client(domain)
+    yield made
+    made.close()

@@ -1,0 +1,165 @@
+"""Parameters from YAML and the command line, remapping, bad values, help."""
+
+# ruff: noqa: ANN401 (fixtures and messages come from rclpy, which has no types for them)
+from __future__ import annotations
+
+import re
+import signal
+import time
+from pathlib import Path
+from typing import Any
+
+import pytest
+from nav_msgs.msg import Odometry
+from rcl_interfaces.msg import Parameter, ParameterType, ParameterValue
+from rcl_interfaces.srv import DescribeParameters, GetParameters, SetParameters
+from sensor_msgs.msg import FluidPressure
+from std_msgs.msg import Float64
+from std_srvs.srv import Trigger
+
+from truck_blowout_sim.nodes import player_parameters
+from truck_blowout_sim.nodes.lane_keeper import SPECS as LANE_KEEPER_SPECS
+from truck_blowout_sim.nodes.parameters import Spec, markdown
+from truck_blowout_sim.nodes.simulator_parameters import SPECS
+
+ROOT = Path(__file__).resolve().parents[2]
+
+
+def double(value: float) -> ParameterValue:
+    return ParameterValue(type=ParameterType.PARAMETER_DOUBLE, double_value=value)
+
+
+def test_yaml_gives_parameters_whole_numbers_too(start: Any, client: Any, tmp_path: Path) -> None:
+    path = tmp_path / "parameters.yaml"
+    path.write_text(
+        "/**:\n  ros__parameters:\n    initial_speed_mps: 15\n    publish_rate_hz: 50\n"
+        "    rates:\n      tire_pressure_hz: 10.0\n"
+    )
+    node = start("simulator", "--ros-args", "--params-file", path)
+    node.wait_for("ready")
+    odometry = client.listen(Odometry, "/truck/tractor/odometry")
+    pressure = client.listen(FluidPressure, "/truck/tires/steer_left/pressure")
+    client.until(lambda: len(pressure) > 10, what="pressures")
+    assert 4.5 < len(odometry) / len(pressure) < 5.6
+    assert odometry[0].twist.twist.linear.x == pytest.approx(15.0, abs=1.0)
+    assert node.stop() == 0
+
+
+def test_a_vehicle_file_of_ones_own(start: Any, client: Any, tmp_path: Path) -> None:
+    path = tmp_path / "mine.yaml"
+    path.write_text(
+        "extends: international_9400i_trailmobile\n"
+        'steering:\n  ratio: {value: 20, source: "counted turns"}\n'
+    )
+    node = start("simulator", "--vehicle", path)
+    node.wait_for("mine: 10 hubs, 18 tires")
+    assert node.stop() == 0
+
+
+def test_a_car_has_no_trailer_topics(start: Any, client: Any) -> None:
+    node = start("simulator", "--vehicle", "ferrari_250lm", "--initial-speed-mps", 20)
+    node.wait_for("4 hubs, 4 tires")
+    client.first(Odometry, "/truck/tractor/odometry")
+    names = {name for name, _ in client.node.get_topic_names_and_types()}
+    assert not [name for name in names if "trailer/" in name and "brake" not in name]
+    assert node.stop() == 0
+
+
+@pytest.mark.parametrize("name", ["simulator.yaml", "slow_network.yaml"])
+def test_shipped_yaml_is_accepted(start: Any, name: str) -> None:
+    node = start("simulator", "--ros-args", "--params-file", ROOT / "config" / "nodes" / name)
+    node.wait_for("ready")
+    assert node.stop() == 0
+
+
+def test_names_can_be_remapped(start: Any, client: Any) -> None:
+    node = start(
+        "simulator", "--ros-args", "-r", "__ns:=/other", "-r", "__node:=sim",
+        "-r", "steering_wheel_angle:=/hand_wheel", "-r", "/clock:=/other/clock",
+        "-r", "blowout/steer_left:=bang",
+    )  # fmt: skip
+    node.wait_for("ready")
+    client.first(Odometry, "/other/tractor/odometry")
+    client.talk(Float64, "/hand_wheel")
+    assert client.call(Trigger, "/other/bang").success
+    assert client.call(GetParameters, "/other/sim/get_parameters") is not None
+    assert client.node.count_publishers("/clock") == 0
+    assert node.stop() == 0
+
+
+def test_parameters_describe_themselves_and_keep_their_ranges(start: Any, client: Any) -> None:
+    node = start("simulator")
+    node.wait_for("ready")
+    names = [spec.name for spec in SPECS]
+    described = client.call(
+        DescribeParameters, "/truck/simulator/describe_parameters",
+        DescribeParameters.Request(names=names),
+    )  # fmt: skip
+    for spec, descriptor in zip(SPECS, described.descriptors, strict=True):
+        assert spec.text in descriptor.description
+        assert spec.unit in descriptor.description
+        assert descriptor.read_only is not spec.live
+    refused = client.call(
+        SetParameters, "/truck/simulator/set_parameters",
+        SetParameters.Request(parameters=[
+            Parameter(name="real_time_factor", value=double(-1.0)),
+            Parameter(name="step_s", value=double(0.002)),
+        ]),
+    )  # fmt: skip
+    assert [result.successful for result in refused.results] == [False, False]
+    assert node.stop() == 0
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (("--vehicle", "no_such_truck"), "no_such_truck"),
+        (("--step-s", "0.1"), "step_s"),
+        (("--ros-args", "-p", "publish_rate_hz:=fast"), "publish_rate_hz: 'fast' is no number"),
+        (("--ros-args", "-p", "real_time_factor:=-2.0"), "real_time_factor"),
+        (("--ros-args", "--no-such-argument"), "no-such-argument"),
+        (("--no-such-option",), "unrecognized arguments"),
+    ],
+)
+def test_bad_usage_is_one_line_and_status_2(start: Any, words: tuple[str, ...], said: str) -> None:
+    node = start("simulator", *words)
+    assert node.wait() == 2
+    assert said in node.output
+    assert "Traceback" not in node.output
+
+
+def test_help_names_every_parameter(start: Any) -> None:
+    node = start("simulator", "--help")
+    assert node.wait() == 0
+    flags = set(re.findall(r"--[a-z][\w.-]*", node.output))
+    assert {"--" + spec.name.replace("_", "-") for spec in SPECS} <= flags
+
+
+def test_a_signal_while_starting_ends_at_once(start: Any) -> None:
+    node = start("simulator")
+    node.wait_for("loading")
+    node.process.send_signal(signal.SIGINT)
+    time.sleep(0.2)
+    node.process.send_signal(signal.SIGINT)
+    assert node.wait() == 0
+    assert "Traceback" not in node.output
+
+
+def test_rounded_rates_are_said(start: Any) -> None:
+    node = start("simulator", "--publish-rate-hz", "60", "--clock-rate-hz", "60")
+    node.wait_for("publish_rate_hz: 60 Hz does not fit the step, 58.82 Hz it is")
+    node.wait_for("ready")
+    assert node.stop() == 0
+
+
+@pytest.mark.parametrize(
+    "specs",
+    [SPECS, player_parameters.SPECS, LANE_KEEPER_SPECS],
+    ids=["simulator", "player", "lane"],
+)
+def test_the_documentation_lists_the_parameters_as_they_are(specs: tuple[Spec, ...]) -> None:
+    assert markdown(specs) in (ROOT / "docs" / "ros.md").read_text()
+
+
+def test_specs_have_defaults_of_their_own_type() -> None:
+    assert all(spec.checked(spec.default) == spec.default for spec in SPECS)

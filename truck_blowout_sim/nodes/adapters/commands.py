@@ -1,0 +1,57 @@
+"""What foreign commands become: a road-wheel angle and a speed wish, onto the truck's inputs."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from truck_blowout_sim.nodes.adapters.longitudinal import speed_controller
+
+if TYPE_CHECKING:
+    from truck_blowout_sim.nodes.simulator import Simulator
+
+_BRAKES = ("brake_pressure_steer_pa", "brake_pressure_drive_pa", "brake_pressure_trailer_pa")
+
+
+class ForeignCommands:
+    """Feeds the simulator's inputs, with their checks, warnings and timeouts.
+
+    Args:
+        simulator: whose inputs are fed.
+    """
+
+    def __init__(self, simulator: Simulator) -> None:
+        vehicle = simulator.plant.vehicle
+        self._simulator = simulator
+        self._inputs = {topic.guarded.name: topic for topic in simulator.commands}
+        self._controller = speed_controller(vehicle)
+        steering = vehicle.spec.steering
+        self._ratio = steering.ratio if steering else 1.0
+        names = list(simulator.plant.truck.output_names)
+        self._speed = names.index("tractor_vx_mps")
+        steered = [name for name in names if name.endswith("_steer_rad")]
+        self._steer = [names.index(name) for name in steered if name.startswith("steer_")]
+
+    @property
+    def speed_mps(self) -> float:
+        """Forward speed of the front unit."""
+        return float(self._simulator.plant.outputs()[self._speed])
+
+    @property
+    def steer_rad(self) -> float:
+        """Mean angle of the steered road wheels."""
+        outputs = self._simulator.plant.outputs()
+        return float(outputs[self._steer].mean()) if self._steer else 0.0
+
+    def take(self, steer_rad: float, speed_mps: float, acceleration_mps2: float = 0.0) -> None:
+        """Apply a command.
+
+        Args:
+            steer_rad: mean road-wheel angle, left positive.
+            speed_mps: wanted speed.
+            acceleration_mps2: wanted acceleration, 0 if none was given.
+        """
+        throttle, brake_pa = self._controller.pedals(self.speed_mps, speed_mps, acceleration_mps2)
+        self._inputs["steering_wheel_angle_rad"].take(steer_rad * self._ratio)
+        self._inputs["throttle"].take(throttle)
+        for name in _BRAKES:
+            self._inputs[name].take(brake_pa)

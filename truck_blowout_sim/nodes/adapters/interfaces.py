@@ -1,0 +1,133 @@
+"""simulation_interfaces: its services in front of the simulator's own.
+
+| service | does |
+|---|---|
+| get_simulator_features | lists what follows |
+| get_simulation_state, set_simulation_state | playing, paused, stopped (paused in the initial state), quitting |
+| step_simulation | as many publishing periods as asked, while paused |
+| reset_simulation | scope default, all, or state; time goes on, so scope time alone is not supported |
+"""  # noqa: E501  # a table
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+from rclpy.node import Node
+
+if TYPE_CHECKING:
+    from truck_blowout_sim.nodes.simulator import Simulator
+
+_FEATURES = (
+    "SIMULATION_RESET",
+    "SIMULATION_RESET_STATE",
+    "SIMULATION_STATE_GETTING",
+    "SIMULATION_STATE_SETTING",
+    "SIMULATION_STATE_PAUSE",
+    "STEP_SIMULATION_SINGLE",
+    "STEP_SIMULATION_MULTIPLE",
+)
+
+
+def attach(node: Node, simulator: Simulator) -> bool:
+    """Serve, if simulation_interfaces is installed; returns whether it is."""
+    try:
+        from simulation_interfaces import msg, srv
+    except ImportError:
+        return False
+    served = InterfaceServices(simulator, msg, srv)
+    for name, kind, act in (
+        ("get_simulator_features", srv.GetSimulatorFeatures, served.features),
+        ("get_simulation_state", srv.GetSimulationState, served.get_state),
+        ("set_simulation_state", srv.SetSimulationState, served.set_state),
+        ("step_simulation", srv.StepSimulation, served.step),
+        ("reset_simulation", srv.ResetSimulation, served.reset),
+    ):
+        node.create_service(kind, name, act)
+    return True
+
+
+class InterfaceServices:
+    """The services' callbacks.
+
+    Args:
+        simulator: what they act on.
+        msg, srv: the modules of simulation_interfaces.
+    """
+
+    def __init__(self, simulator: Simulator, msg: Any, srv: Any) -> None:  # noqa: ANN401
+        self._simulator = simulator
+        self._result = msg.Result
+        self._state = msg.SimulationState
+        self._features = msg.SimulatorFeatures
+        self._set = srv.SetSimulationState
+        self._reset = srv.ResetSimulation
+        self._stopped = False
+
+    def features(self, _: Any, response: Any) -> Any:  # noqa: ANN401
+        """What is supported."""
+        response.features.features = [getattr(self._features, name) for name in _FEATURES]
+        response.features.custom_info = "one truck; blowouts by std_srvs/Trigger services"
+        return response
+
+    def get_state(self, _: Any, response: Any) -> Any:  # noqa: ANN401
+        """Playing, paused or stopped."""
+        response.state.state = self._present()
+        response.result.result = self._result.RESULT_OK
+        return response
+
+    def set_state(self, request: Any, response: Any) -> Any:  # noqa: ANN401
+        """Play, pause, stop, quit."""
+        wanted, state = request.state.state, self._state
+        if wanted == self._present():
+            response.result.result = self._set.Response.ALREADY_IN_TARGET_STATE
+            response.result.error_message = "already in this state"
+            return response
+        if wanted == state.STATE_PAUSED and self._present() == state.STATE_STOPPED:
+            response.result.result = self._set.Response.INCORRECT_TRANSITION
+            response.result.error_message = "stopped: play first"
+            return response
+        acts: dict[int, Callable[[], tuple[bool, str]]] = {
+            state.STATE_PLAYING: self._simulator.resume,
+            state.STATE_PAUSED: self._simulator.pause,
+            state.STATE_STOPPED: self._stop,
+            state.STATE_QUITTING: self._simulator.quit,
+        }
+        if wanted not in acts:
+            response.result.result = self._result.RESULT_FEATURE_UNSUPPORTED
+            return response
+        self._answer(response, acts[wanted](), self._result.RESULT_OPERATION_FAILED)
+        self._stopped = wanted == state.STATE_STOPPED
+        return response
+
+    def step(self, request: Any, response: Any) -> Any:  # noqa: ANN401
+        """As many publishing periods as asked."""
+        reply = (True, "no step asked for")
+        for _ in range(request.steps):
+            reply = self._simulator.step()
+            if not reply[0]:
+                break
+        return self._answer(response, reply, self._result.RESULT_OPERATION_FAILED)
+
+    def reset(self, request: Any, response: Any) -> Any:  # noqa: ANN401
+        """Initial state; time goes on."""
+        scopes = self._reset.Request
+        if request.scope not in (scopes.SCOPE_DEFAULT, scopes.SCOPE_STATE, scopes.SCOPE_ALL):
+            response.result.result = self._result.RESULT_FEATURE_UNSUPPORTED
+            response.result.error_message = "simulated time goes on, nothing is spawned"
+            return response
+        return self._answer(response, self._simulator.reset(), self._result.RESULT_OPERATION_FAILED)
+
+    def _stop(self) -> tuple[bool, str]:
+        self._simulator.pause()
+        return self._simulator.reset()
+
+    def _present(self) -> int:
+        if not self._simulator.paused:
+            return int(self._state.STATE_PLAYING)
+        return int(self._state.STATE_STOPPED if self._stopped else self._state.STATE_PAUSED)
+
+    def _answer(self, response: Any, reply: tuple[bool, str], failure: int) -> Any:  # noqa: ANN401
+        response.result.result = self._result.RESULT_OK if reply[0] else failure
+        response.result.error_message = "" if reply[0] else reply[1]
+        return response

@@ -1,0 +1,109 @@
+"""`/clock`: publishing it, or following somebody else's."""
+
+from __future__ import annotations
+
+import struct
+from typing import Any, Protocol
+
+from rclpy.node import Node
+from rclpy.qos import QoSProfile, ReliabilityPolicy
+from rosgraph_msgs.msg import Clock
+
+from truck_blowout_sim.nodes.clock import NS, FollowPace, jump
+from truck_blowout_sim.nodes.plant import Plant
+
+# A datagram that arrives out of order may carry a clock that is a little older.
+_REORDERED_NS = 50_000_000
+_CLOCK = struct.Struct("<4siI")
+_LITTLE_ENDIAN = b"\x00\x01\x00\x00"
+
+
+class ClockPublisher:
+    """Publishes simulated time.
+
+    Args:
+        node: owner.
+        every: ticks between two messages.
+    """
+
+    def __init__(self, node: Node, every: int) -> None:
+        self._publisher = node.create_publisher(Clock, "/clock", 10)
+        self._every = every
+        self._ticks = 0
+
+    def publish(self, now_ns: int, *, always: bool = False) -> None:
+        """One tick has passed; publish if it is due."""
+        self._ticks += 1
+        if always or self._ticks % self._every == 0:
+            self._publisher.publish(_CLOCK.pack(_LITTLE_ENDIAN, *divmod(now_ns, NS)))
+
+
+class Following(Protocol):
+    """What a followed clock needs of the simulator."""
+
+    plant: Plant
+    paused: bool
+    recorder: Any
+    log: Any
+
+    def begin(self) -> None:
+        """The time is known now."""
+
+    def restart(self, why: str) -> None:
+        """Return to the initial state."""
+
+
+class FollowedClock:
+    """Listens to `/clock` and sets the pace's target.
+
+    Args:
+        node: owner.
+        simulator: what is moved in time.
+        pace: gets the target.
+        values: parameters; `max_clock_jump_s` is looked up at each message.
+    """
+
+    def __init__(
+        self, node: Node, simulator: Following, pace: FollowPace, values: dict[str, Any]
+    ) -> None:
+        self._simulator = simulator
+        self._pace = pace
+        self._values = values
+        # A clock is worth its latest reading only; best effort matches every publisher.
+        qos = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
+        node.create_subscription(Clock, "/clock", self._take, qos)
+
+    def rejoin(self) -> None:
+        """After a pause: stand at the clock's present time, nothing is made up for."""
+        target_ns = self._pace.target_ns
+        if target_ns is not None and target_ns > self._simulator.plant.now_ns:
+            self._simulator.plant.clock.move_to(target_ns)
+
+    def _take(self, message: Clock) -> None:
+        now_ns = message.clock.sec * NS + message.clock.nanosec
+        before_ns, self._pace.target_ns = self._pace.target_ns, now_ns
+        plant, log = self._simulator.plant, self._simulator.log
+        if before_ns is None:
+            plant.clock.move_to(now_ns)
+            self._simulator.begin()
+            log.info(f"following /clock from {now_ns / NS:.3f} s on")
+            return
+        forward_ns = round(self._values["max_clock_jump_s"] * NS)
+        kind = jump(before_ns, now_ns, _REORDERED_NS, forward_ns)
+        seconds = f"from {before_ns / NS:.3f} to {now_ns / NS:.3f} s"
+        if kind == "backward":
+            self._new_bag()
+            plant.clock.move_to(now_ns)
+            self._simulator.restart(f"/clock jumped back {seconds}")
+        elif kind == "forward":
+            plant.clock.move_to(now_ns)
+            log.warning(f"/clock jumped ahead {seconds}: the truck is carried over as it is")
+        elif now_ns < before_ns:
+            self._pace.target_ns = before_ns
+
+    def _new_bag(self) -> None:
+        # Time in a bag cannot run backwards.
+        recorder = self._simulator.recorder
+        if recorder.active:
+            recorder.stop()
+            recorder.start(self._values["record_path"])

@@ -1,0 +1,81 @@
+"""Subscriptions to the commands: bytes in, a guarded value out."""
+
+from __future__ import annotations
+
+import struct
+from collections.abc import Callable
+from time import monotonic
+from typing import cast
+
+from rclpy.node import Node
+from rclpy.qos import QoSProfile, ReliabilityPolicy
+from rclpy.qos_overriding_options import QoSOverridingOptions
+from std_msgs.msg import Float64
+
+from truck_blowout_sim.nodes.inputs import Input
+from truck_blowout_sim.recordings.channels import FLOAT64
+
+COMMAND_QOS = QoSProfile(depth=10, reliability=ReliabilityPolicy.RELIABLE)
+
+_WARN_EVERY_S = 5.0
+_LITTLE_ENDIAN = b"\x00\x01\x00\x00"
+Write = Callable[[str, str, int, bytes], None]
+
+
+def float64_bytes(value: float) -> bytes:
+    """A serialised std_msgs/Float64."""
+    return _LITTLE_ENDIAN + struct.pack("<d", value)
+
+
+class CommandTopic:
+    """One subscription.
+
+    Args:
+        node: owner.
+        guarded: the input it feeds.
+        now_ns: tells the simulated time.
+        write: records a message: absolute topic, type, stamp, bytes.
+    """
+
+    def __init__(self, node: Node, guarded: Input, now_ns: Callable[[], int], write: Write) -> None:
+        self.guarded = guarded
+        self._log = node.get_logger()
+        self._now_ns = now_ns
+        self._write = write
+        self._next_warning_s = 0.0
+        self._subscription = node.create_subscription(
+            Float64, guarded.topic, self._take, COMMAND_QOS, raw=True,
+            qos_overriding_options=QoSOverridingOptions.with_default_policies(),
+        )  # fmt: skip
+        self.topic = self._subscription.topic_name
+
+    def drain(self) -> None:
+        """Take every message that has arrived, without asking the executor.
+
+        A turn of the executor costs as much as the physics of a tick even if nothing has arrived.
+        """
+        handle = self._subscription.handle
+        while True:
+            with handle:
+                # typed as if a message always came
+                taken = cast("tuple[Float64, object] | None", handle.take_message(Float64, True))
+            if taken is None:
+                return
+            self._take(taken[0])
+
+    def record(self, value: float) -> None:
+        """Write a value that applies from now on although no message brought it."""
+        self._write(self.topic, FLOAT64, self._now_ns(), float64_bytes(value))
+
+    def take(self, value: float) -> None:
+        """Offer a value to the input; record it, or warn of it now and then."""
+        refusal = self.guarded.offer(value, self._now_ns())
+        if not refusal:
+            self.record(value)
+        elif monotonic() >= self._next_warning_s:
+            self._next_warning_s = monotonic() + _WARN_EVERY_S
+            self._log.warning(f"{refusal}; the last good value holds")
+
+    def _take(self, data: bytes) -> None:
+        order = "<" if data[1] else ">"
+        self.take(struct.unpack_from(f"{order}d", data, 4)[0])

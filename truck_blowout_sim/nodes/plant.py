@@ -1,0 +1,92 @@
+"""The truck behind the node: model, time and inputs, in one place that knows nothing of ROS."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+from numpy.typing import NDArray
+
+from truck_blowout_sim.nodes.clock import NS, StepClock
+from truck_blowout_sim.nodes.inputs import InputBank
+from truck_blowout_sim.simulation import InitialState, Inputs, Truck
+from truck_blowout_sim.vehicle import Vehicle
+
+
+class Plant:
+    """A truck that is advanced by ticks, has its tires blown, and can begin again.
+
+    Args:
+        vehicle: a loaded vehicle.
+        step_s: integration step.
+        initial: where and how fast it begins.
+        bank: its inputs.
+    """
+
+    def __init__(
+        self, vehicle: Vehicle, step_s: float, initial: InitialState, bank: InputBank
+    ) -> None:
+        self.vehicle = vehicle
+        self.bank = bank
+        self.clock = StepClock(round(step_s * NS))
+        self._step_s = step_s
+        self._initial = initial
+        self.truck = Truck(vehicle, step_s=step_s, initial=initial)
+        self.blown_ns: dict[str, int] = {}
+        self.applied: tuple[float, ...] = bank.applied(0)
+
+    @property
+    def now_ns(self) -> int:
+        """Simulated time in nanoseconds."""
+        return self.clock.now_ns
+
+    @property
+    def parts(self) -> Mapping[str, tuple[str, ...]]:
+        """What can be blown: each tire, and each hub that carries several, with its tires."""
+        hubs = {hub: self.vehicle.tires_of_hub(hub) for hub in self.vehicle.hubs}
+        return {**hubs, **{tire: (tire,) for tire in self.vehicle.tires}}
+
+    def advance(self, steps: int) -> None:
+        """Take steps with the inputs as they stand now."""
+        self.applied = self.bank.applied(self.now_ns)
+        self.truck.advance(Inputs(*self.applied), steps)
+        self.clock.advance(steps)
+
+    def blow(self, part: str) -> tuple[tuple[str, ...], str]:
+        """Blow a tire or all tires of a hub, now.
+
+        Returns:
+            The tires that were still whole, and one sentence about what happened and when.
+        """
+        fresh = tuple(tire for tire in self.parts[part] if self.truck.blow(tire))
+        known = [tire for tire in self.parts[part] if tire not in fresh]
+        for tire in fresh:
+            self.blown_ns[tire] = self.now_ns
+        said = [f"{' and '.join(fresh)} blown at {self.now_ns / NS:.3f} s"] if fresh else []
+        said += [f"{tire} was already blown at {self._blown_s(tire):.3f} s" for tire in known]
+        return fresh, "; ".join(said) + " (simulation time)"
+
+    def reset(self, initial: InitialState, pause_steps: int) -> None:
+        """Return to an initial state, all tires whole; time goes on.
+
+        Args:
+            initial: where and how fast it begins again.
+            pause_steps: time that passes meanwhile, so that no two states share a stamp.
+        """
+        now_ns = self.now_ns + pause_steps * self.clock.step_ns
+        if initial == self._initial:
+            self.truck.reset()
+        else:
+            self.truck = Truck(self.vehicle, step_s=self._step_s, initial=initial)
+            self._initial = initial
+        self.clock.move_to(now_ns)
+        self.blown_ns.clear()
+        self.bank.clear()
+        self.applied = self.bank.applied(now_ns)
+
+    def outputs(self) -> NDArray[np.float64]:
+        """Output vector of the model, in the order of `truck.output_names`."""
+        return self.truck.output_vector()
+
+    def _blown_s(self, tire: str) -> float:
+        return self.blown_ns.get(tire, 0) / NS

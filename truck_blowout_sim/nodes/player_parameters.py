@@ -1,0 +1,47 @@
+"""The parameters of the player node; words as in `ros2 bag play`."""
+
+from __future__ import annotations
+
+from truck_blowout_sim.errors import InputError, quoted
+from truck_blowout_sim.nodes.parameters import Spec
+
+SPECS: tuple[Spec, ...] = (
+    Spec("recording", "", "Recording to play: rosbag2 folder, .mcap, .csv or .mat."),
+    Spec("rate", 1.0, "Recorded seconds a second; of simulated time under `use_sim_time`, else of"
+         " wall time.", "", 0.01, 1000),
+    Spec("loop", False, "Begin again at the end."),
+    Spec("start_offset", 0.0, "Begin this far into the recording.", "s", 0, 1e7),
+    Spec("playback_duration", 0.0, "Play this much of it; 0: to the end.", "s", 0, 1e7),
+    Spec("delay", 0.0, "Wait this long before the first message, so that readers find it.", "s",
+         0, 3600),
+    Spec("start_paused", False, "Wait for `~/resume` or `~/play_next`."),
+    Spec("remap", [""], "Topics of a foreign bag as `from=to`, `to` a name of the simulator's"
+         " outputs or commands."),
+    Spec("measured", "measured", "Prefix of the topics that carry what was measured."),
+    Spec("publish_measured", True, "Publish what was measured, not the commands alone."),
+    Spec("wait_for_simulator_s", 5.0, "Wait this long for the simulator, then play without it;"
+         " 0: do not wait.", "s", 0, 1e6),
+    Spec("prepare_simulator", True, "Put the simulator into the recording's state at the start:"
+         " pause, set `initial_*`, reset, resume."),
+    Spec("simulator", "simulator", "Name of the simulator node."),
+    Spec("seek_to_s", 0.0, "Where `~/seek` goes, from the beginning of the recording.", "s",
+         0, 1e7, live=True),
+)  # fmt: skip
+
+
+def remappings(words: list[str]) -> dict[str, str]:
+    """Pairs from `from=to`; `from:=to` does where rcl does not take it for its own.
+
+    Raises:
+        InputError: a word that is no such pair.
+    """
+    pairs = {}
+    for word in filter(None, words):
+        source, mark, target = word.replace(":=", "=").partition("=")
+        if not (source and mark and target):
+            raise InputError(
+                f"{quoted(word)} is no remapping", file="parameter", where="remap",
+                expected="from=to, as in /ins/odometry=tractor/odometry",
+            )  # fmt: skip
+        pairs[source] = target
+    return pairs

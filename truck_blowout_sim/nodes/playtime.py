@@ -1,0 +1,104 @@
+"""Where in the recording playback is: moved on by the wall, or by a clock that others publish."""
+
+from __future__ import annotations
+
+import math
+from time import monotonic
+
+from rclpy.executors import Executor
+from rclpy.node import Node
+from rclpy.qos import QoSProfile, ReliabilityPolicy
+from rosgraph_msgs.msg import Clock
+
+from truck_blowout_sim.nodes.clock import NS
+from truck_blowout_sim.nodes.signals import StopFlag
+
+
+class WallTime:
+    """Position by wall time.
+
+    Args:
+        node: its clock stamps what is published.
+        rate: recorded seconds a second.
+    """
+
+    def __init__(self, node: Node, rate: float) -> None:
+        self._node = node
+        self._rate = rate
+        self._position_s = 0.0
+        self._since_s: float | None = None
+        self._origin_ns = 0
+        self._origin_s = 0.0
+        self.worst_late_s = 0.0
+
+    @property
+    def position_s(self) -> float:
+        """Instant of the recording that is now."""
+        if self._since_s is None:
+            return self._position_s
+        return self._position_s + (self._now_s() - self._since_s) * self._rate
+
+    def begin(self, executor: Executor, stop: StopFlag | None, start_s: float) -> None:
+        """Playback is about to begin at an instant of the recording."""
+        self._origin_ns, self._origin_s = self._ros_ns(executor, stop), start_s
+
+    def stamp_ns(self, time_s: float) -> int:
+        """Stamp for a message of an instant: the recording laid upon the node's clock."""
+        return self._origin_ns + round((time_s - self._origin_s) / self._rate * NS)
+
+    def wait_s(self, next_s: float) -> float:
+        """Wall time until an instant is due, seconds; 0 or less: now."""
+        wait_s = (next_s - self.position_s) / self._rate
+        if wait_s <= 0.0:
+            self.worst_late_s = max(self.worst_late_s, -wait_s)
+        return wait_s
+
+    def hold(self) -> None:
+        """Pause."""
+        self._position_s, self._since_s = self.position_s, None
+
+    def go(self) -> None:
+        """Go on."""
+        self._since_s = self._now_s()
+
+    def move_to(self, time_s: float) -> None:
+        """Jump; goes on or stays paused as before."""
+        self._position_s = time_s
+        if self._since_s is not None:
+            self._since_s = self._now_s()
+
+    def _now_s(self) -> float:
+        return monotonic()
+
+    def _ros_ns(self, executor: Executor, stop: StopFlag | None) -> int:
+        del executor, stop
+        return int(self._node.get_clock().now().nanoseconds)
+
+
+class ClockTime(WallTime):
+    """Position by `/clock`: a message is due once that clock has reached its instant."""
+
+    def __init__(self, node: Node, rate: float) -> None:
+        super().__init__(node, rate)
+        self._clock_ns: int | None = None
+        qos = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
+        node.create_subscription(Clock, "/clock", self._take, qos)
+
+    def wait_s(self, next_s: float) -> float:
+        """0 if due, else until `/clock` says something."""
+        wait_s = super().wait_s(next_s)
+        # half a nanosecond's worth of rounding must not cost a tick
+        return math.inf if wait_s > 1e-9 else 0.0
+
+    def _now_s(self) -> float:
+        return (self._clock_ns or 0) / NS
+
+    def _take(self, message: Clock) -> None:
+        self._clock_ns = message.clock.sec * NS + message.clock.nanosec
+
+    def _ros_ns(self, executor: Executor, stop: StopFlag | None) -> int:
+        # What was heard before a reset may be old: only a reading from now on counts.
+        self._clock_ns = None
+        while self._clock_ns is None and not stop:
+            executor.spin_once(timeout_sec=0.1)
+        return self._clock_ns or 0

@@ -1,0 +1,158 @@
+"""Running a node: arguments, rclpy's life, signals, the exit status.
+
+Exit status: 0 done (also when ended by SIGINT or SIGTERM), 2 bad usage or bad input (one line),
+1 an internal failure.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+import traceback
+from collections.abc import Callable, Sequence
+from typing import Any, Protocol
+
+import rclpy
+from rclpy.context import Context
+from rclpy.executors import Executor, SingleThreadedExecutor
+from rclpy.node import Node
+from rclpy.parameter import Parameter
+from rclpy.signals import SignalHandlerOptions
+from rclpy.utilities import remove_ros_args
+
+from truck_blowout_sim.errors import InputError
+from truck_blowout_sim.nodes.parameters import Spec, declare
+from truck_blowout_sim.nodes.signals import Interrupted, StopFlag
+
+NAMESPACE = "truck"
+
+
+class Program(Protocol):
+    """What `run` drives."""
+
+    def run(self, executor: Executor, stop: StopFlag) -> int:
+        """Work until done or stopped; returns the exit status."""
+
+    def close(self) -> None:
+        """Finish bags and the like; rclpy still works."""
+
+
+def run(
+    name: str,
+    specs: Sequence[Spec],
+    make: Callable[[Node, dict[str, Any]], Program],
+    *,
+    about: str,
+    arguments: Sequence[str] | None = None,
+    positional: str | None = None,
+) -> int:
+    """Run a node from its command line to its end.
+
+    Args:
+        name: name of node and program.
+        specs: its parameters; each is also an option (`--real-time-factor 2`).
+        make: builds the program from the node and the parameters' values.
+        about: one paragraph for `--help`.
+        arguments: command line without the program's name; the process's own if None.
+        positional: parameter that a bare argument sets.
+    """
+    words = list(sys.argv[1:] if arguments is None else arguments)
+    with StopFlag() as stop:
+        try:
+            options = _parse(name, specs, about, remove_ros_args([name, *words])[1:], positional)
+            rclpy.init(args=[name, *words], signal_handler_options=SignalHandlerOptions.NO)
+            return _life(name, specs, make, options, stop)
+        except Interrupted as reason:
+            print(f"{name}: {reason} while starting", file=sys.stderr)
+            return 0
+        except InputError as error:
+            print(f"{name}: {error}", file=sys.stderr)
+            return 2
+        except _usage_errors() as error:
+            print(f"{name}: {_first_line(error)}", file=sys.stderr)
+            return 2
+        except Exception:  # noqa: BLE001  # the last door: printed in full, status 1
+            traceback.print_exc()
+            return 1
+        finally:
+            if rclpy.ok():
+                rclpy.shutdown()
+
+
+def new_executor(context: Context | None = None) -> Executor:
+    """The cheapest executor there is; it handles one event a `spin_once`."""
+    try:
+        from rclpy.experimental.events_executor import EventsExecutor
+    except ImportError:
+        return SingleThreadedExecutor(context=context)
+    return EventsExecutor(context=context)
+
+
+def _life(
+    name: str,
+    specs: Sequence[Spec],
+    make: Callable[[Node, dict[str, Any]], Program],
+    options: list[Parameter[Any]],
+    stop: StopFlag,
+) -> int:
+    node = Node(name, namespace=NAMESPACE, parameter_overrides=options)
+    executor = new_executor()
+    program = None
+    try:
+        stop.at_once = True
+        program = make(node, declare(node, specs))
+        stop.at_once = False
+        executor.add_node(node)
+        return program.run(executor, stop)
+    finally:
+        stop.at_once = False
+        if program is not None:
+            program.close()
+        executor.shutdown()
+        node.destroy_node()
+
+
+def _parse(
+    name: str, specs: Sequence[Spec], about: str, words: Sequence[str], positional: str | None
+) -> list[Parameter[Any]]:
+    parser = argparse.ArgumentParser(
+        prog=f"ros2 run truck_blowout_sim {name}",
+        description=about,
+        epilog="Every option is a parameter, too: --ros-args -p name:=value, --params-file FILE.",
+        argument_default=argparse.SUPPRESS,
+    )
+    for spec in specs:
+        unit = f" [{spec.unit}]" if spec.unit else ""
+        text = f"{spec.text.replace('`', '')}{unit} (default: {spec.default})".replace("%", "%%")
+        if spec.name == positional:
+            parser.add_argument(spec.name, nargs="?", help=text)
+        elif isinstance(spec.default, bool):
+            parser.add_argument(_flag(spec.name), dest=spec.name, help=text,
+                                action=argparse.BooleanOptionalAction)  # fmt: skip
+        elif isinstance(spec.default, list):
+            parser.add_argument(_flag(spec.name), dest=spec.name, help=text, nargs="+")
+        else:
+            parser.add_argument(_flag(spec.name), dest=spec.name, help=text,
+                                type=type(spec.default), metavar="VALUE")  # fmt: skip
+    given = vars(parser.parse_args(list(words)))
+    return [Parameter(key, value=value) for key, value in given.items()]
+
+
+def _flag(name: str) -> str:
+    return "--" + name.replace("_", "-")
+
+
+def _usage_errors() -> tuple[type[Exception], ...]:
+    from rclpy._rclpy_pybind11 import RCLInvalidROSArgsError, UnknownROSArgsError
+    from rclpy.exceptions import InvalidParameterException, ParameterException
+
+    return (
+        RCLInvalidROSArgsError,
+        UnknownROSArgsError,
+        ParameterException,
+        InvalidParameterException,
+    )
+
+
+def _first_line(error: Exception) -> str:
+    return " ".join(str(error).split())

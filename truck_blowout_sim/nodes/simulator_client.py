@@ -1,0 +1,137 @@
+"""The simulator as another node sees it: its services and parameters."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from time import monotonic
+from typing import Any
+
+from rcl_interfaces.msg import Parameter, ParameterType, ParameterValue
+from rcl_interfaces.srv import SetParameters
+from rclpy.client import Client
+from rclpy.executors import Executor
+from rclpy.node import Node
+from rclpy.task import Future
+from std_srvs.srv import Trigger
+
+from truck_blowout_sim.errors import InputError
+
+
+class SimulatorClient:
+    """Calls the simulator; waiting spins the executor, so call from the loop, not a callback.
+
+    Args:
+        node: owner of the clients.
+        name: name of the simulator node, relative.
+        stopped: asked while waiting; true ends the wait.
+    """
+
+    def __init__(self, node: Node, name: str, stopped: Callable[[], bool]) -> None:
+        self._node = node
+        self._stopped = stopped
+        self._triggers: dict[str, Client[Any, Any]] = {}
+        self._parameters: Client[Any, Any] = node.create_client(
+            SetParameters, f"{name}/set_parameters"
+        )
+        self.replies: list[str] = []
+        self.pending = 0
+
+    def wait(self, executor: Executor, timeout_s: float) -> bool:
+        """Wait until the simulator serves; false after the timeout."""
+        reset = self._trigger("reset")
+        return self.until(executor, lambda: bool(reset.service_is_ready()), timeout_s)
+
+    def call(self, executor: Executor, service: str, *, timeout_s: float = 10.0) -> str:
+        """Call a Trigger service of the simulator and return its sentence.
+
+        Raises:
+            InputError: it is not served, does not answer, or refuses.
+        """
+        client = self._trigger(service)
+        end_s = monotonic() + timeout_s
+        if not self._until(executor, lambda: bool(client.service_is_ready()), end_s):
+            raise InputError(f"nobody serves {client.srv_name}", expected="a running simulator")
+        response = self._answer(executor, client, Trigger.Request(), end_s)
+        if not response.success:
+            raise InputError(f"{client.srv_name} refused: {response.message}")
+        return str(response.message)
+
+    def set_parameters(
+        self, executor: Executor, values: Mapping[str, float], *, timeout_s: float = 10.0
+    ) -> None:
+        """Set number parameters of the simulator.
+
+        Raises:
+            InputError: it does not answer, or refuses one.
+        """
+        request = SetParameters.Request(
+            parameters=[
+                Parameter(
+                    name=name,
+                    value=ParameterValue(type=ParameterType.PARAMETER_DOUBLE, double_value=value),
+                )
+                for name, value in values.items()
+            ]
+        )
+        end_s = monotonic() + timeout_s
+        response = self._answer(executor, self._parameters, request, end_s)
+        refusals = [result.reason for result in response.results if not result.successful]
+        if refusals:
+            raise InputError(f"the simulator refused parameters: {'; '.join(refusals)}")
+
+    def blow(self, part: str, done: Callable[[str], None]) -> bool:
+        """Ask for a blowout, without waiting.
+
+        Args:
+            part: tire or hub.
+            done: called with the simulator's sentence when it answers.
+
+        Returns:
+            Whether anybody serves it.
+        """
+        client = self._trigger(f"blowout/{part}")
+        if not client.service_is_ready():
+            return False
+        self.pending += 1
+
+        def answered(future: Future[Any]) -> None:
+            self.pending -= 1
+            reply = future.result()
+            done(reply.message if reply is not None else "no answer")
+
+        client.call_async(Trigger.Request()).add_done_callback(answered)
+        return True
+
+    def prepare_blowouts(self, parts: set[str]) -> None:
+        """Look for the services before they are needed."""
+        for part in sorted(parts):
+            self._trigger(f"blowout/{part}")
+
+    def settle(self, executor: Executor, timeout_s: float) -> None:
+        """Wait for answers that are still under way."""
+        self.until(executor, lambda: not self.pending, timeout_s)
+
+    def until(self, executor: Executor, done: Callable[[], bool], timeout_s: float) -> bool:
+        """Spin until something is so; false after the timeout."""
+        return self._until(executor, done, monotonic() + timeout_s)
+
+    def _trigger(self, service: str) -> Client[Any, Any]:
+        if service not in self._triggers:
+            self._triggers[service] = self._node.create_client(Trigger, service)
+        return self._triggers[service]
+
+    def _answer(
+        self, executor: Executor, client: Client[Any, Any], request: object, end_s: float
+    ) -> Any:  # noqa: ANN401  # the type of the service's response
+        future = client.call_async(request)
+        if not self._until(executor, lambda: bool(future.done()), end_s):
+            client.remove_pending_request(future)
+            raise InputError(f"{client.srv_name} did not answer", expected="a running simulator")
+        return future.result()
+
+    def _until(self, executor: Executor, done: Callable[[], bool], end_s: float) -> bool:
+        while not done():
+            if self._stopped() or monotonic() >= end_s:
+                return False
+            executor.spin_once(timeout_sec=0.02)
+        return True
