@@ -1,0 +1,90 @@
+"""`import`, `export` and `recover` as a user types them."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from truck_blowout_sim.recordings import read_recording
+
+CSV = """# test: by hand
+time_s,throttle,blowout,tractor_vx_mps,tire_pressure_steer_left_pa
+-0.5,0.3,,20,758423
+0,0.3,steer_left,20,758423
+0.5,0.3,,19.5,0
+"""
+
+
+def cli(*words: str | Path) -> subprocess.CompletedProcess[str]:
+    return subprocess.run([sys.executable, "-m", "truck_blowout_sim", *map(str, words)],
+                          capture_output=True, text=True, check=False)  # fmt: skip
+
+
+@pytest.fixture
+def log(tmp_path: Path) -> Path:
+    path = tmp_path / "log.csv"
+    path.write_text(CSV)
+    return path
+
+
+def test_there_and_back(tmp_path: Path, log: Path) -> None:
+    there = cli("import", log, "-o", tmp_path / "bag")
+    assert (there.returncode, there.stderr) == (0, "")
+    assert "steer_left blown at 0 s" in there.stdout
+    back = cli("export", tmp_path / "bag", "-o", tmp_path / "again.csv")
+    assert back.returncode == 0
+    one, two = read_recording(log), read_recording(tmp_path / "again.csv")
+    assert set(one.channels) == set(two.channels)
+    for name, series in one.channels.items():
+        np.testing.assert_allclose(two[name].value, series.value)
+        np.testing.assert_array_equal(two[name].time_s, series.time_s)
+    assert one.blowouts == two.blowouts
+    assert two.metadata["test"] == "by hand"
+
+
+def test_bad_input_is_one_line_and_status_2_and_nothing_is_left(tmp_path: Path, log: Path) -> None:
+    log.write_text(CSV.replace("19.5", "nan"))
+    done = cli("import", log, "-o", tmp_path / "bag")
+    assert done.returncode == 2
+    assert done.stdout == ""
+    assert len(done.stderr.splitlines()) == 1
+    assert "log.csv, line 5, column tractor_vx_mps" in done.stderr
+    assert sorted(p.name for p in tmp_path.iterdir()) == ["log.csv"]
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ("import", "gone.csv", "-o", "bag"),
+        ("export", "gone.mcap", "-o", "x.csv"),
+        ("recover", "gone.mcap"),
+        ("import", "log.csv", "-o", "x.docx"),
+        ("import", "log.csv", "-o", "bag", "--remap", "nonsense"),
+        ("import", "log.csv"),
+    ],
+)
+def test_bad_usage_is_one_line_and_status_2(
+    tmp_path: Path, log: Path, words: tuple[str, ...], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(log.parent)
+    done = cli(*words)
+    assert done.returncode == 2
+    assert len(done.stderr.splitlines()) == 1
+    assert sorted(p.name for p in tmp_path.iterdir()) == ["log.csv"]
+
+
+def test_an_unfinished_bag_is_exported_with_a_note_and_recovered(tmp_path: Path, log: Path) -> None:
+    bag = tmp_path / "bag.mcap"
+    assert cli("import", log, "-o", bag).returncode == 0
+    bag.write_bytes(bag.read_bytes()[:-40])
+    done = cli("export", bag, "-o", tmp_path / "out.csv")
+    assert done.returncode == 0
+    assert "not closed" in done.stderr
+    saved = cli("recover", bag)
+    assert saved.returncode == 0
+    assert "messages" in saved.stdout
+    assert cli("export", bag, "-o", tmp_path / "out.csv").stderr == ""

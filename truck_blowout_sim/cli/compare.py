@@ -1,0 +1,115 @@
+"""`truck-blowout compare`: the model's answer to a recording's inputs, beside the recording."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import typer
+from rich.console import Console
+from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
+from rich.table import Table
+
+if TYPE_CHECKING:
+    from truck_blowout_sim.comparison import Comparison
+
+_SHOWN = (
+    "tractor_vx_mps", "tractor_vy_mps", "tractor_yaw_rate_radps", "trailer_yaw_rate_radps",
+    "tractor_along_m", "tractor_across_m", "tractor_roll_rad", "trailer_roll_rad",
+)  # fmt: skip
+_NUMBERS = (("rms error", 11), ("peak error", 11), ("at", 8), ("noise σ", 7), ("ISO 18571", 14))
+
+
+def command(
+    recordings: list[str] = typer.Argument(
+        help="Bags, .mcap, .csv or .mat files, or the name of a shipped one:"
+        " test_2013_steer_blowout.",
+    ),
+    vehicle: str = typer.Option(
+        "international_9400i_trailmobile", help="Vehicle file, by name or path."
+    ),
+    output: Path = typer.Option(
+        Path("comparison"),
+        "-o",
+        "--output",
+        help="Folder for report.html, comparison.json and figures/; with several recordings,"
+        " one folder each inside it.",
+    ),
+    step_s: float = typer.Option(
+        0.001, "--step", min=1e-5, max=0.005, help="Step of the simulation, s."
+    ),
+    impose_speed: bool | None = typer.Option(
+        None,
+        "--impose-speed/--no-impose-speed",
+        help="Make the model follow the recorded speed. By default only where throttle or a brake"
+        " pressure was not recorded.",
+    ),
+) -> None:
+    """Drive the model with a recording's inputs and report the differences."""
+    from truck_blowout_sim.comparison import compare
+    from truck_blowout_sim.report.comparison_page import write_comparison_report
+    from truck_blowout_sim.vehicle import load_vehicle
+
+    console, loaded = _console(), load_vehicle(vehicle)
+    folders = _folders(recordings, output)
+    for name, folder in zip(recordings, folders, strict=True):
+        with _progress() as progress:
+            task = progress.add_task("", total=1.0)
+
+            def tell(stage: str, share: float) -> None:
+                progress.update(task, description=stage, completed=0.8 * share)  # noqa: B023
+
+            compared = compare(
+                name, loaded, step_s=step_s, impose_speed=impose_speed, progress=tell
+            )
+            progress.update(task, description="drawing", completed=0.8)
+            page = write_comparison_report(compared, folder)
+        _print(console, compared, page)
+
+
+def _folders(recordings: list[str], output: Path) -> list[Path]:
+    """One folder a recording, named after it; two of one name are told apart by a number."""
+    if len(recordings) == 1:
+        return [output]
+    names: list[str] = []
+    for recording in recordings:
+        stem = Path(recording).name.split(".")[0] or "recording"
+        same = sum(name.rpartition("_")[0] == stem or name == stem for name in names)
+        names.append(stem if not same else f"{stem}_{same + 1}")
+    return [output / name for name in names]
+
+
+def _console() -> Console:
+    """As wide as the terminal; wide enough for every column where the output is a file."""
+    return Console() if sys.stdout.isatty() else Console(width=110)
+
+
+def _progress() -> Progress:
+    columns = (TextColumn("{task.description:<45.45}"), BarColumn(), TimeElapsedColumn())
+    return Progress(*columns, console=Console(stderr=True), transient=True)
+
+
+def _print(console: Console, compared: Comparison, page: Path) -> None:
+    """The verdict, the chief channels, and where the rest is."""
+    from truck_blowout_sim.comparison import verdict
+
+    headline = f"[bold]{compared.recording.name}[/]: {verdict(compared)}"
+    console.print(headline, highlight=False, soft_wrap=True)
+    table = Table(box=None, pad_edge=False, header_style="dim")
+    table.add_column("channel")
+    for title, width in _NUMBERS:
+        table.add_column(title, justify="right", no_wrap=True, min_width=width)
+    for channel in (c for c in compared.channels if c.name in _SHOWN):
+        sigma = "" if channel.rms_sigma is None else f"{channel.rms_sigma:.1f}"
+        rating = channel.rating
+        score = f"{rating.overall:.2f} {rating.grade}" if rating and not channel.imposed else ""
+        table.add_row(
+            channel.label + (" (imposed)" if channel.imposed else ""),
+            channel.shown(channel.rms), channel.shown(channel.peak),
+            f"{channel.peak_time_s:.2f} s", sigma, score,
+        )  # fmt: skip
+    console.print(table)
+    for note in compared.notes:
+        console.print(f"note: {note}", style="dim", highlight=False, soft_wrap=True)
+    console.print(f"{page} ({len(compared.channels)} channels)", highlight=False, soft_wrap=True)

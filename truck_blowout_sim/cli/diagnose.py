@@ -1,0 +1,99 @@
+"""`truck-blowout diagnose`: locate the mismatch, name what is missing, show the fit improve."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import typer
+from rich.console import Console
+from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
+
+if TYPE_CHECKING:
+    from truck_blowout_sim.diagnosis import Diagnosis
+    from truck_blowout_sim.recordings import Recording
+
+_QUICK_STEP_S = 0.0025
+_THOROUGH_STEP_S = 0.001
+
+
+def command(
+    recordings: list[Path] = typer.Argument(help="Training recordings: bags, .mcap, .csv or .mat."),
+    baseline: list[Path] = typer.Option(
+        [], "--baseline", help="Run of the same truck without the effect; repeat for more."
+    ),
+    holdout: list[Path] = typer.Option(
+        [], "--holdout", help="Run that is predicted only, never fitted; repeat for more."
+    ),
+    vehicle: str = typer.Option(
+        "international_9400i_trailmobile", help="Vehicle file of the model, by name or path."
+    ),
+    output: Path = typer.Option(
+        ..., "-o", "--output", help="Folder for diagnosis.json, report.html and vehicle.yaml."
+    ),
+    settings: str = typer.Option(
+        "default", help="File in config/diagnosis: what is assumed of trucks and instruments."
+    ),
+    impose_speed: bool | None = typer.Option(
+        None, "--impose-speed/--no-impose-speed",
+        help="Follow the recorded speed. By default only where throttle or brakes are missing."
+    ),
+    quick: bool = typer.Option(False, "--quick", help="One effect at most, coarser step."),
+    thorough: bool = typer.Option(False, "--thorough", help="1 ms step, up to four effects."),
+) -> None:
+    """Locate, name and fit what the model lacks to explain recordings."""
+    from truck_blowout_sim.diagnosis import diagnose, write_diagnosed_vehicle, write_diagnosis
+    from truck_blowout_sim.diagnosis.diagnose import STEP_S
+    from truck_blowout_sim.report.diagnosis_page import write_diagnosis_report
+    from truck_blowout_sim.vehicle import load_vehicle
+
+    loaded = load_vehicle(vehicle)
+    train, base, hold = (_read(paths, loaded.hubs, loaded.tires)
+                         for paths in (recordings, baseline, holdout))
+    output.mkdir(parents=True, exist_ok=True)
+    step_s = _QUICK_STEP_S if quick else _THOROUGH_STEP_S if thorough else STEP_S
+    with _progress() as progress:
+        task = progress.add_task("sensor gate", total=1.0)
+        answer, values = diagnose(
+            train, baseline=base, holdout=hold, vehicle=loaded, settings=settings,
+            impose_speed=impose_speed, step_s=step_s,
+            most_effects=1 if quick else 4 if thorough else 3,
+            progress=lambda stage, share: progress.update(
+                task, description=stage, completed=share))
+        progress.update(task, description="drawing", completed=1.0)
+        write_diagnosis(answer, output / "diagnosis.json")
+        write_diagnosed_vehicle(output / "vehicle.yaml", vehicle, values, answer)
+        write_diagnosis_report(answer, loaded, output / "report.html")
+    _print(Console(), answer, output)
+
+
+def _read(paths: Sequence[Path], hubs: tuple[str, ...], tires: tuple[str, ...]
+          ) -> list[Recording]:
+    """Read recordings; the same name twice is told apart by a number."""
+    from dataclasses import replace
+
+    from truck_blowout_sim.recordings import read_recording
+
+    read: list[Recording] = []
+    for path in paths:
+        one = read_recording(path, hubs=hubs, tires=tires)
+        same = sum(r.name.split(" #")[0] == one.name for r in read)
+        read.append(replace(one, name=f"{one.name} #{same + 1}") if same else one)
+    return read
+
+
+def _progress() -> Progress:
+    columns = (TextColumn("{task.description:<20.20}"), BarColumn(), TimeElapsedColumn())
+    return Progress(*columns, console=Console(stderr=True), transient=True)
+
+
+def _print(console: Console, answer: Diagnosis, folder: Path) -> None:
+    """The verdict, each effect, and where the rest is."""
+    console.print(f"[bold]{answer.verdict}[/]: {answer.sentence}", highlight=False)
+    for effect, aliases in zip(answer.effects, answer.alias_sets, strict=True):
+        console.print(f"  {effect.name} {effect.where}  {effect.equation}", highlight=False)
+        if len(aliases.names) > 1:
+            console.print(f"  cannot be told from: {', '.join(aliases.names[1:])}", highlight=False)
+    console.print(f"next test: {answer.next_test}", highlight=False)
+    console.print(str(folder / "report.html"), highlight=False, soft_wrap=True)

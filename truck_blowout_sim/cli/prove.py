@@ -1,0 +1,76 @@
+"""`truck-blowout prove`: concealed effects, sealed answers, failures shown."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+from typing import Any
+
+import typer
+from rich.console import Console
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
+
+
+def command(
+    cases: Path | None = typer.Option(
+        None, "--cases", help="Folder with generated cases; without it a set is generated."
+    ),
+    name: str = typer.Option(
+        "ci", "--set", help="Set to generate: dev, test, or ci (24 cases of dev, all groups)."
+    ),
+    limit: int = typer.Option(
+        0, "--limit", min=0, help="So many cases, spread over the set; 0: all."
+    ),
+    output: Path = typer.Option(
+        Path("proof"), "-o", "--output", help="Folder for proof.json, proof.md, figures and cases."
+    ),
+    workers: int = typer.Option(
+        os.cpu_count() or 1, "--workers", min=1, help="Processes, one case each at a time."
+    ),
+    manifest: Path | None = typer.Option(
+        None, "--manifest", help="Sealed hashes. By default manifest.json beside the cases."
+    ),
+    step_s: float = typer.Option(0.0025, "--step-s", help="Integration step of the model [s]."),
+    baselines: bool = typer.Option(
+        True, "--baselines/--no-baselines", help="Also try the rivals on every case."
+    ),
+) -> None:
+    """Run the concealed-effect benchmark; an interrupted run goes on where it was."""
+    from truck_blowout_sim.proof.cases import find_cases
+    from truck_blowout_sim.proof.generate import generate_set
+    from truck_blowout_sim.proof.prove import score_run
+    from truck_blowout_sim.proof.run import RESULTS, read_lines, run_cases
+
+    root = cases or generate_set(name, output, limit=limit, workers=workers)
+    found = find_cases(root, limit)
+    have = set(read_lines(output / RESULTS))
+    with _progress() as progress:
+        task = progress.add_task("diagnosing", total=len(found),
+                                 completed=sum(case.id in have for case in found))
+        for line in run_cases(found, output, workers=workers, step_s=step_s,
+                              with_baselines=baselines):
+            progress.update(task, advance=1, description=line["case"])
+            if line["error"]:
+                progress.console.print(f"{line['case']}: {line['error']}", style="red",
+                                       markup=False)
+    beside = root / "manifest.json"
+    figures = score_run(found, read_lines(output / RESULTS), output,
+                        manifest or (beside if beside.is_file() else None))
+    _print(figures, output)
+
+
+def _progress() -> Progress:
+    return Progress(TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(),
+                    TimeRemainingColumn(), console=Console(stderr=True))
+
+
+def _print(figures: dict[str, Any], output: Path) -> None:
+    """The proportions, and where the rest is."""
+    from truck_blowout_sim.proof.statistics import Proportion
+
+    for name, entry in figures["proportions"].items():
+        typer.echo(f"{name:<52} {Proportion(entry['hits'], entry['trials'])}")
+    broken = figures["seals"]["broken"]
+    if broken:
+        typer.echo(f"BROKEN SEALS: {', '.join(broken)}", err=True)
+    typer.echo(str(output / "proof.md"))

@@ -1,0 +1,26 @@
+"""`truck-blowout recover`: a bag whose writer was killed gets its index back."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import typer
+
+from truck_blowout_sim.errors import InputError
+from truck_blowout_sim.recordings.recover import recover
+
+
+def command(
+    bag: Path = typer.Argument(help=".mcap file or rosbag2 folder."),
+    output: Path | None = typer.Option(
+        None, "-o", "--output", help="Write there; by default the bag is replaced."
+    ),
+) -> None:
+    """Make a bag readable again whose writer was killed; every whole chunk is kept."""
+    if not bag.exists():
+        raise InputError(
+            "no such file or directory", file=bag, expected="an .mcap file or a rosbag2 folder"
+        )
+    saved = recover(bag, output)
+    lost = f", {saved.lost_bytes} bytes of a broken tail left out" if saved.lost_bytes else ""
+    typer.echo(f"{saved.path}: {saved.messages} messages{lost}")

@@ -1,0 +1,87 @@
+"""`truck-blowout run`: a scenario becomes a bag."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from time import perf_counter
+
+import typer
+from rich.console import Console
+from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
+
+from truck_blowout_sim.cli.settings import parse_blowouts, parse_values
+from truck_blowout_sim.errors import InputError, quoted
+from truck_blowout_sim.recordings import Recording, write_recording
+from truck_blowout_sim.simulation.run import simulate
+from truck_blowout_sim.simulation.scenario import Scenario, load_scenario
+from truck_blowout_sim.simulation.summary import summarize
+from truck_blowout_sim.vehicle import Packed, load_vehicle, pack
+
+_SUFFIX = {"bag": "", "csv": ".csv"}
+
+
+def command(
+    scenario: str = typer.Argument(help="Name of a shipped scenario, or a YAML file."),
+    output: Path | None = typer.Option(
+        None, "-o", "--output", help="Bag to write (a folder); the scenario's name by default."
+    ),
+    vehicle: str = typer.Option(
+        "international_9400i_trailmobile", help="Name of a shipped vehicle, or a YAML file."
+    ),
+    values: list[str] = typer.Option(
+        [], "--set", help="NAME=VALUE of a parameter, SI, e.g. "
+        "hub.trailer_2_left.brake_gain=0.35. May be repeated."
+    ),
+    blow: list[str] = typer.Option(
+        [], "--blow", help="TIRE@SECONDS (or a hub, or several joined by +) in place of the "
+        "scenario's blowouts; 'none' for none. May be repeated."
+    ),
+    form: str = typer.Option("bag", "--format", help="bag or csv."),
+    step_s: float = typer.Option(0.001, help="Step [s]."),
+    rate_hz: float = typer.Option(100.0, help="Rate of the recording [Hz]."),
+) -> None:
+    """Simulate a scenario without ROS, faster than real time, and write a bag."""
+    if form not in _SUFFIX:
+        raise InputError(f"--format {quoted(form)}", expected="bag or csv")
+    loaded = load_scenario(scenario)
+    if blow:
+        loaded = loaded.with_blowouts(parse_blowouts(blow))
+    truck = _with_values(pack(load_vehicle(vehicle)), values)
+    target = output or Path(loaded.name)
+    if form == "csv" and target.suffix != ".csv":
+        target = target.with_name(f"{target.name}.csv")
+    recording, factor = _run(truck, loaded, step_s, rate_hz)
+    write_recording(recording, target)
+    for note in recording.notes:
+        typer.echo(f"note: {note}", err=True)
+    typer.echo(summarize(recording))
+    typer.echo(f"{target}: {len(recording.channels)} channels, {recording.start_s:g} s to "
+               f"{recording.end_s:g} s, {factor:.0f} times faster than real time")
+
+
+def _with_values(truck: Packed, words: list[str]) -> Packed:
+    try:
+        return truck.with_values(parse_values(words))
+    except KeyError as error:
+        raise InputError(f"--set: {error.args[0]}") from None
+
+
+def _run(truck: Packed, scenario: Scenario, step_s: float, rate_hz: float
+         ) -> tuple[Recording, float]:
+    """The run, and simulated seconds a wall second; loading of compiled code is not counted."""
+    marks: list[tuple[float, float]] = []
+    bar = Progress(TextColumn(scenario.name), BarColumn(), TimeRemainingColumn(),
+                   console=Console(stderr=True), transient=True,
+                   disable=not sys.stderr.isatty())
+    with bar:
+        task = bar.add_task(scenario.name, total=1.0)
+
+        def show(share: float) -> None:
+            marks.append((perf_counter(), share))
+            bar.update(task, completed=share)
+
+        recording = simulate(truck, scenario, step_s=step_s, rate_hz=rate_hz, progress=show)
+    (start, done), (end, share) = marks[0], marks[-1]
+    seconds = (share - done) * (scenario.spec.end_s - scenario.spec.start_s)
+    return recording, seconds / max(end - start, 1e-9)
