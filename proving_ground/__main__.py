@@ -1,0 +1,119 @@
+"""Command line of the proving ground: `python -m proving_ground generate|list|seal|validate`."""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections import Counter
+from pathlib import Path
+from typing import Annotated
+
+import typer
+from rich.console import Console
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
+from rich.table import Table as RichTable
+
+from proving_ground.cases import GROUPS, CaseSpec, read_case, write_case
+from proving_ground.generate import generate as generate_cases
+from proving_ground.generate import interleaved, pending
+from proving_ground.seal import broken_seals, write_manifest
+from proving_ground.table import COUNTS, Table
+
+app = typer.Typer(no_args_is_help=True, add_completion=False, help=__doc__)
+console = Console(stderr=True)
+SetName = Annotated[str, typer.Option("--set", help="dev or test")]
+Out = Annotated[Path, typer.Option("--out", "-o", help="folder of the set")]
+
+
+def _stop(message: str) -> typer.Exit:
+    console.print(message, style="red", markup=False)
+    return typer.Exit(2)
+
+
+def _table(name: str) -> list[CaseSpec]:
+    if name not in COUNTS:
+        raise _stop(f"--set: {name!r}, expected one of {sorted(COUNTS)}")
+    return Table(name).cases()
+
+
+@app.command()
+def generate(
+    out: Out,
+    name: SetName = "dev",
+    cores: Annotated[int, typer.Option(help="processes")] = os.cpu_count() or 1,
+    group: Annotated[list[str] | None, typer.Option(help="only this group; repeatable")] = None,
+    limit: Annotated[int, typer.Option(help="the first so many, groups in "
+                                         "proportion; 0: all")] = 0,
+    case: Annotated[list[Path] | None, typer.Option(help="YAML case instead of a set")] = None,
+) -> None:
+    """Make the recordings and answers of a set, or of single case files; resumes where it was."""
+    try:
+        specs = [read_case(path) for path in case] if case else _table(name)
+    except (OSError, ValueError) as error:
+        raise _stop(str(error)) from error
+    if group:
+        specs = [spec for spec in specs if spec.group in group]
+    specs = interleaved(specs)
+    specs = specs[:limit] if limit else specs
+    todo = len(pending(specs, out))
+    bar = Progress(TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(),
+                   TimeRemainingColumn(), console=console)
+    with bar:
+        task = bar.add_task("cases", total=len(specs), completed=len(specs) - todo)
+        for done, astray in generate_cases(specs, out, cores):
+            bar.update(task, advance=1, description=done)
+            if astray:
+                console.print(f"{done}: {astray}", style="red", markup=False)
+    left = len(pending(specs, out))
+    typer.echo(f"{len(specs)} cases, {todo - left} made now, {left} failed; "
+               f"{write_manifest(out, name)}")
+    if left:
+        raise typer.Exit(1)
+
+
+@app.command("list")
+def list_cases(name: SetName = "dev",
+               out: Annotated[Path | None, typer.Option("--out", "-o", help="write the cases as "
+                              "YAML files into this folder")] = None) -> None:
+    """Count the cases of a set by group and name, or write them as files."""
+    specs = _table(name)
+    if out is not None:
+        out.mkdir(parents=True, exist_ok=True)
+        for spec in specs:
+            write_case(out / f"{spec.id}.yaml", spec)
+    table = RichTable("group", "names", "cases")
+    for group in GROUPS:
+        members = [spec for spec in specs if spec.group == group]
+        names = Counter(effect.name for spec in members for effect in spec.effects)
+        names.update(fault.name for spec in members for fault in spec.faults)
+        table.add_row(group, str(len(names)), str(len(members)))
+    Console().print(table)
+
+
+@app.command()
+def seal(out: Out, check: Annotated[Path | None, typer.Option(help="manifest to check against")]
+         = None, name: SetName = "test") -> None:
+    """Write the manifest of a generated set, or check the set against an earlier manifest."""
+    if check is None:
+        typer.echo(str(write_manifest(out, name)))
+        return
+    broken = broken_seals(out, check)
+    if broken:
+        raise _stop(f"{len(broken)} broken seals: {', '.join(broken[:10])}")
+    typer.echo("all seals hold")
+
+
+@app.command()
+def validate(recordings: Annotated[Path | None, typer.Option(help="folder with the recordings "
+                                   "`nominal/*.csv` to compare with")] = None) -> None:
+    """Check the truth itself: axle loads, cornering, stops, roll, blowout; prints the figures."""
+    from proving_ground.validate import figures
+
+    table = RichTable("quantity", "value", "unit", "expected")
+    for row in figures(recordings):
+        table.add_row(row.name, f"{row.value:.4g}", row.unit, row.expected)
+    Console().print(table)
+
+
+if __name__ == "__main__":
+    sys.exit(app())

@@ -1,0 +1,132 @@
+"""What a case is, and the seeded tables of cases; one YAML file describes one case.
+
+A case is one truck individual with two baseline runs (nothing missing), two or three training
+runs and two holdout runs in which its effects are at work.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass, fields
+from pathlib import Path
+from typing import Any
+
+import yaml
+
+from proving_ground.effects import LISTED, UNLISTED
+from proving_ground.effects.base import EffectKind, Place
+from proving_ground.faults import FAULTS
+from proving_ground.manoeuvres import MANOEUVRES
+
+GROUPS = ("null", "single", "pair", "sensor", "unknown")
+
+
+@dataclass(frozen=True)
+class EffectSpec:
+    """One effect of a case. `sigma` is the wanted detectability; None takes `severity` as it is."""
+
+    name: str
+    place: int = 0
+    sign: float = 1.0
+    sigma: float | None = None
+    severity: float = 0.3
+
+    @property
+    def kind(self) -> EffectKind:
+        """The family, listed or not."""
+        found = LISTED.get(self.name) or UNLISTED.get(self.name)
+        if found is None:
+            raise ValueError(f"effect {self.name!r} is not known to the proving ground")
+        return found
+
+    @property
+    def where(self) -> Place:
+        """Where it sits."""
+        return self.kind.places[self.place % len(self.kind.places)]
+
+
+@dataclass(frozen=True)
+class FaultSpec:
+    """One instrument fault of a case; fields as for an effect."""
+
+    name: str
+    place: int = 0
+    sign: float = 1.0
+    sigma: float | None = None
+    severity: float = 0.3
+
+
+@dataclass(frozen=True)
+class CaseSpec:
+    """All that defines a case; everything else follows from `seed`."""
+
+    id: str
+    group: str
+    seed: int
+    baseline: tuple[str, ...]
+    train: tuple[str, ...]
+    holdout: tuple[str, ...]
+    effects: tuple[EffectSpec, ...] = ()
+    faults: tuple[FaultSpec, ...] = ()
+    missing: tuple[str, ...] = ()
+    dropouts: bool = False
+
+    def runs(self) -> list[tuple[str, str, int]]:
+        """(name, manoeuvre kind, seed) of every run."""
+        rows: list[tuple[str, str, int]] = []
+        for role, kinds in (("baseline", self.baseline), ("train", self.train),
+                            ("holdout", self.holdout)):
+            for number, kind in enumerate(kinds, start=1):
+                rows.append((f"{role}_{number}", kind, self.seed * 100 + len(rows) + 1))
+        return rows
+
+
+def read_case(path: Path) -> CaseSpec:
+    """A case from its YAML file; raises ValueError with file, field and what was wanted."""
+    raw = yaml.safe_load(path.read_text(encoding="utf-8"))
+    if not isinstance(raw, dict):
+        raise ValueError(f"{path}: a case is a mapping of fields")
+    known = {field.name for field in fields(CaseSpec)}
+    for key in raw:
+        if key not in known:
+            raise ValueError(f"{path}: {key}: unknown field, expected one of {sorted(known)}")
+    try:
+        return check(_from_mapping(raw))
+    except (TypeError, ValueError) as error:
+        raise ValueError(f"{path}: {error}") from error
+
+
+def _from_mapping(raw: dict[str, Any]) -> CaseSpec:
+    values = dict(raw)
+    values["effects"] = tuple(EffectSpec(**item) for item in raw.get("effects", ()))
+    values["faults"] = tuple(FaultSpec(**item) for item in raw.get("faults", ()))
+    for key in ("baseline", "train", "holdout", "missing"):
+        values[key] = tuple(raw.get(key, ()))
+    return CaseSpec(**values)
+
+
+def write_case(path: Path, spec: CaseSpec) -> None:
+    """Write a case as YAML."""
+    raw = asdict(spec)
+    for key, value in raw.items():
+        if isinstance(value, tuple):
+            raw[key] = list(value)
+    path.write_text(yaml.safe_dump(raw, sort_keys=False), encoding="utf-8")
+
+
+def check(spec: CaseSpec) -> CaseSpec:
+    """The case itself if every name in it exists; raises ValueError otherwise."""
+    if spec.group not in GROUPS:
+        raise ValueError(f"group: {spec.group!r}, expected one of {GROUPS}")
+    _names("train", spec.train + spec.baseline + spec.holdout, MANOEUVRES)
+    _names("faults", [fault.name for fault in spec.faults], FAULTS)
+    _names("effects", [effect.name for effect in spec.effects], {**LISTED, **UNLISTED})
+    if not spec.train or not spec.holdout:
+        raise ValueError("train and holdout: at least one manoeuvre each")
+    return spec
+
+
+def _names(field: str, names: Sequence[str], known: dict[str, Any]) -> None:
+    for name in names:
+        if name not in known:
+            raise ValueError(f"{field}: {name!r}, expected one of {sorted(known)}")

@@ -1,0 +1,79 @@
+"""Effects in steering, axles, driveline and coupling."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from proving_ground.effects.base import (
+    Active,
+    EffectKind,
+    Place,
+    Strength,
+    at_axle,
+    axle_index,
+    only,
+)
+
+DEG = float(np.pi / 180.0)
+STEER = (at_axle("steer"),)
+ALL_AXLES = tuple(at_axle(name) for name in
+                  ("steer", "drive_1", "drive_2", "trailer_1", "trailer_2"))
+
+
+def _compliance(s: float, place: Place, sign: float, when: float) -> Active:
+    """A linkage that is soft at first and hardens as it winds up."""
+    soft = float(np.clip(0.85 * s, 0.0, 0.95))
+    return Active({"linkage_soft": soft, "linkage_harden": 18.0},
+                  Strength("stiffness lost at small moments", soft, "1"))
+
+
+def _lash(s: float, place: Place, sign: float, when: float) -> Active:
+    """More play, with dry friction inside it."""
+    half = 8.0 * s * DEG
+    return Active({"lash_half_rad": half / 22.0, "lash_friction": 18.0 * min(s, 1.0)},
+                  Strength("extra play at the hand wheel", 2.0 * half, "rad"))
+
+
+def _roll_steer(s: float, place: Place, sign: float, when: float) -> Active:
+    """Steer that grows faster than roll."""
+    size = sign * 0.35 * s
+    return Active({"roll_steer": only(5, axle_index(place), size)},
+                  Strength("roll steer", size, "rad/rad"))
+
+
+def _misalign(s: float, place: Place, sign: float, when: float) -> Active:
+    """A thrust line turned for good."""
+    angle = sign * 0.8 * DEG * s
+    return Active({"misalign": only(5, axle_index(place), angle)},
+                  Strength("thrust angle", angle, "rad"))
+
+
+def _driveline(s: float, place: Place, sign: float, when: float) -> Active:
+    """A hydraulic retarder: fills in a third of a second, fades out at low speed."""
+    force = 9000.0 * s
+    return Active({"retarder_n": force}, Strength("retarding force at 22 m/s", 0.955 * force, "N"))
+
+
+def _fifth_wheel(s: float, place: Place, sign: float, when: float) -> Active:
+    """A dry plate: sticks harder than it slides."""
+    moment = 25.0e3 * s
+    return Active({"hitch_friction": moment}, Strength("sliding moment", moment, "N m"))
+
+
+def _payload(s: float, place: Place, sign: float, when: float) -> Active:
+    """The rear block slides aside: hastens, then brakes against its chains."""
+    shift = sign * 0.6 * s
+    return Active({"shift_m": shift, "shift_s": when, "shift_length_s": 0.7},
+                  Strength("lateral shift of 5967 kg", shift, "m"), when)
+
+
+RUNNING_GEAR = (
+    EffectKind("steering_compliance", _compliance, STEER, "kingpin", guess=55.0),
+    EffectKind("steering_lash", _lash, STEER, "small steer", guess=100.0),
+    EffectKind("roll_steer", _roll_steer, ALL_AXLES[:3], "hard steer", signed=True, guess=25.0),
+    EffectKind("axle_misalignment", _misalign, ALL_AXLES, "any", signed=True, guess=60.0),
+    EffectKind("driveline_drag", _driveline, (Place("tractor", "drive"),), "coast", guess=190.0),
+    EffectKind("fifth_wheel_friction", _fifth_wheel, (Place(),), "steer", guess=220.0),
+    EffectKind("payload_shift", _payload, (Place("trailer"),), "any", signed=True, event=True,
+               guess=55.0),
+)

@@ -1,0 +1,84 @@
+"""Effects in the tires, blown and sound."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from proving_ground.effects.base import (
+    Active,
+    EffectKind,
+    Place,
+    Strength,
+    at_axle,
+    at_tire,
+    tire_index,
+)
+
+STEER_TIRES = (at_tire("steer_left"), at_tire("steer_right"))
+LATER_TIRES = tuple(at_tire(name) for name in (
+    "steer_right", "drive_1_left_outer", "drive_2_right_outer", "trailer_1_left_outer",
+    "trailer_2_right_outer"))
+
+GROUP_AXLES = {"steer": [0], "drive": [1, 2], "trailer": [3, 4]}
+
+
+def _drag(s: float, place: Place, sign: float, when: float) -> Active:
+    """Rubbing that builds up over the first 12 m and grows with speed and, weakly, load."""
+    extra = sign * s * (0.20 if sign > 0.0 else 0.12)
+    return Active({"flat_drag": extra}, Strength("extra rolling resistance", extra, "N/N"), when)
+
+
+def _cornering(s: float, place: Place, sign: float, when: float) -> Active:
+    """The flat keeps another part of its slope, and of its peak with it."""
+    kept = 0.25 + s * (0.65 if sign > 0.0 else -0.23)
+    kept = float(np.clip(kept, 0.02, 1.0))
+    return Active({"flat_cornering": kept}, Strength("cornering kept by the flat", kept, "1"),
+                  when)
+
+
+def _slow(s: float, place: Place, sign: float, when: float) -> Active:
+    """A smaller hole that tears open over a second."""
+    scale = float(1.0 / (1.0 + 14.0 * s))
+    return Active({"hole_scale": scale, "hole_growth_s": 1.0 * min(s, 1.0)},
+                  Strength("hole area ratio", scale, "1"), when)
+
+
+def _second(s: float, place: Place, sign: float, when: float) -> Active:
+    """Another tire loses its air by itself, through a hole of another size."""
+    hole = 0.0018 * s
+    return Active({"second_tire": tire_index(place), "second_time_s": when,
+                   "second_hole_m2": hole}, Strength("hole area", hole, "m2"), when)
+
+
+def _relaxation(s: float, place: Place, sign: float, when: float) -> Active:
+    """A longer relaxation length, more so under load."""
+    return Active({"relaxation": 2.5 * s}, Strength("relaxation length ratio", 1 + 1.7 * s, "1"))
+
+
+def _saturation(s: float, place: Place, sign: float, when: float) -> Active:
+    """The peak falls, and with it all but the first part of the curve."""
+    lost = float(np.clip(0.65 * s, 0.0, 0.85))
+    sizes = np.zeros(5)
+    sizes[GROUP_AXLES[place.axle or ""]] = lost
+    return Active({"saturation": sizes}, Strength("peak force lost", lost, "1"))
+
+
+def _friction(s: float, place: Place, sign: float, when: float) -> Active:
+    """The road turns slippery from some place on, over a few metres."""
+    lost = float(np.clip(0.75 * s, 0.0, 0.85))
+    return Active({"friction_drop": lost, "friction_x_m": when},
+                  Strength("friction lost", lost, "1"), onset_x_m=when)
+
+
+TIRES_EFFECTS = (
+    EffectKind("blown_tire_drag", _drag, STEER_TIRES, "blowout", signed=True, guess=100.0),
+    EffectKind("blown_tire_cornering", _cornering, STEER_TIRES, "blowout", signed=True,
+               guess=9.0),
+    EffectKind("slow_deflation", _slow, STEER_TIRES, "blowout", lowest=0.004, guess=3200.0),
+    EffectKind("secondary_blowout", _second, LATER_TIRES, "any", event=True,
+               lowest=0.15, guess=25.0),
+    EffectKind("tire_relaxation", _relaxation, (Place(),), "quick steer", guess=95.0),
+    EffectKind("tire_saturation", _saturation,
+               tuple(at_axle(group) for group in GROUP_AXLES), "hard steer", guess=50.0),
+    EffectKind("friction_change", _friction, (Place(),), "limit", event=True, guess=40.0),
+)

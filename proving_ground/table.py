@@ -1,0 +1,157 @@
+"""The seeded tables of cases: `dev` to develop against, `test` to be scored once.
+
+The two share no seed, no severity and no manoeuvre kind.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from proving_ground.cases import CaseSpec, EffectSpec, FaultSpec, check
+from proving_ground.effects import LISTED, UNLISTED
+from proving_ground.faults import FAULTS
+
+Pools = dict[str, tuple[tuple[str, ...], tuple[str, ...]]]
+
+DEV_POOLS: Pools = {
+    "blowout": (("blowout", "blowout"), ("blowout", "blowout")),
+    "quick steer": (("lane_change", "sine_sweep"), ("sine_sweep", "ramp_hold")),
+    "hard steer": (("lane_change", "hard_ramp"), ("hard_ramp", "sine_sweep")),
+    "steer": (("lane_change", "ramp_hold"), ("sine_sweep", "lane_change")),
+    "small steer": (("sine_sweep", "straight"), ("lane_change", "straight")),
+    "kingpin": (("lane_change", "ramp_hold", "blowout"), ("sine_sweep", "blowout")),
+    "limit": (("braking_all", "hard_ramp"), ("braking_all", "hard_ramp")),
+    "brake": (("braking_all", "braking_all"), ("braking_all", "braking_all")),
+    "coast": (("coast_down", "straight"), ("coast_down", "braking_trailer")),
+    "straight": (("straight", "coast_down"), ("straight", "braking_trailer")),
+    "any": (("straight", "lane_change"), ("sine_sweep", "coast_down")),
+}
+TEST_POOLS: Pools = {
+    "blowout": (("blowout_free", "blowout_brake"), ("blowout_brake", "blowout_free")),
+    "quick steer": (("double_lane_change", "random_steer"), ("random_steer", "slow_ramp")),
+    "hard steer": (("hard_double", "hard_slow_ramp"), ("hard_slow_ramp", "hard_double")),
+    "steer": (("double_lane_change", "random_steer"), ("slow_ramp", "random_steer")),
+    "small steer": (("random_steer", "speed_step"), ("double_lane_change", "random_steer")),
+    "kingpin": (("random_steer", "slow_ramp", "blowout_brake"),
+                ("double_lane_change", "blowout_free")),
+    "limit": (("braking_ramp", "hard_slow_ramp"), ("braking_steps", "hard_double")),
+    "brake": (("braking_steps", "braking_ramp"), ("braking_ramp", "braking_steps")),
+    "coast": (("coast_slow", "speed_step"), ("speed_step", "braking_steps")),
+    "straight": (("speed_step", "coast_slow"), ("coast_slow", "braking_steps")),
+    "any": (("speed_step", "random_steer"), ("double_lane_change", "coast_slow")),
+}
+BASELINES = {"dev": (("lane_change", "coast_down"), ("ramp_hold", "braking_all")),
+             "test": (("double_lane_change", "speed_step"), ("random_steer", "braking_steps"))}
+MISSING: tuple[tuple[str, ...], ...] = (
+    (), (), (), ("hub_speed",), ("tire_pressure",), ("brake_chamber",),
+    ("trailer_x_m", "trailer_y_m", "trailer_vx", "trailer_vy", "trailer_yaw_rad",
+     "trailer_roll_rad", "trailer_pitch_rad"),
+    ("hub_speed", "tire_pressure", "brake_chamber"))
+TEST_SIGMAS = (5.0, 10.0, 20.0, 50.0)
+DEV_SIGMAS = (8.0, 16.0, 32.0, 80.0)
+
+
+@dataclass(frozen=True)
+class Counts:
+    """Cases of each group in a set."""
+
+    null: int
+    single: int
+    pair: int
+    sensor: int
+    unknown: int
+
+
+COUNTS = {"dev": Counts(40, 84, 16, 16, 16), "test": Counts(120, 160, 40, 40, 40)}
+FIRST_SEED = {"dev": 10_000, "test": 500_000}
+
+
+class Table:
+    """Draws the cases of a set one after the other, repeatable from the set's first seed."""
+
+    def __init__(self, name: str) -> None:
+        self.name = name
+        self._pools = DEV_POOLS if name == "dev" else TEST_POOLS
+        self._sigmas = DEV_SIGMAS if name == "dev" else TEST_SIGMAS
+        self._seed = FIRST_SEED[name]
+
+    def cases(self) -> list[CaseSpec]:
+        """All cases of the set."""
+        counts = COUNTS[self.name]
+        listed, unlisted, faults = list(LISTED), list(UNLISTED), list(FAULTS)
+        rows = [self._null(i) for i in range(counts.null)]
+        for i in range(counts.single):
+            sigma = self._sigmas[(i // len(listed) + i) % len(self._sigmas)]
+            rows.append(self._physics("single", [listed[i % len(listed)]], sigma))
+        for i in range(counts.pair):
+            first = listed[(3 * i) % len(listed)]
+            second = listed[(3 * i + 5 + i // len(listed)) % len(listed)]
+            rows.append(self._pair(first, second, i))
+        for i in range(counts.sensor):
+            sigma = self._sigmas[(i // len(faults)) % len(self._sigmas)]
+            rows.append(self._sensor(faults[i % len(faults)], sigma))
+        for i in range(counts.unknown):
+            sigma = max(self._sigmas[(i // len(unlisted)) % len(self._sigmas)], 10.0)
+            rows.append(self._physics("unknown", [unlisted[i % len(unlisted)]], sigma))
+        return [check(row) for row in rows]
+
+    def _next(self, group: str) -> tuple[str, int, np.random.Generator]:
+        self._seed += 1
+        return f"{self.name}-{self._seed}", self._seed, np.random.default_rng([self._seed, 71])
+
+    def _build(self, group: str, needs: str, effects: tuple[EffectSpec, ...] = (),
+               faults: tuple[FaultSpec, ...] = (), blind: bool = False) -> CaseSpec:
+        """A case whose runs excite what it needs."""
+        name, seed, rng = self._next(group)
+        train, holdout = self._pools[needs]
+        if rng.random() < 0.4 and len(train) < 3:
+            extra = self._pools["any" if needs == "blowout" else "steer"][0]
+            train = (*train, extra[int(rng.integers(len(extra)))])
+        choices = MISSING
+        if faults:
+            choices = tuple(names for names in MISSING if not any("trailer" in n for n in names))
+        missing = choices[int(rng.integers(len(choices)))]
+        if blind:
+            missing = ("tire_pressure",)
+        base = BASELINES[self.name]
+        return CaseSpec(name, group, seed, base[int(rng.integers(len(base)))], train, holdout,
+                        effects, faults, missing, bool(rng.random() < 0.15))
+
+    def _null(self, number: int) -> CaseSpec:
+        needs = list(self._pools)
+        return self._build("null", needs[number % len(needs)])
+
+    def _effect(self, name: str, sigma: float | None) -> EffectSpec:
+        rng = np.random.default_rng([self._seed + 1, 73])
+        kind = LISTED.get(name) or UNLISTED[name]
+        sign = float(rng.choice([-1.0, 1.0])) if kind.signed else 1.0
+        return EffectSpec(name, int(rng.integers(len(kind.places))), sign, sigma)
+
+    def _physics(self, group: str, names: list[str], sigma: float) -> CaseSpec:
+        effects = tuple(self._effect(name, sigma) for name in names)
+        blind = names == ["secondary_blowout"] and self._seed % 2 == 0
+        return self._build(group, effects[0].kind.needs, effects, blind=blind)
+
+    def _pair(self, first: str, second: str, number: int) -> CaseSpec:
+        """Two effects, or an effect with an instrument fault in every fourth case."""
+        sigma = self._sigmas[2 + number % 2]
+        one = self._effect(first, sigma)
+        if number % 4 == 3:
+            fault = list(FAULTS)[number % len(FAULTS)]
+            return self._build("pair", one.kind.needs, (one,),
+                               (FaultSpec(fault, number, 1.0, sigma),))
+        two = self._effect(second, sigma)
+        case = self._build("pair", one.kind.needs, (one, two))
+        train, holdout = self._pools[two.kind.needs]
+        return CaseSpec(case.id, "pair", case.seed, case.baseline,
+                        (case.train[0], case.train[1], train[0]), (case.holdout[0], holdout[0]),
+                        case.effects, (), case.missing, case.dropouts)
+
+    def _sensor(self, name: str, sigma: float) -> CaseSpec:
+        rng = np.random.default_rng([self._seed + 1, 79])
+        kind = FAULTS[name]
+        fault = FaultSpec(name, int(rng.integers(len(kind.places))),
+                          float(rng.choice([-1.0, 1.0])), sigma)
+        return self._build("sensor", kind.needs, (), (fault,))

@@ -1,0 +1,91 @@
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from truck_blowout_sim.proof.baselines.compare import mean_square
+from truck_blowout_sim.proof.baselines.features import INPUTS, Stretch, motion_columns
+from truck_blowout_sim.proof.baselines.gaussian_process import gaussian_process, predict_residual
+from truck_blowout_sim.proof.baselines.sparse_regression import (
+    fit_law,
+    integrate,
+    own_stlsq,
+    thresholded,
+)
+
+Floats = NDArray[np.float64]
+NAMES = ("tractor_vx_mps", "tractor_yaw_rate_radps")
+BIN_S, LEAK_S = 0.1, 2.0
+
+
+def driven(seed: int, n: int = 300) -> Stretch:
+    """Residuals of de/dt = -e / 2 s + (0.3 steer, -0.2 throttle), commands slow and random."""
+    rng = np.random.default_rng(seed)
+    inputs = np.zeros((n, len(INPUTS)))
+    inputs[:, 0] = 1.0
+    for name in ("steer", "throttle"):
+        walk = np.convolve(rng.normal(size=n + 39), np.hanning(40) / 6.0, "valid")
+        inputs[:, INPUTS.index(name)] = walk
+    rate = np.stack([0.3 * inputs[:, 1], -0.2 * inputs[:, 2]], axis=1)
+    e = np.zeros((n, 2))
+    for k in range(1, n):
+        kept = np.exp(-BIN_S / LEAK_S)
+        e[k] = kept * e[k - 1] + (1 - kept) * LEAK_S * rate[k - 1]
+    return Stretch(NAMES, e, np.full((n, 2), 0.01), inputs, BIN_S)
+
+
+def test_thresholded_least_squares_finds_the_terms_that_are_there() -> None:
+    rng = np.random.default_rng(1)
+    x = rng.normal(size=(400, 6))
+    law = np.array([[1.5, 0, 0, -0.4, 0, 0], [0, 0.9, 0, 0, 0, 0]])
+    y = x @ law.T
+    y = y + 0.02 * rng.normal(size=y.shape)
+    found = own_stlsq(x, y)
+    assert found == pytest.approx(law, abs=0.01)
+    assert np.count_nonzero(found) == 3
+
+
+def test_own_optimizer_agrees_with_pysindy() -> None:
+    pytest.importorskip("pysindy")
+    rng = np.random.default_rng(2)
+    x = rng.normal(size=(200, 5))
+    y = x @ rng.normal(size=(5, 2)) + 0.1 * rng.normal(size=(200, 2))
+    assert thresholded(x, y) == pytest.approx(own_stlsq(x, y), abs=1e-9)
+
+
+def test_sparse_law_predicts_a_run_it_never_saw() -> None:
+    law = fit_law([driven(3), driven(4)], NAMES)
+    unseen = driven(5)
+    assert law.leak_s == LEAK_S
+    left = unseen.less(integrate(law, unseen, NAMES), NAMES)
+    assert mean_square([left], NAMES) < 0.05 * mean_square([unseen], NAMES)
+
+
+def test_gaussian_process_finds_a_smooth_law_and_knows_nothing_far_away() -> None:
+    rng = np.random.default_rng(6)
+    x = rng.uniform(-2, 2, size=(150, 1))
+    y = np.sin(2 * x[:, 0]) + 0.05 * rng.normal(size=150)
+    asked = np.array([[-1.0], [0.3], [1.2], [60.0]])
+    found = gaussian_process(x, y, asked)
+    assert found[:3] == pytest.approx(np.sin(2 * asked[:3, 0]), abs=0.1)
+    assert abs(found[3]) < 1e-6
+
+
+def test_gaussian_process_skips_gaps() -> None:
+    learned, unseen = driven(7), driven(8)
+    learned.left[:, 0] = 0.5 * learned.inputs[:, 1]
+    learned.left[10:40, 0] = np.nan
+    found = predict_residual([learned], unseen, NAMES[:1])
+    assert found[:, 0] == pytest.approx(0.5 * unseen.inputs[:, 1], abs=0.15)
+
+
+def test_mean_square_is_in_noise_and_blind_to_gaps() -> None:
+    left = np.array([[0.03, np.nan], [-0.03, 0.01]])
+    one = Stretch(NAMES, left, np.full((2, 2), 0.01), np.zeros((2, len(INPUTS))), BIN_S)
+    assert mean_square([one], NAMES) == pytest.approx((9.0 + 1.0) / 2)
+
+
+def test_only_motion_is_compared() -> None:
+    channels = ("tractor_vx_mps", "tractor_roll_rad", "trailer_yaw_rate_radps")
+    assert motion_columns(channels) == [0, 2]

@@ -1,0 +1,79 @@
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from truck_blowout_sim.proof import run
+from truck_blowout_sim.proof.cases import find_cases
+from truck_blowout_sim.proof.run import RESULTS, append, mixed, read_lines, unfinished
+from truck_blowout_sim.proof.seal import folder_hash
+
+WriteCase = Callable[..., Path]
+
+
+def test_a_cut_off_line_is_made_again(tmp_path: Path) -> None:
+    path = tmp_path / RESULTS
+    append(path, {"case": "a", "n": 1})
+    with path.open("a") as file:
+        file.write('{"case": "b", "ans')
+    append(path, {"case": "c", "n": 3})
+    assert sorted(read_lines(path)) == ["a", "c"]
+    append(path, {"case": "a", "n": 2})
+    assert read_lines(path)["a"]["n"] == 2
+
+
+def test_changed_recordings_are_diagnosed_again(tmp_path: Path, write_case: WriteCase) -> None:
+    for name in "ab":
+        write_case(tmp_path, name)
+    cases = find_cases(tmp_path)
+    lines: dict[str, dict[str, Any]] = {
+        c.id: {"recordings_sha256": folder_hash(c.folder)} for c in cases}
+    assert unfinished(cases, lines) == []
+    (tmp_path / "cases" / "b" / "train_1.csv").write_text("other")
+    assert [c.id for c in unfinished(cases, lines)] == ["b"]
+
+
+def test_an_order_of_strides_keeps_every_case(tmp_path: Path, write_case: WriteCase) -> None:
+    for k in range(10):
+        write_case(tmp_path, str(k))
+    cases = find_cases(tmp_path)
+    order = mixed(cases)
+    assert sorted(order, key=lambda c: c.id) == cases
+    assert [c.id for c in order[:4]] == ["0", "3", "6", "9"]
+
+
+def test_a_finished_run_starts_no_process(
+    tmp_path: Path, write_case: WriteCase, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    write_case(tmp_path, "a")
+    case = find_cases(tmp_path)[0]
+    append(tmp_path / RESULTS, {"case": "a", "recordings_sha256": folder_hash(case.folder)})
+
+    def refuse(*args: object, **kwargs: object) -> Iterator[object]:
+        raise AssertionError("a pool was started")
+
+    monkeypatch.setattr(run, "ProcessPoolExecutor", refuse)
+    lines = run.run_cases([case], tmp_path, workers=1, step_s=0.01, with_baselines=False)
+    assert list(lines) == []
+
+
+def test_a_diagnosis_that_breaks_down_is_a_line(tmp_path: Path, monkeypatch: pytest.MonkeyPatch,
+                                                write_case: WriteCase) -> None:
+    import truck_blowout_sim.diagnosis
+    import truck_blowout_sim.recordings
+    from truck_blowout_sim.proof.worker import diagnose_case
+
+    def broken(*args: object, **kwargs: object) -> None:
+        raise FloatingPointError("state is not finite")
+
+    monkeypatch.setattr(truck_blowout_sim.diagnosis, "diagnose", broken)
+    monkeypatch.setattr(truck_blowout_sim.recordings, "read_recording", lambda path: path)
+    write_case(tmp_path, "a")
+    line = diagnose_case(find_cases(tmp_path)[0], step_s=0.01, with_baselines=False)
+    assert line["answer"] is None
+    assert line["error"] == "FloatingPointError: state is not finite"
+    assert json.dumps(line, allow_nan=False)

@@ -1,0 +1,95 @@
+"""Holdout errors of the rivals beside those of the diagnosed model, on the same runs and scale.
+
+Errors are mean squares over the motion channels, in instrument noise squared, so that 1 is as good
+as the instruments. Rivals:
+
+- ``no_change``: the vehicle as its sheet says;
+- ``recalibrated``: all spec-sheet numbers and mounting errors fitted to baseline and training runs
+  together, within three prior sigmas, nothing added;
+- ``gaussian_process``: what that leaves in training, learned as a function of commands and motion;
+- ``sparse_regression``: the same as a sparse law of residual accelerations, integrated over time.
+
+Known limits: one set of features for all cases; recordings are taken as they are, without the
+diagnosis's correction of instruments, so cases with a faulty instrument compare unlike things.
+Validated with: test/proof/test_baselines.py.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from truck_blowout_sim.diagnosis.holdout import predict
+from truck_blowout_sim.diagnosis.result import Role
+from truck_blowout_sim.diagnosis.runs import Run, prepare_run
+from truck_blowout_sim.diagnosis.settings import load_settings
+from truck_blowout_sim.diagnosis.study import Study, calibrate, row_ranges
+from truck_blowout_sim.proof.baselines.features import Stretch, inputs_of, motion_columns
+from truck_blowout_sim.proof.baselines.gaussian_process import predict_residual
+from truck_blowout_sim.proof.baselines.sparse_regression import fit_law, integrate
+from truck_blowout_sim.recordings import Recording
+from truck_blowout_sim.vehicle import load_vehicle, pack
+
+Floats = NDArray[np.float64]
+VEHICLE = "international_9400i_trailmobile"
+_WORST = 1e8  # mean square written where a rival ran away
+
+
+def baseline_errors(train: Sequence[Recording], baseline: Sequence[Recording],
+                    holdout: Sequence[Recording], step_s: float,
+                    diagnosed: Mapping[str, float]) -> dict[str, float]:
+    """Mean square on holdout of each rival, and of the diagnosed model from its rms by channel."""
+    packed = pack(load_vehicle(VEHICLE))
+    rules = load_settings(packed)
+
+    def runs(recordings: Sequence[Recording], role: Role) -> tuple[Run, ...]:
+        return tuple(prepare_run(r, role, packed, rules, step_s=step_s) for r in recordings)
+
+    study = Study((*runs(baseline, "baseline"), *runs(train, "train")), runs(holdout, "holdout"),
+                  packed, rules, 1)
+    plain = study.simulate([(run, packed) for run in study.holdout])
+    calibrate(study)
+    residual = study.residual()
+    predicted = predict(study, residual, ())
+    amounts = np.clip(study.projector().amounts(residual), -3.0, 3.0)
+    clean, rows = residual - study.columns @ amounts, row_ranges(study)
+    learned = [stretch(study.runs[i], clean[rows[i]].reshape(study.runs[i].measured.shape))
+               for i in study.train]
+    unseen = [stretch(run, p.left) for run, p in zip(study.holdout, predicted, strict=True)]
+    names = tuple(sorted(set.intersection(*(set(s.names) for s in (*learned, *unseen)))))
+    law = fit_law(learned, names)
+    errors = {
+        "no_change": mean_square([stretch(run, run.residual(m).reshape(run.measured.shape))
+                                  for run, m in zip(study.holdout, plain, strict=True)], names),
+        "recalibrated": mean_square(unseen, names),
+        "gaussian_process": mean_square(
+            [s.less(predict_residual(learned, s, names), names) for s in unseen], names),
+        "sparse_regression": mean_square(
+            [s.less(integrate(law, s, names), names) for s in unseen], names),
+    }
+    ours = [diagnosed[n] ** 2 for n in names if n in diagnosed]
+    if len(ours) == len(names) and ours:
+        errors["diagnosed"] = float(np.mean(ours))
+    return errors
+
+
+def stretch(run: Run, whitened: Floats) -> Stretch:
+    """The motion residuals of a run in SI with their noise and the inputs at the bins."""
+    columns = motion_columns(run.channels)
+    return Stretch(tuple(run.channels[k] for k in columns),
+                   np.where(np.isfinite(run.measured), whitened * run.sigma, np.nan)[:, columns],
+                   run.noise[:, columns], inputs_of(run),
+                   float(run.edges_s[1] - run.edges_s[0]))
+
+
+def mean_square(stretches: Sequence[Stretch], names: Sequence[str]) -> float:
+    """Mean over channels of the mean square residual over noise; bounded where it ran away."""
+    total = []
+    for name in names:
+        z = np.concatenate([s.column(name) / s.noise_of(name) for s in stretches])
+        z = z[~np.isnan(z)]
+        if z.size:
+            total.append(float(np.mean(np.clip(z, -1e4, 1e4) ** 2)))
+    return min(float(np.mean(total)), _WORST)

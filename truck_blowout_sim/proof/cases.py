@@ -1,0 +1,119 @@
+"""Cases on disk: recordings in a folder, the sealed answer beside them.
+
+Two layouts are read: `cases/<id>/*.csv` with `answers/<id>.json` (a generated set), and
+`<id>/*.csv` with `<id>/answers.json` (single cases put together by hand).
+
+Validated with: test/proof/test_cases.py.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from truck_blowout_sim.errors import InputError
+
+ROLES = ("train", "baseline", "holdout")
+NOTHING_MISSING = ("consistent", "miscalibrated")
+
+
+@dataclass(frozen=True)
+class Case:
+    """Where a case lies."""
+
+    id: str
+    folder: Path
+    answer: Path
+
+    def recordings(self, role: str) -> list[Path]:
+        """Recordings of one role, in order of name."""
+        return sorted(self.folder.glob(f"{role}*.csv"))
+
+
+@dataclass(frozen=True)
+class Cause:
+    """One concealed effect, as its answer gives it.
+
+    Attributes:
+        name, kind: what; kind is ``physics``, ``sensor`` or ``unlisted``.
+        where: body, axle, hub, tire; None where it does not apply.
+        sigma: how visible it is in the training runs; None if not calibrated.
+        onset_s: instant in each run, empty for what is always there.
+        strength: (name, value, unit).
+    """
+
+    name: str
+    kind: str
+    where: Mapping[str, str | None]
+    sigma: float | None
+    onset_s: Mapping[str, float]
+    strength: tuple[str, float, str]
+
+
+@dataclass(frozen=True)
+class Truth:
+    """What was concealed in a case; ``verdicts`` are those that count as right."""
+
+    group: str
+    verdicts: tuple[str, ...]
+    causes: tuple[Cause, ...]
+    missing: tuple[str, ...]
+
+
+def find_cases(root: Path, limit: int = 0) -> list[Case]:
+    """Cases below a folder, in order of name; ``limit`` takes that many, evenly spread.
+
+    Raises:
+        InputError: no case is there, or one has no training recording or no answer.
+    """
+    if (root / "cases").is_dir():
+        # A case whose answer is not there yet is still being made.
+        found = [Case(folder.name, folder, root / "answers" / f"{folder.name}.json")
+                 for folder in sorted((root / "cases").iterdir()) if folder.is_dir()]
+        found = [case for case in found if case.answer.is_file()]
+    else:
+        found = [Case(path.parent.name, path.parent, path)
+                 for path in sorted(root.glob("*/answers.json"))]
+    if not found:
+        raise InputError("no case", file=root,
+                         expected="cases/<id>/*.csv with answers/<id>.json, or <id>/answers.json")
+    for case in found:
+        if not case.recordings("train"):
+            raise InputError("no training recording", file=case.folder, expected="train_1.csv")
+    return spread(found, limit)
+
+
+def spread(cases: Sequence[Case], limit: int) -> list[Case]:
+    """``limit`` of the cases at even distances: sets are ordered by group, so all have a share."""
+    if limit <= 0 or limit >= len(cases):
+        return list(cases)
+    return [cases[int((k + 0.5) * len(cases) / limit)] for k in range(limit)]
+
+
+def read_truth(path: Path) -> Truth:
+    """The sealed answer of a case.
+
+    Raises:
+        InputError: the file is not an answer; says which key is missing.
+    """
+    try:
+        tree = json.loads(path.read_text(encoding="utf-8"))
+        group = str(tree["group"])
+        verdicts = tree["verdicts"] if "verdicts" in tree else [tree["verdict"]]
+        right = NOTHING_MISSING if group == "null" else tuple(map(str, verdicts))
+        causes = tuple(_cause(entry) for entry in tree["effects"])
+        return Truth(group, right, causes, tuple(tree.get("missing_channels", ())))
+    except (KeyError, TypeError, json.JSONDecodeError) as error:
+        raise InputError(f"not an answer: {error!r}", file=path,
+                         expected="group, verdicts, effects") from error
+
+
+def _cause(entry: Mapping[str, Any]) -> Cause:
+    strength = entry["strength"] or {"name": "", "value": 0.0, "unit": ""}
+    sigma = entry.get("sigma")
+    return Cause(str(entry["name"]), str(entry["kind"]), dict(entry["where"]),
+                 None if sigma is None else float(sigma), dict(entry.get("onset_s") or {}),
+                 (str(strength["name"]), float(strength["value"]), str(strength["unit"])))

@@ -1,0 +1,74 @@
+"""Figures of a run: power curve, verdicts against truth, p-values of nulls."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from truck_blowout_sim.proof.table import VERDICTS
+from truck_blowout_sim.report.style import BLUE, CYCLE, SOFT, Picture, new_axes, styled
+
+_CURVES = {"noticed": "noticed", "aliased": "truth in the alias set", "raw": "truth named first"}
+
+
+def pictures(figures: Mapping[str, Any]) -> list[Picture]:
+    """Those that the run has data for."""
+    made = [draw_confusion(figures["confusion"])]
+    if any(row["noticed"]["trials"] for row in figures["power"]):
+        made.append(draw_power(figures["power"]))
+    if len(figures["null_p_values"]) >= 5:
+        made.append(draw_reliability(figures["null_p_values"]))
+    return made
+
+
+@styled
+def draw_power(rows: Sequence[Mapping[str, Any]]) -> Picture:
+    """Share of single effects noticed and named, by visibility, with Wilson intervals."""
+    figure, axes = new_axes(x="visibility (sigma)", y="share of single effects")
+    filled = [row for row in rows if row["noticed"]["trials"]]
+    place = np.arange(len(filled), dtype=np.float64)
+    for k, (key, words) in enumerate(_CURVES.items()):
+        values = np.array([row[key]["value"] for row in filled])
+        ends = np.array([row[key]["wilson95"] for row in filled])
+        # An interval's end and the value may differ by rounding where all or none hit.
+        arms = np.maximum(np.stack([values - ends[:, 0], ends[:, 1] - values]), 0.0)
+        axes.errorbar(place + 0.06 * (k - 1), values, yerr=arms, marker="o", capsize=3,
+                      color=CYCLE[k], label=words)
+    axes.set_xticks(place, [_span(row) for row in filled])
+    axes.set_ylim(-0.03, 1.03)
+    axes.legend(loc="lower right")
+    return Picture("power", "Power", "Bars: 95 % Wilson intervals.", figure)
+
+
+def _span(row: Mapping[str, Any]) -> str:
+    low, high = row["sigma"]
+    return f"{f'{low:g}–{high:g}' if high else f'≥ {low:g}'}\nn = {row['noticed']['trials']}"
+
+
+@styled
+def draw_confusion(table: Mapping[str, Mapping[str, int]]) -> Picture:
+    """Verdicts by group, shaded by the share within the group."""
+    figure, axes = new_axes((6.4, 3.6), x="verdict", y="concealed")
+    counts = np.array([[row.get(v, 0) for v in VERDICTS] for row in table.values()], dtype=float)
+    share = counts / counts.sum(axis=1, keepdims=True)
+    axes.imshow(share, cmap="Blues", vmin=0.0, vmax=1.0, aspect="auto")
+    axes.grid(visible=False)
+    for i, j in np.ndindex(counts.shape):
+        axes.text(j, i, f"{counts[i, j]:.0f}", ha="center", va="center",
+                  color="white" if share[i, j] > 0.5 else "black")
+    axes.set_xticks(range(len(VERDICTS)), [v.replace("_", "\n") for v in VERDICTS])
+    axes.set_yticks(range(len(table)), list(table))
+    return Picture("confusion", "Verdicts", "Number of cases.", figure)
+
+
+@styled
+def draw_reliability(p_values: Sequence[float]) -> Picture:
+    """Share of null cases at or below each p-value; calibrated values follow the diagonal."""
+    figure, axes = new_axes((4.2, 3.8), x="stated p-value", y="share of null cases at or below")
+    n = len(p_values)
+    axes.step([0.0, *p_values, 1.0], [0.0, *((k + 1) / n for k in range(n)), 1.0], where="post",
+              color=BLUE)
+    axes.plot([0, 1], [0, 1], color=SOFT, linestyle="--")
+    return Picture("reliability", "p-values on nulls", f"{n} cases with nothing missing.", figure)

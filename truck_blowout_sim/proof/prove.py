@@ -1,0 +1,54 @@
+"""Score a run and write what a sceptic wants to see: figures, every case, pictures."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any
+
+from truck_blowout_sim.comparison.plain_json import json_text
+from truck_blowout_sim.proof.baselines.sparse_regression import optimizer_name
+from truck_blowout_sim.proof.cases import Case, read_truth
+from truck_blowout_sim.proof.figures import pictures
+from truck_blowout_sim.proof.score import score_case
+from truck_blowout_sim.proof.seal import check_seals
+from truck_blowout_sim.proof.summary import null_floor, summarize
+from truck_blowout_sim.proof.table import markdown
+from truck_blowout_sim.recordings.atomic import replacing
+
+Figures = dict[str, Any]
+
+
+def score_run(cases: Sequence[Case], lines: Mapping[str, Mapping[str, Any]], out: Path,
+              manifest: Path | None = None) -> Figures:
+    """Check the seals, score every case that has a line, write proof.json, proof.md and figures.
+
+    Raises:
+        InputError: an answer or the manifest cannot be read.
+    """
+    seals = check_seals(cases, manifest)
+    truths = {case.id: read_truth(case.answer) for case in cases if case.id in lines}
+    answered = [case for case in truths if lines[case]["answer"]]
+    floor = null_floor(lines, [case for case in answered if truths[case].group == "null"])
+    scores = [score_case(lines[case], truths[case], floor) for case in answered]
+    figures = summarize(scores, {case: lines[case]["error"] for case in truths
+                                 if case not in answered})
+    figures["seals"] = asdict(seals)
+    figures["optimizer_of_sparse_regression"] = optimizer_name()
+    figures["code"] = sorted({str(lines[case].get("code")) for case in truths})
+    figures["each"] = [asdict(score) for score in scores]
+    out.mkdir(parents=True, exist_ok=True)
+    _write(out / "proof.json", json_text(figures))
+    head = seals.sentence() + (
+        "" if len(figures["code"]) < 2 else
+        f" The lines were made by {len(figures['code'])} versions of the code.")
+    _write(out / "proof.md", markdown(figures, scores, truths, head))
+    for picture in pictures(figures):
+        (out / f"{picture.name}.png").write_bytes(picture.png())
+    return figures
+
+
+def _write(path: Path, text: str) -> None:
+    with replacing(path) as temporary:
+        temporary.write_text(text, encoding="utf-8", newline="\n")

@@ -1,0 +1,81 @@
+"""Diagnose many cases in parallel; every finished one is a line on disk, so a run can resume.
+
+Validated with: test/proof/test_run.py.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Iterator, Sequence
+from concurrent.futures import ProcessPoolExecutor, as_completed
+from multiprocessing import get_context
+from pathlib import Path
+from typing import Any
+
+from truck_blowout_sim.proof.cases import Case
+from truck_blowout_sim.proof.seal import folder_hash
+from truck_blowout_sim.proof.worker import attempt, code_hash
+
+RESULTS = "results.jsonl"
+# Each process has one thread: the processes are what runs side by side.
+ONE_THREAD = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS")
+
+
+def read_lines(path: Path) -> dict[str, dict[str, Any]]:
+    """Lines of results by case, the last of each; a line cut off by an interruption is dropped."""
+    found: dict[str, dict[str, Any]] = {}
+    if not path.is_file():
+        return found
+    for text in path.read_text(encoding="utf-8").splitlines():
+        try:
+            line = json.loads(text)
+        except json.JSONDecodeError:
+            continue
+        found[line["case"]] = line
+    return found
+
+
+def unfinished(cases: Sequence[Case], lines: dict[str, dict[str, Any]]) -> list[Case]:
+    """Cases without a line, or whose recordings are not those that the line is about."""
+    return [case for case in cases if case.id not in lines
+            or lines[case.id]["recordings_sha256"] != folder_hash(case.folder)]
+
+
+def run_cases(cases: Sequence[Case], out: Path, *, workers: int, step_s: float,
+              with_baselines: bool) -> Iterator[dict[str, Any]]:
+    """Diagnose what has no line yet, append and yield each line as it comes."""
+    path = out / RESULTS
+    todo = unfinished(cases, read_lines(path))
+    if not todo:
+        return
+    code = code_hash()
+    out.mkdir(parents=True, exist_ok=True)
+    for name in ONE_THREAD:
+        os.environ.setdefault(name, "1")
+    with ProcessPoolExecutor(workers, mp_context=get_context("spawn")) as pool:
+        jobs = [pool.submit(attempt, (case, step_s, with_baselines)) for case in mixed(todo)]
+        try:
+            for job in as_completed(jobs):
+                line = {**job.result(), "code": code}
+                append(path, line)
+                yield line
+        finally:
+            for job in jobs:
+                job.cancel()
+
+
+def mixed(cases: Sequence[Case]) -> list[Case]:
+    """Cases in strides: sets are ordered by group, and so every first part has all groups."""
+    stride = max(1, round(len(cases) ** 0.5))
+    return [case for first in range(stride) for case in cases[first::stride]]
+
+
+def append(path: Path, line: dict[str, Any]) -> None:
+    """Add one line, on a line of its own even behind one that was cut off."""
+    text = json.dumps(line, allow_nan=False) + "\n"
+    cut_off = path.is_file() and not path.read_bytes().endswith(b"\n") and path.stat().st_size
+    with path.open("a", encoding="utf-8") as file:
+        file.write(("\n" if cut_off else "") + text)
+        file.flush()
+        os.fsync(file.fileno())

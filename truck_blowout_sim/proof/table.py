@@ -1,0 +1,144 @@
+"""The report of a run as Markdown: figures against what is sought, then every case.
+
+Validated with: test/proof/test_summary.py.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from truck_blowout_sim.proof.cases import Truth
+from truck_blowout_sim.proof.score import CaseScore
+from truck_blowout_sim.proof.statistics import Proportion
+
+SOUGHT: Mapping[str, str] = {
+    "effect named at alias-set level": "≥ 90 %",
+    "effect named first, raw": "≥ 80 %",
+    "truth inside the alias set, where physics was named": "≥ 95 %",
+    "false discovery on nulls": "≤ 2 %",
+    "unknown recognised": "≥ 85 %",
+    "unknown misnamed": "≤ 5 %",
+    "sensor against physics": "≥ 95 %",
+    "body": "≥ 97 %",
+    "axle, wheel channels present": "≥ 90 %",
+    "both of a pair, alias-set level": "≥ 70 %",
+}
+VERDICTS = ("consistent", "miscalibrated", "sensor_artefact", "missing_physics", "unknown")
+RIVAL_WORDS: Mapping[str, str] = {
+    "no_change": "no change (sheet values)",
+    "recalibrated": "everything recalibrated",
+    "gaussian_process": "Gaussian process on the residual",
+    "sparse_regression": "sparse regression on residual accelerations",
+    "diagnosed": "diagnosed model",
+}
+
+
+def markdown(figures: Mapping[str, Any], scores: Sequence[CaseScore], truths: Mapping[str, Truth],
+             seal: str) -> str:
+    """Everything, as one document."""
+    parts = [seal, "", "## Figures", "", *_proportions(figures), "", *_numbers(figures), "",
+             "## Verdicts", "", *_confusion(figures), "", "## Power", "", *_power(figures), "",
+             "## Rivals on holdout", "", *_rivals(figures), "", "## Parameters", "",
+             *_parameters(figures), "", "## Every case", "", *_cases(scores, truths),
+             *_failed(figures)]
+    return "\n".join(parts) + "\n"
+
+
+def _count(entry: Mapping[str, Any]) -> str:
+    return str(Proportion(entry["hits"], entry["trials"]))
+
+
+def _proportions(figures: Mapping[str, Any]) -> list[str]:
+    rows = ["| figure | sought | reached (hits/cases; 95 % Wilson) |", "|---|---|---|"]
+    return rows + [f"| {name} | {SOUGHT.get(name, '')} | {_count(entry)} |"
+                   for name, entry in figures["proportions"].items()]
+
+
+def _number(value: float | None, unit: str = "", digits: int = 3) -> str:
+    return "–" if value is None else f"{value:.{digits}g}{unit}"
+
+
+def _numbers(figures: Mapping[str, Any]) -> list[str]:
+    onset, fit, par = figures["onset"], figures["holdout"], figures["parameters"]
+    rows = [
+        ("mean size of the alias set", "≤ 2", _number(figures["mean_alias_set_size"])),
+        *((f"onset error, {kind}: median, 90th percentile", "≤ 0.05 s, ≤ 0.2 s" if kind == "abrupt"
+           else "", f"{_number(row['median_s'], ' s')}, {_number(row['p90_s'], ' s')} "
+           f"({row['count']})") for kind, row in onset.items()),
+        ("parameter: median relative error", "≤ 0.10",
+         f"{_number(par['median_relative_error'])} ({par['count']})"),
+        ("90 % intervals that hold the truth", "85–95 %", _count(par["coverage"])),
+        ("holdout improved", "≥ 95 %", _count(fit["improved"])),
+        ("holdout, median share removed of the excess over the instruments' noise", "",
+         f"{_number(fit['median_removed_of_excess_over_instruments'])} "
+         f"({fit['count_over_instruments']})"),
+        ("the same over what nulls leave (stands for the best possible)", "≥ 0.80",
+         f"{_number(fit['median_removed_of_excess_over_null_floor'])} "
+         f"({fit['count_over_null_floor']})"),
+        ("CPU time a case, median", "", _number(figures["cpu_s"]["median"], " s")),
+    ]
+    return ["| figure | sought | reached (number of cases) |", "|---|---|---|",
+            *(f"| {name} | {sought} | {reached} |" for name, sought, reached in rows)]
+
+
+def _confusion(figures: Mapping[str, Any]) -> list[str]:
+    rows = ["| concealed | " + " | ".join(v.replace("_", " ") for v in VERDICTS) + " |",
+            "|---" * (len(VERDICTS) + 1) + "|"]
+    return rows + [f"| {group} | " + " | ".join(str(counts.get(v, 0)) for v in VERDICTS) + " |"
+                   for group, counts in figures["confusion"].items()]
+
+
+def _power(figures: Mapping[str, Any]) -> list[str]:
+    rows = ["| sigma | noticed | truth in alias set | truth named first |", "|---|---|---|---|"]
+    for row in figures["power"]:
+        low, high = row["sigma"]
+        span = f"{low:g}–{high:g}" if high else f"≥ {low:g}"
+        rows.append(f"| {span} | {_count(row['noticed'])} | {_count(row['aliased'])} | "
+                    f"{_count(row['raw'])} |")
+    return rows
+
+
+def _rivals(figures: Mapping[str, Any]) -> list[str]:
+    rows = ["Mean square over speeds and yaw rates on holdout, in instrument noise squared; cases "
+            "with physics missing.", "",
+            "| | cases | median | diagnosed model is better |", "|---|---|---|---|"]
+    return rows + [f"| {RIVAL_WORDS[name]} | {row['count']} | "
+                   f"{_number(row['median_mean_square'])} | {_count(row['diagnosed_is_better'])} |"
+                   for name, row in figures["rivals"].items()]
+
+
+def _parameters(figures: Mapping[str, Any]) -> list[str]:
+    par = figures["parameters"]
+    rows = ["| effect | truth | found | relative error | in the 90 % interval |",
+            "|---|---|---|---|---|"]
+    rows += [f"| {p['name']} | {p['truth']:.4g} | {p['found']:.4g} | {p['relative_error']:.2f} | "
+             f"{'yes' if p['covered'] else 'no'} |" for p in par["each"]]
+    said = [f"- `{name}`: {why}" for name, why in par["not_comparable"].items()]
+    return [*rows, "", "Not compared, because truth and model state different quantities:", "",
+            *said]
+
+
+def _cases(scores: Sequence[CaseScore], truths: Mapping[str, Truth]) -> list[str]:
+    rows = ["| case | concealed | sigma | verdict | named (alias set) | right | "
+            "holdout before → after |", "|---" * 7 + "|"]
+    for s in scores:
+        hidden = " + ".join(f"{c.name} {_place(c.where)}".strip() for c in truths[s.case].causes)
+        named = "; ".join(n + (f" ({', '.join(a[1:])})" if len(a) > 1 else "")
+                          for n, a in zip(s.named, s.aliases, strict=True))
+        name_right = s.group in ("null", "unknown") or all(c.aliased for c in s.causes)
+        mark = "yes" if s.right and name_right else "verdict" if s.right else "no"
+        fit = f"{s.holdout.before:.3g} → {s.holdout.after:.3g}" if s.holdout else "–"
+        rows.append(f"| {s.case} | {hidden or 'nothing'} | {_number(s.sigma)} | "
+                    f"{s.verdict.replace('_', ' ')} | {named or '–'} | {mark} | {fit} |")
+    return rows
+
+
+def _place(where: Mapping[str, str | None]) -> str:
+    return where["tire"] or where["hub"] or where["axle"] or where["body"] or ""
+
+
+def _failed(figures: Mapping[str, Any]) -> list[str]:
+    failed = figures["failed"]
+    return ["", "Failed, counted nowhere above:", "",
+            *(f"- {case}: {why}" for case, why in failed.items())] if failed else []
