@@ -1,0 +1,104 @@
+"""`python -m benchmarks.nodes [pace|fast|record|soak MINUTES FACTOR [record]]`: the node's figures.
+
+`pace`: CPU share and jitter in real time, alone and with a reader of every topic. `fast`: factor
+achieved as fast as possible. `record`: the same two while a bag is written. `soak`: resident
+memory over many minutes. Prints a table; the machine's load is printed with it, because a busy
+machine changes every figure.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import statistics
+import sys
+import tempfile
+import time
+from itertools import pairwise
+from pathlib import Path
+
+from benchmarks.nodes.harness import listen, listener, simulator
+
+_SETTLE_S = 3.0
+_WINDOW_S = 20.0
+
+
+def percentile(values: list[float], part: float) -> float:
+    """Value below which a part of the values lies."""
+    ordered = sorted(values)
+    return ordered[min(len(ordered) - 1, round(part * len(ordered)))]
+
+
+def row(name: str, value: float, unit: str, sought: str) -> None:
+    load = os.getloadavg()[0]
+    print(f"| {name} | {value:.3g} {unit} | {sought} | {load:.1f} |", flush=True)
+
+
+def pace(label: str, *words: object, reader: bool = False) -> None:
+    with simulator("--initial-speed-mps", 20, *words) as node:
+        with listener() if reader else contextlib.nullcontext():
+            time.sleep(_SETTLE_S)
+            row(f"CPU, real time, {label}", 100 * node.cpu_share(_WINDOW_S), "% of a core", "40")
+            heard = listen(_WINDOW_S)
+        arrivals = heard["arrival_s"][100:]
+        gaps_ms = [1e3 * (b - a) for a, b in pairwise(arrivals)]
+        jitter_ms = [abs(gap - 10.0) for gap in gaps_ms]
+        row(
+            f"lateness p99 in the node, {label}", statistics.median(heard["late_p99_ms"]), "ms", "2"
+        )
+        row(f"jitter p99 at a reader, {label}", percentile(jitter_ms, 0.99), "ms", "2")
+        row(f"factor, real time, {label}", statistics.mean(heard["factor"]), "", "1")
+
+
+def fast(label: str, *words: object, reader: bool = False) -> None:
+    with simulator("--initial-speed-mps", 20, "--real-time-factor", 0, *words) as node:
+        with listener() if reader else contextlib.nullcontext():
+            before_s, begin_s = node.cpu_s(), time.monotonic()
+            heard = listen(_WINDOW_S)
+            share = (node.cpu_s() - before_s) / (time.monotonic() - begin_s)
+        row(f"factor, as fast as possible, {label}", statistics.median(heard["factor"][1:]), "",
+            "20")  # fmt: skip
+        row(f"simulated seconds a CPU second, {label}",
+            statistics.median(heard["factor"][1:]) / share, "", "20")  # fmt: skip
+
+
+def soak(minutes: float, factor: float, *, record: bool) -> None:
+    with (
+        tempfile.TemporaryDirectory() as folder,
+        simulator(
+            "--initial-speed-mps", 20, "--real-time-factor", factor,
+            *(("--record-path", Path(folder) / "bag") if record else ()),
+        ) as node,
+    ):  # fmt: skip
+        time.sleep(30.0)
+        begin_s, first_mb, samples = time.monotonic(), node.memory_mb(), list[float]()
+        while time.monotonic() - begin_s < 60.0 * minutes:
+            time.sleep(10.0)
+            samples.append(node.memory_mb())
+        tail = samples[len(samples) // 2 :]
+        growth = statistics.mean(tail[len(tail) // 2 :]) - statistics.mean(tail[: len(tail) // 2])
+        row("resident memory after 30 s", first_mb, "MB", "")
+        row(f"resident memory after {minutes:g} min at factor {factor:g}", samples[-1], "MB", "")
+        row("growth between the third and the last quarter", growth, "MB", "0")
+
+
+def main(words: list[str]) -> None:
+    what = words[0] if words else "all"
+    print("| figure | measured | sought | load average |\n|---|---|---|---|")
+    if what == "soak":
+        soak(float(words[1]), float(words[2]), record="record" in words)
+        return
+    if what in ("pace", "all"):
+        pace("no reader")
+        pace("every topic read", reader=True)
+    if what in ("fast", "all"):
+        fast("no reader")
+        fast("every topic read", reader=True)
+    if what in ("record", "all"):
+        with tempfile.TemporaryDirectory() as folder:
+            pace("recording", "--record-path", Path(folder) / "pace")
+            fast("recording", "--record-path", Path(folder) / "fast")
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])

@@ -1,0 +1,76 @@
+"""A listener: `listen SECONDS` reports arrivals and diagnostics, `listen discard` only reads."""
+
+from __future__ import annotations
+
+import json
+import signal
+import sys
+import time
+from types import FrameType
+
+import rclpy
+from diagnostic_msgs.msg import DiagnosticArray
+from nav_msgs.msg import Odometry
+from rclpy.node import Node
+from rclpy.qos import QoSProfile
+
+from truck_blowout_sim import load_vehicle
+from truck_blowout_sim.nodes.outputs import output_channels
+from truck_blowout_sim.nodes.publishing import message_class
+from truck_blowout_sim.nodes.runtime import new_executor
+
+
+def _leave(number: int, frame: FrameType | None) -> None:
+    raise SystemExit(0)
+
+
+def discard() -> None:
+    node = Node("benchmark_reader")
+    seen = set()
+    for channel in output_channels(load_vehicle("international_9400i_trailmobile")):
+        for place in channel.places:
+            if place.topic not in seen:
+                seen.add(place.topic)
+                node.create_subscription(
+                    message_class(place.ros_type), f"/truck/{place.topic}", lambda _: None,
+                    QoSProfile(depth=10), raw=True,
+                )  # fmt: skip
+    executor = new_executor()
+    executor.add_node(node)
+    for _ in range(100):
+        executor.spin_once(timeout_sec=0.02)
+    print(f"reading {len(seen)} topics", flush=True)
+    while True:
+        executor.spin_once(timeout_sec=0.1)
+
+
+def report(duration_s: float) -> None:
+    node = Node("benchmark_listener")
+    executor = new_executor()
+    executor.add_node(node)
+    found: dict[str, list[float]] = {"arrival_s": [], "factor": [], "late_p99_ms": []}
+
+    def diagnose(message: DiagnosticArray) -> None:
+        pace = next(status for status in message.status if status.name.endswith("pace"))
+        values = {pair.key: pair.value for pair in pace.values}
+        found["factor"].append(float(values["real_time_factor"]))
+        found["late_p99_ms"].append(float(values["lateness_p99_ms"]))
+
+    node.create_subscription(
+        Odometry, "/truck/tractor/odometry",
+        lambda _: found["arrival_s"].append(time.monotonic()), QoSProfile(depth=100), raw=True,
+    )  # fmt: skip
+    node.create_subscription(DiagnosticArray, "/diagnostics", diagnose, 10)
+    end_s = time.monotonic() + duration_s
+    while (left_s := end_s - time.monotonic()) > 0:
+        executor.spin_once(timeout_sec=left_s)
+    print(json.dumps(found))
+
+
+if __name__ == "__main__":
+    signal.signal(signal.SIGTERM, _leave)
+    rclpy.init()
+    if sys.argv[1] == "discard":
+        discard()
+    else:
+        report(float(sys.argv[1]))

@@ -1,0 +1,26 @@
+"""A user's program, checked by mypy in strict mode and never run: see test_style.py."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from truck_blowout_sim import (
+    Recording,
+    Truck,
+    Vehicle,
+    load_vehicle,
+    pack,
+    read_recording,
+    simulate,
+    write_recording,
+)
+
+vehicle: Vehicle = load_vehicle("international_9400i_trailmobile")
+recording: Recording = simulate(vehicle, "steer_axle_blowout")
+peak_radps: float = float(abs(recording["tractor_yaw_rate_radps"].value).max())
+write_recording(recording, Path("out/run"))
+again: Recording = read_recording(Path("out/run"))
+weaker = pack(vehicle).with_values({"hub.trailer_2_left.brake_gain": 0.35})
+truck: Truck = Truck(weaker)
+fresh: bool = truck.blow("steer_left")
+state: dict[str, float] = truck.outputs()
