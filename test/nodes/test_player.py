@@ -60,7 +60,8 @@ def test_plays_commands_measurements_and_the_event(start: Any, client: Any, log:
     blowout = client.listen(String, "/truck/measured/blowout", client.latched)
     player = play(start, client, "/truck/steering_wheel_angle", log)
     assert player.wait() == 0
-    client.spin(0.2)
+    client.until(lambda: len(wheel) >= 150 and len(odometry) >= 150, what="all of it")
+    client.until(lambda: len(pressure) >= 30 and blowout, what="all of it")
     assert "/truck/steering_wheel_angle (std_msgs/msg/Float64): 150 messages" in player.output
     assert [m.data for m in wheel] == pytest.approx((0.2 * TIMES_S).tolist(), abs=1e-9)
     speeds = [m.twist.twist.linear.x for m in odometry]
@@ -116,7 +117,7 @@ def test_play_next_seek_and_toggle(start: Any, client: Any, log: Path) -> None:
     client.call(Trigger, "/truck/player/toggle_paused")
     assert not client.call(Trigger, "/truck/player/play_next").success
     assert player.wait() == 0
-    client.spin(0.3)
+    client.until(lambda: len(wheel) >= 2 + 30, what="the rest")
     assert len(wheel) == 2 + 30
 
 
@@ -146,7 +147,7 @@ def test_a_foreign_bag_plays_by_remapping(start: Any, client: Any, tmp_path: Pat
     topic = "/truck/measured/tractor/odometry"
     player = play(start, client, topic, bag, "--remap", "/ins/odometry=tractor/odometry")
     assert player.wait() == 0, player.output
-    client.spin(0.2)
+    client.until(lambda: len(odometry) >= 50, what="all of it")
     assert [m.twist.twist.linear.x for m in odometry[-10:]] == [50.0 + i for i in range(10)]
 
 

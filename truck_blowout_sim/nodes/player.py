@@ -6,7 +6,8 @@ instant, and publishes what was measured under `measured/`.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
+from time import monotonic
 from typing import Any
 
 from rcl_interfaces.msg import SetParametersResult
@@ -35,6 +36,8 @@ ABOUT = "Plays a recording onto the simulator's command topics and blows its tir
 COMMANDS = frozenset(row.topic for row in channels_for((), (), ()) if row.group == "input")
 _IDLE_S = 0.05
 _DISCOVERY_S = 0.3
+_DELIVERY_S = 1.0
+_BACKLOG = 1000  # a burst after a stall must not push out what no reader has yet
 _INITIAL = (
     "speed_mps",
     "lateral_speed_mps",
@@ -94,6 +97,7 @@ class Player:
             if stop or not self.values["loop"]:
                 break
         self.simulator.settle(executor, 2.0)
+        self._deliver(self.publishers)
         self._summary(stop)
         return 0
 
@@ -133,7 +137,7 @@ class Player:
         self.time.begin(executor, self._stop, self.start_s)
         if not self.paused:
             self._publish_until(self.start_s)
-            self._deliver()
+            self._deliver(COMMANDS & self.publishers.keys())
         if prepare:
             self.simulator.call(executor, "resume")
         if not self.paused:
@@ -190,20 +194,22 @@ class Player:
         )
         self.simulator.until(executor, lambda: False, _DISCOVERY_S)
 
-    def _deliver(self) -> None:
-        """Wait until the first commands have arrived, so that the first step has them."""
-        for topic in COMMANDS & self.publishers.keys():
-            self.publishers[topic].wait_for_all_acked(Duration(seconds=1))
+    def _deliver(self, topics: Iterable[str]) -> None:
+        """Wait until these have arrived: the first before a step, the last before the end."""
+        end_s = monotonic() + _DELIVERY_S
+        for topic in topics:
+            left_s = max(0.0, end_s - monotonic())  # a negative time would wait for ever
+            self.publishers[topic].wait_for_all_acked(Duration(seconds=left_s))
 
     def _make_publishers(self) -> dict[str, Any]:
         types = {topic: ros_type for topic, (ros_type, _) in self.playlist.topics.items()}
         commands = {topic: kind for topic, kind in types.items() if topic in COMMANDS}
-        made = make_publishers(self.node, commands)
+        made = make_publishers(self.node, commands, depth=_BACKLOG)
         prefix = self.values["measured"].rstrip("/") + "/"
         measured = {BLOWOUT_EVENT.topic: STRING}
         if self.values["publish_measured"]:
             measured |= {topic: kind for topic, kind in types.items() if topic not in COMMANDS}
-        return made | make_publishers(self.node, measured, prefix=prefix)
+        return made | make_publishers(self.node, measured, prefix=prefix, depth=_BACKLOG)
 
     def _list(self) -> None:
         recording = self.playlist.recording

@@ -11,9 +11,6 @@ from rclpy.publisher import Publisher
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from rclpy.qos_overriding_options import QoSOverridingOptions
 
-STATE_QOS = QoSProfile(depth=10, reliability=ReliabilityPolicy.RELIABLE)
-"""Reliable, so that every reader matches; `qos_overrides` makes it what a network needs."""
-
 EVENT_QOS = QoSProfile(
     depth=100,
     reliability=ReliabilityPolicy.RELIABLE,
@@ -33,7 +30,7 @@ def message_class(ros_type: str) -> type[Any]:
 
 
 def make_publishers(
-    node: Node, types: Mapping[str, str], *, prefix: str = ""
+    node: Node, types: Mapping[str, str], *, prefix: str = "", depth: int = 10
 ) -> dict[str, Publisher[Any]]:
     """One publisher for each relative topic.
 
@@ -41,12 +38,15 @@ def make_publishers(
         node: owner.
         types: message type by relative topic.
         prefix: put before every topic.
+        depth: messages kept for a reader that lags behind.
     """
+    # Reliable, so that every reader matches; `qos_overrides` makes it what a network needs.
+    state = QoSProfile(depth=depth, reliability=ReliabilityPolicy.RELIABLE)
     return {
         topic: node.create_publisher(
             message_class(ros_type),
             prefix + topic,
-            EVENT_QOS if topic.rsplit("/", 1)[-1] == "blowout" else STATE_QOS,
+            EVENT_QOS if topic.rsplit("/", 1)[-1] == "blowout" else state,
             qos_overriding_options=QoSOverridingOptions.with_default_policies(),
         )
         for topic, ros_type in types.items()
