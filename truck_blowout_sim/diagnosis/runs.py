@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -34,10 +34,13 @@ class Run:
 
     Attributes:
         recording, role, drive: where it comes from, how it is used, what drives the model.
+        fine: the same drive on the fine step, from which ``correction`` comes.
         channels: names used, m of them; ``columns``: their places in the model's output.
         edges_s: bin edges, n + 1.
         measured, sigma: [n, m] bin means and their standard errors; NaN where not measured.
         noise: standard error from the instrument alone.
+        correction: [n, m] what the fine step changes in the reference truck's bin means; added to
+            those of every truck, which are simulated on the coarse step.
     """
 
     recording: Recording
@@ -49,6 +52,8 @@ class Run:
     measured: Floats
     sigma: Floats
     noise: Floats
+    fine: Drive
+    correction: Floats
 
     @property
     def has_blowout(self) -> bool:
@@ -64,6 +69,18 @@ class Run:
         """Whether an effect that needs ``applies`` (any, blowout, brakes) can be seen here."""
         return {"any": True, "": True, "blowout": self.has_blowout,
                 "brakes": self.has_brakes}[applies]
+
+    def simulated(self, truck: Packed) -> Floats:
+        """[n, m] bin means of a truck over this run."""
+        return self.bins_of(run_drive(truck, self.drive)) + self.correction
+
+    def corrected(self, truck: Packed) -> Run:
+        """This run, corrected for the coarse step at a reference truck."""
+        if self.fine.step_s == self.drive.step_s:
+            return self
+        change = self.bins_of(run_drive(truck, self.fine)) - self.bins_of(
+            run_drive(truck, self.drive))
+        return replace(self, correction=np.where(np.isfinite(change), change, 0.0))
 
     def bins_of(self, out: Floats) -> Floats:
         """[n, m] bin means of a model output [rows, outputs]."""
@@ -96,12 +113,14 @@ def prepare_run(recording: Recording, role: Role, packed: Packed, settings: Sett
                 step_s: float, impose_speed: bool | None = None) -> Run:
     """Cut a recording into bins and weigh its channels.
 
-    ``impose_speed``: see :func:`truck_blowout_sim.simulation.replay.drive_from`.
+    ``impose_speed``: see :func:`truck_blowout_sim.simulation.replay.drive_from`. ``step_s`` is the
+    fine step; what is tried is simulated on the settings' coarse one, corrected by the difference.
 
     Raises:
         InputError: the recording cannot drive the model.
     """
-    drive = drive_from(recording, packed.vehicle, step_s=step_s, impose_speed=impose_speed)
+    fine, drive = (drive_from(recording, packed.vehicle, step_s=step, impose_speed=impose_speed)
+                   for step in (step_s, max(step_s, settings.trial_step_s)))
     names = names_of(packed.vehicle)
     noise = channel_noise(recording)
     channels = tuple(n for n in names if n in recording and n in noise
@@ -112,7 +131,7 @@ def prepare_run(recording: Recording, role: Role, packed: Packed, settings: Sett
     parts = [_channel_bins(recording, n, noise[n], edges, settings) for n in channels]
     measured, sigma, plain = (np.stack([p[k] for p in parts], axis=1) for k in range(3))
     return Run(recording, role, drive, channels, tuple(names.index(n) for n in channels), edges,
-               measured, sigma, plain)
+               measured, sigma, plain, fine, np.zeros(measured.shape))
 
 
 def _redundant(name: str, drive: Drive) -> bool:
@@ -148,7 +167,7 @@ def _channel_bins(recording: Recording, name: str, noise: Noise, edges: Floats,
 def simulate_bins(runs: Sequence[Run], trucks: Sequence[Packed], workers: int) -> list[Floats]:
     """Bin means of each truck over its run, in order; in parallel, same bits as one by one."""
     def one(pair: tuple[Run, Packed]) -> Floats:
-        return pair[0].bins_of(run_drive(pair[1], pair[0].drive))
+        return pair[0].simulated(pair[1])
     with ThreadPoolExecutor(workers) as pool:
         return list(pool.map(one, zip(runs, trucks, strict=True)))
 

@@ -66,6 +66,7 @@ class Settings:
     Attributes:
         nuisances: spec-sheet numbers with priors, made for one vehicle.
         channels: rules by a piece of the channel's name.
+        trial_step_s: integration step of everything that is tried.
         bin_s, skip_s, correlation_s: averaging time, start left out, duration of a difference.
         accept_delta: fall of the sum of squares that a named effect must buy.
         keep_within: share of the evidence within which explanations count as aliases.
@@ -75,6 +76,7 @@ class Settings:
 
     nuisances: tuple[Nuisance, ...]
     channels: Mapping[str, ChannelRule]
+    trial_step_s: float
     bin_s: float
     skip_s: float
     correlation_s: float

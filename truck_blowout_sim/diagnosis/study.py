@@ -7,6 +7,7 @@ shared by all runs of the case; an effect acts in training only.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -208,12 +209,18 @@ def calibrate(study: Study, rounds: int = 2, progress: Progress | None = None) -
 
 
 def warm_up(study: Study) -> None:
-    """Settle the reference truck once for each run, so that its variants settle quickly."""
+    """Settle the reference truck once for each run, so that its variants settle quickly.
+
+    Learns, too, what the fine step changes there.
+    """
     def warmed(run: Run) -> Run:
         state = initial_vector(study.packed, run.drive.initial, run.drive.step_s)
-        return replace(run, drive=replace(run.drive, warm=state))
-    study.runs = tuple(warmed(run) for run in study.runs)
-    study.holdout = tuple(warmed(run) for run in study.holdout)
+        warm = replace(run, drive=replace(run.drive, warm=state),
+                       fine=replace(run.fine, warm=state))
+        return warm.corrected(study.packed)
+    with ThreadPoolExecutor(study.workers) as pool:
+        study.runs = tuple(pool.map(warmed, study.runs))
+        study.holdout = tuple(pool.map(warmed, study.holdout))
 
 
 def row_ranges(study: Study) -> list[slice]:
