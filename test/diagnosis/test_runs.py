@@ -134,7 +134,8 @@ def test_what_a_run_can_show(run: Run, drive_it: Drives, truck: Packed, few: Set
 def test_two_threads_give_the_bits_of_one(run: Run, truck: Packed) -> None:
     heavier = truck.with_values({"unit.trailer.mass_kg": 1.1 * truck["unit.trailer.mass_kg"]})
     trucks = [truck, heavier, truck, heavier]
-    alone, together = (simulate_bins([run] * 4, trucks, workers) for workers in (1, 2))
+    jobs = [(run, one) for one in trucks]
+    alone, together = (simulate_bins(jobs, workers, Run.simulated) for workers in (1, 2))
     assert all(np.array_equal(a, b) for a, b in zip(alone, together, strict=True))
     assert np.array_equal(alone[0], alone[2])
     assert not np.array_equal(alone[0], alone[1])

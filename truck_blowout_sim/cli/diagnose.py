@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -10,10 +10,15 @@ import typer
 from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 
+from truck_blowout_sim.cli.failures import interruptible
+
 if TYPE_CHECKING:
     from truck_blowout_sim.diagnosis import Diagnosis
     from truck_blowout_sim.recordings import Recording
+    from truck_blowout_sim.vehicle import Vehicle
 
+_KEPT = ".resume"  # in the output folder, until the answer is written
+_CONTINUES = "the same command continues from here"
 _QUICK_STEP_S = 0.0025
 _THOROUGH_STEP_S = 0.001
 
@@ -43,9 +48,8 @@ def command(
     thorough: bool = typer.Option(False, "--thorough", help="1 ms step, up to four effects."),
 ) -> None:
     """Locate, name and fit what the model lacks to explain recordings."""
-    from truck_blowout_sim.diagnosis import diagnose, write_diagnosed_vehicle, write_diagnosis
+    from truck_blowout_sim.diagnosis import diagnose, keeping
     from truck_blowout_sim.diagnosis.diagnose import STEP_S
-    from truck_blowout_sim.report.diagnosis_page import write_diagnosis_report
     from truck_blowout_sim.vehicle import load_vehicle
 
     loaded = load_vehicle(vehicle)
@@ -53,19 +57,29 @@ def command(
                          for paths in (recordings, baseline, holdout))
     output.mkdir(parents=True, exist_ok=True)
     step_s = _QUICK_STEP_S if quick else _THOROUGH_STEP_S if thorough else STEP_S
-    with _progress() as progress:
+    with (_progress() as progress, keeping(output / _KEPT, _teller(progress)) as kept,
+          interruptible(lambda: _CONTINUES if kept.begun else "")):
         task = progress.add_task("sensor gate", total=1.0)
         answer, values = diagnose(
             train, baseline=base, holdout=hold, vehicle=loaded, settings=settings,
             impose_speed=impose_speed, step_s=step_s,
-            most_effects=1 if quick else 4 if thorough else 3,
+            most_effects=1 if quick else 4 if thorough else 3, kept=kept,
             progress=lambda stage, share: progress.update(
                 task, description=stage, completed=share))
         progress.update(task, description="drawing", completed=1.0)
-        write_diagnosis(answer, output / "diagnosis.json")
-        write_diagnosed_vehicle(output / "vehicle.yaml", vehicle, values, answer)
-        write_diagnosis_report(answer, loaded, output / "report.html")
+        _write(answer, loaded, vehicle, values, output)
     _print(Console(), answer, output)
+
+
+def _write(answer: Diagnosis, vehicle: Vehicle, base: str, values: Mapping[str, float],
+           folder: Path) -> None:
+    """The three files of an answer."""
+    from truck_blowout_sim.diagnosis import write_diagnosed_vehicle, write_diagnosis
+    from truck_blowout_sim.report.diagnosis_page import write_diagnosis_report
+
+    write_diagnosis(answer, folder / "diagnosis.json")
+    write_diagnosed_vehicle(folder / "vehicle.yaml", base, values, answer)
+    write_diagnosis_report(answer, vehicle, folder / "report.html")
 
 
 def _read(paths: Sequence[Path], hubs: tuple[str, ...], tires: tuple[str, ...]
@@ -86,6 +100,11 @@ def _read(paths: Sequence[Path], hubs: tuple[str, ...], tires: tuple[str, ...]
 def _progress() -> Progress:
     columns = (TextColumn("{task.description:<20.20}"), BarColumn(), TimeElapsedColumn())
     return Progress(*columns, console=Console(stderr=True), transient=True)
+
+
+def _teller(progress: Progress) -> Callable[[str], None]:
+    """Prints a line above the bar, as it is."""
+    return lambda line: progress.console.print(line, markup=False, highlight=False, soft_wrap=True)
 
 
 def _print(console: Console, answer: Diagnosis, folder: Path) -> None:

@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
+import signal
 import sys
+import threading
 import traceback as traceback_module
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import cast
 
@@ -20,6 +24,35 @@ CLICK_ERROR = typer.BadParameter.__mro__[2]
 
 # A path the user named is not there or not his to use. Other OS errors (a full disk) are not his.
 PATH_ERRORS = (FileNotFoundError, PermissionError, IsADirectoryError, NotADirectoryError)
+
+
+class InterruptionError(Exception):
+    """A person or the system ended the verb; the message says what is left to be done."""
+
+
+@contextlib.contextmanager
+def interruptible(words: Callable[[], str]) -> Iterator[None]:
+    """SIGINT and SIGTERM end the body alike, with one line that ``words`` completes.
+
+    Raises:
+        InterruptionError: one of them came.
+    """
+    def interrupt(number: int, frame: object) -> None:
+        raise KeyboardInterrupt
+
+    before = signal.signal(signal.SIGTERM, interrupt) if _in_main_thread() else None
+    try:
+        yield
+    except KeyboardInterrupt:
+        raise InterruptionError("; ".join(filter(None, ["interrupted", words()]))) from None
+    finally:
+        if before is not None:
+            signal.signal(signal.SIGTERM, before)
+
+
+def _in_main_thread() -> bool:
+    # Python lets no other thread set a signal's handler.
+    return threading.current_thread() is threading.main_thread()
 
 
 def report(error: BaseException, *, program: str, traceback: bool) -> int:
@@ -45,6 +78,8 @@ def report(error: BaseException, *, program: str, traceback: bool) -> int:
 def _line(error: BaseException) -> tuple[str, int]:
     if isinstance(error, InputError):
         return str(error), REFUSED
+    if isinstance(error, InterruptionError):
+        return str(error), INTERRUPTED
     if isinstance(error, CLICK_ERROR):
         problem = _one_line(cast(typer.BadParameter, error).format_message())
         return f"{problem} (--help shows what is possible)", REFUSED

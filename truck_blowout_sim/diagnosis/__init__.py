@@ -2,5 +2,7 @@
 
 from truck_blowout_sim.diagnosis.diagnose import diagnose, write_diagnosed_vehicle
 from truck_blowout_sim.diagnosis.result import Diagnosis, write_diagnosis
+from truck_blowout_sim.diagnosis.resume import Kept, keeping
 
-__all__ = ["Diagnosis", "diagnose", "write_diagnosed_vehicle", "write_diagnosis"]
+__all__ = ["Diagnosis", "Kept", "diagnose", "keeping", "write_diagnosed_vehicle",
+           "write_diagnosis"]

@@ -9,11 +9,13 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from truck_blowout_sim.diagnosis.fingerprints import case_parts
 from truck_blowout_sim.diagnosis.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.law import plainest_law
 from truck_blowout_sim.diagnosis.locate import Wrenches, missing_wrench
 from truck_blowout_sim.diagnosis.outcome import Material, answer, decide, joint_amounts
 from truck_blowout_sim.diagnosis.result import Diagnosis, Role
+from truck_blowout_sim.diagnosis.resume import Kept
 from truck_blowout_sim.diagnosis.runs import Run, prepare_run
 from truck_blowout_sim.diagnosis.search import Found, search
 from truck_blowout_sim.diagnosis.sensors import correct, sensor_gate, vehicle_geometry
@@ -32,8 +34,8 @@ def diagnose(recordings: Sequence[Recording], *, baseline: Sequence[Recording] =
              holdout: Sequence[Recording] = (),
              vehicle: Vehicle | str = "international_9400i_trailmobile", settings: str = "default",
              most_effects: int = 3, step_s: float = STEP_S, workers: int | None = None,
-             impose_speed: bool | None = None, progress: Progress | None = None
-             ) -> tuple[Diagnosis, Mapping[str, float]]:
+             impose_speed: bool | None = None, progress: Progress | None = None,
+             kept: Kept | None = None) -> tuple[Diagnosis, Mapping[str, float]]:
     """Diagnose recordings that a model does not reproduce.
 
     Args:
@@ -45,6 +47,7 @@ def diagnose(recordings: Sequence[Recording], *, baseline: Sequence[Recording] =
         most_effects: how many effects may be named.
         impose_speed: follow the recorded speed; None: only where throttle or brakes are missing.
         step_s: integration step; ``workers``: threads; ``progress``: called with (stage, share).
+        kept: simulations of an interrupted call, from :func:`keeping`, and where to keep new ones.
 
     Returns:
         The diagnosis, and the packed parameters of the diagnosed vehicle that differ from the
@@ -52,6 +55,7 @@ def diagnose(recordings: Sequence[Recording], *, baseline: Sequence[Recording] =
 
     Raises:
         InputError: a recording cannot drive the model, or none is given.
+        OSError: the folder of ``kept`` cannot be written.
     """
     if not recordings:
         raise InputError("no recording to diagnose", expected="at least one recording")
@@ -69,6 +73,10 @@ def diagnose(recordings: Sequence[Recording], *, baseline: Sequence[Recording] =
     study = Study((*(cut(r, "baseline") for r in baseline), *(cut(r, "train") for r in recordings)),
                   tuple(cut(r, "holdout") for r in holdout), packed, rules,
                   workers or os.cpu_count() or 1)
+    if kept is not None:
+        kept.begin(case_parts({"train": recordings, "baseline": baseline, "holdout": holdout},
+                              packed, rules, (most_effects, step_s, impose_speed)))
+        study.simulated = kept.simulated
     calibrate(study, progress=progress)
     found = search(study, progress, most_effects)
     named = [r.hypothesis for r in found.named]

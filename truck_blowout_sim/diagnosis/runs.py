@@ -7,7 +7,7 @@ its share is widened by the number of bins it spans.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
 
@@ -164,12 +164,11 @@ def _channel_bins(recording: Recording, name: str, noise: Noise, edges: Floats,
     return mean, np.where(counts > 0, np.hypot(plain, widened), np.nan), plain
 
 
-def simulate_bins(runs: Sequence[Run], trucks: Sequence[Packed], workers: int) -> list[Floats]:
+def simulate_bins(jobs: Sequence[tuple[Run, Packed]], workers: int,
+                  simulated: Callable[[Run, Packed], Floats]) -> list[Floats]:
     """Bin means of each truck over its run, in order; in parallel, same bits as one by one."""
-    def one(pair: tuple[Run, Packed]) -> Floats:
-        return pair[0].simulated(pair[1])
     with ThreadPoolExecutor(workers) as pool:
-        return list(pool.map(one, zip(runs, trucks, strict=True)))
+        return list(pool.map(lambda job: simulated(*job), jobs))
 
 
 def rms_sigma(run: Run, model: Floats) -> Mapping[str, float]:

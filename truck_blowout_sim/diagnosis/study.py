@@ -40,6 +40,7 @@ class Study:
         holdout_models, holdout_columns: the same, run by run, for holdout.
         names: of the nuisances, in the order of the columns.
         amounts: calibrated amount of each sheet nuisance, in prior sigmas.
+        simulations: how many were asked for; ``simulated`` gives the bin means of one.
     """
 
     runs: tuple[Run, ...]
@@ -54,6 +55,7 @@ class Study:
     names: tuple[str, ...] = ()
     amounts: dict[str, float] = field(default_factory=dict)
     simulations: int = 0
+    simulated: Callable[[Run, Packed], Floats] = Run.simulated
     _projectors: dict[frozenset[str], tuple[Projector, list[int]]] = field(default_factory=dict)
 
     @property
@@ -83,7 +85,7 @@ class Study:
     def simulate(self, jobs: Sequence[tuple[Run, Packed]]) -> list[Floats]:
         """Bin means of many (run, truck) pairs."""
         self.simulations += len(jobs)
-        return simulate_bins([r for r, _ in jobs], [t for _, t in jobs], self.workers)
+        return simulate_bins(jobs, self.workers, self.simulated)
 
     def stack(self, parts: Mapping[int, Floats]) -> Floats:
         """Join whitened vectors of some runs into one over all rows, zero elsewhere."""

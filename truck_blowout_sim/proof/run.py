@@ -15,7 +15,8 @@ from typing import Any
 
 from truck_blowout_sim.proof.cases import Case
 from truck_blowout_sim.proof.seal import folder_hash
-from truck_blowout_sim.proof.worker import attempt, code_hash
+from truck_blowout_sim.proof.worker import attempt
+from truck_blowout_sim.resources import code_hash
 
 RESULTS = "results.jsonl"
 # Each process has one thread: the processes are what runs side by side.

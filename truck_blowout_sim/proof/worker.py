@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import time
-from pathlib import Path
 from typing import Any
 
 from truck_blowout_sim.proof.cases import ROLES, Case
@@ -43,17 +42,3 @@ def attempt(work: tuple[Case, float, bool]) -> dict[str, Any]:
     """:func:`diagnose_case` of one tuple, as a pool of processes wants it."""
     case, step_s, with_baselines = work
     return diagnose_case(case, step_s=step_s, with_baselines=with_baselines)
-
-
-def code_hash() -> str:
-    """Twelve digits that change with any line of this package or its configuration."""
-    import hashlib
-
-    from truck_blowout_sim.resources import config_dir
-
-    package = Path(__file__).resolve().parents[1]
-    total = hashlib.sha256()
-    for path in sorted([*package.rglob("*.py"), *config_dir().rglob("*.yaml")]):
-        if "proof" not in path.parts:
-            total.update(path.read_bytes())
-    return total.hexdigest()[:12]

@@ -1,0 +1,208 @@
+"""An interrupted diagnosis continues: same answer, nothing asked twice, nothing torn believed."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+import yaml
+
+from truck_blowout_sim.diagnosis import diagnose, keeping
+from truck_blowout_sim.diagnosis.fingerprints import simulation_key
+from truck_blowout_sim.diagnosis.resume import Kept
+from truck_blowout_sim.diagnosis.runs import Run, prepare_run
+from truck_blowout_sim.diagnosis.settings import Settings
+from truck_blowout_sim.recordings import Recording, write_recording
+from truck_blowout_sim.resources import config_file
+from truck_blowout_sim.vehicle import Packed
+
+Drives = Callable[..., Recording]
+CASE = {"recordings": "a", "vehicle": "b", "settings": "c"}
+MASS = "unit.trailer.mass_kg"
+
+
+@pytest.fixture(scope="module")
+def run(drive_it: Drives, truck: Packed, few: Settings) -> Run:
+    """A prepared run."""
+    return prepare_run(drive_it(), "train", truck, few, step_s=0.0025)
+
+
+class Asked:
+    """Counts the simulations that really ran, instead of running them."""
+
+    def __init__(self, monkeypatch: pytest.MonkeyPatch) -> None:
+        self.count = 0
+        monkeypatch.setattr(Run, "simulated", lambda run, truck: self._one(run, truck))
+
+    def _one(self, run: Run, truck: Packed) -> np.ndarray:
+        self.count += 1
+        return np.full(run.measured.shape, truck[MASS] / 3.0)
+
+
+def trucks(truck: Packed, n: int) -> list[Packed]:
+    return [truck.with_values({MASS: 1e4 + k}) for k in range(n)]
+
+
+def test_what_was_simulated_before_is_not_simulated_again(
+    run: Run, truck: Packed, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    asked, said = Asked(monkeypatch), list[str]()
+    first = Kept(tmp_path / "kept", said.append)
+    first.begin(CASE)
+    before = [first.simulated(run, t) for t in trucks(truck, 3)]
+    first.close()
+    second = Kept(tmp_path / "kept", said.append)
+    second.begin(CASE)
+    after = [second.simulated(run, t) for t in trucks(truck, 4)]
+    assert asked.count == 4
+    assert all(np.array_equal(a, b) for a, b in zip(before, after, strict=False))
+    assert len(said) == 1
+    assert "3 simulations" in said[0]
+    second.close(forget=True)
+    assert not (tmp_path / "kept").exists()
+
+
+def interrupted(folder: Path, run: Run, those: Sequence[Packed]) -> None:
+    with keeping(folder) as kept:
+        kept.begin(CASE)
+        for one in those:
+            kept.simulated(run, one)
+        raise KeyboardInterrupt
+
+
+@pytest.mark.parametrize("damage", ["cut", "flip", "zeros"])
+def test_a_torn_record_is_dropped_and_written_again(
+    run: Run, truck: Packed, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, damage: str
+) -> None:
+    asked = Asked(monkeypatch)
+    with pytest.raises(KeyboardInterrupt):
+        interrupted(tmp_path / "kept", run, trucks(truck, 3))
+    file = tmp_path / "kept" / "simulations"
+    raw = bytearray(file.read_bytes())
+    if damage == "cut":
+        raw = raw[:-100]
+    elif damage == "flip":
+        raw[-100] ^= 1
+    else:
+        raw += bytes(5000)
+    file.write_bytes(raw)
+    for expected in (0 if damage == "zeros" else 1, 0):
+        asked.count = 0
+        kept = Kept(tmp_path / "kept")
+        kept.begin(CASE)
+        again = [kept.simulated(run, one) for one in trucks(truck, 3)]
+        kept.close()
+        assert asked.count == expected
+        assert [a[0, 0] for a in again] == [(1e4 + k) / 3.0 for k in range(3)]
+
+
+def test_another_case_starts_anew_and_says_what_changed(
+    run: Run, truck: Packed, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    asked, said = Asked(monkeypatch), list[str]()
+    for case in (CASE, CASE | {"vehicle": "other", "settings": "other"}):
+        kept = Kept(tmp_path / "kept", said.append)
+        kept.begin(case)
+        kept.simulated(run, truck)
+        kept.close()
+    assert asked.count == 2
+    assert said == [f"{tmp_path / 'kept'} was kept for other vehicle and settings: starting anew"]
+
+
+def test_the_key_changes_with_everything_a_simulation_follows_from(
+    run: Run, truck: Packed, drive_it: Drives, few: Settings
+) -> None:
+    drive = run.drive
+    faster = replace(drive, initial=replace(drive.initial, speed_mps=21.0))
+    others = [
+        simulation_key(run, truck.with_values({MASS: 1e4})),
+        simulation_key(replace(run, drive=faster), truck),
+        simulation_key(replace(run, drive=replace(drive, step_s=0.001)), truck),
+        simulation_key(replace(run, drive=replace(drive, inputs=drive.inputs + 1e-9)), truck),
+        simulation_key(replace(run, drive=replace(drive, warm=np.zeros(3))), truck),
+        simulation_key(replace(run, correction=run.correction + 1e-9), truck),
+        simulation_key(replace(run, edges_s=run.edges_s[:-1]), truck),
+    ]
+    assert len({simulation_key(run, truck), *others}) == len(others) + 1
+    again = prepare_run(drive_it(), "train", truck, few, step_s=0.0025)
+    assert simulation_key(again, truck) == simulation_key(run, truck)
+
+
+def test_a_key_costs_little(run: Run, truck: Packed) -> None:
+    started = time.process_time()
+    for _ in range(50):
+        simulation_key(run, truck)
+    assert (time.process_time() - started) / 50 < 5e-3
+
+
+@pytest.fixture(scope="module")
+def words(tmp_path_factory: pytest.TempPathFactory, drive_it: Drives, truck: Packed) -> list[str]:
+    """Arguments of a small case on the command line, all but the output folder."""
+    folder = tmp_path_factory.mktemp("interrupted")
+    hub = "hub.trailer_2_left.brake_gain"
+    write_recording(drive_it({hub: 0.3 * truck[hub]}, name="train"), folder / "train.csv")
+    tree = yaml.safe_load(config_file("diagnosis", "default").read_text(encoding="utf-8"))
+    tree["nuisances"] = {n: tree["nuisances"][n] for n in ("trailer_mass", "steering_zero")}
+    (folder / "few.yaml").write_text(yaml.safe_dump(tree), encoding="utf-8")
+    return ["diagnose", str(folder / "train.csv"), "--settings", str(folder / "few.yaml"),
+            "--quick"]
+
+
+def start(words: list[str], out: Path) -> subprocess.Popen[str]:
+    return subprocess.Popen([sys.executable, "-m", "truck_blowout_sim", *words, "-o", str(out)],
+                            stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+
+
+@pytest.fixture(scope="module")
+def straight(words: list[str], tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The answer of a run that nobody interrupts."""
+    out = tmp_path_factory.mktemp("straight") / "out"
+    process = start(words, out)
+    _, error = process.communicate(timeout=240)
+    assert process.returncode == 0, error
+    return out
+
+
+@pytest.mark.parametrize("name", ["SIGINT", "SIGTERM", "SIGKILL"])
+def test_a_killed_diagnosis_continues_to_the_same_answer(
+    words: list[str], straight: Path, tmp_path: Path, name: str
+) -> None:
+    out, kept = tmp_path / "out", tmp_path / "out" / ".resume" / "simulations"
+    process = start(words, out)
+    deadline = time.monotonic() + 240.0
+    while not (kept.is_file() and kept.stat().st_size > 300_000):
+        assert process.poll() is None
+        assert time.monotonic() < deadline
+        time.sleep(0.01)
+    process.send_signal(getattr(signal, name))
+    _, error = process.communicate(timeout=120)
+    if name == "SIGKILL":
+        assert process.returncode == -signal.SIGKILL
+    else:
+        assert process.returncode == 130
+        line, = [text for text in error.splitlines() if text.strip()]
+        assert line.endswith("interrupted; the same command continues from here")
+    again = start(words, out)
+    _, error = again.communicate(timeout=240)
+    assert again.returncode == 0
+    line, = [text for text in error.splitlines() if text.strip()]
+    assert line.startswith("continuing an interrupted diagnosis")
+    assert not kept.parent.exists()
+    for file in ("diagnosis.json", "vehicle.yaml"):
+        assert (out / file).read_bytes() == (straight / file).read_bytes()
+
+
+def test_a_diagnosis_without_a_folder_keeps_nothing(
+    words: list[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch, drive_it: Drives
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    diagnose([drive_it()], settings=words[3], step_s=0.0025, most_effects=1)
+    assert os.listdir(tmp_path) == []
