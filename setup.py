@@ -91,7 +91,7 @@ setup(
             "ros-std-srvs",
             "ros-visualization-msgs",
         ],
-        "prove": ["mujoco>=3.1"],
+        "prove": ["mujoco>=3.1", "pysindy>=2.0"],
         "test": [
             "hypothesis",
             "import-linter",

@@ -1,5 +1,7 @@
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 from numpy.typing import NDArray
@@ -10,6 +12,7 @@ from truck_blowout_sim.proof.baselines.gaussian_process import gaussian_process,
 from truck_blowout_sim.proof.baselines.sparse_regression import (
     fit_law,
     integrate,
+    optimizer_name,
     own_stlsq,
     thresholded,
 )
@@ -52,6 +55,31 @@ def test_own_optimizer_agrees_with_pysindy() -> None:
     x = rng.normal(size=(200, 5))
     y = x @ rng.normal(size=(5, 2)) + 0.1 * rng.normal(size=(200, 2))
     assert thresholded(x, y) == pytest.approx(own_stlsq(x, y), abs=1e-9)
+
+
+@pytest.mark.parametrize("distribution", ["kilted", "jazzy"])
+def test_the_pinned_environments_have_pysindy(distribution: str) -> None:
+    pins = Path(__file__).resolve().parents[2] / "requirements" / f"{distribution}.txt"
+    if not pins.is_file():
+        pytest.skip("not in a source tree")
+    assert "\npysindy==" in pins.read_text(encoding="utf-8")
+
+
+def test_the_rival_runs_with_pysindy_where_it_is(monkeypatch: pytest.MonkeyPatch) -> None:
+    pysindy = pytest.importorskip("pysindy")
+    fitted = []
+
+    class Watched(pysindy.STLSQ):
+        def fit(self, x: Floats, y: Floats) -> Watched:
+            fitted.append(x.shape)
+            super().fit(x, y)
+            return self
+
+    monkeypatch.setattr(pysindy, "STLSQ", Watched)
+    law = fit_law([driven(3)], NAMES)
+    assert optimizer_name() == "pysindy.STLSQ"
+    assert len(fitted) == 3  # one for each leak
+    assert law.leak_s == LEAK_S
 
 
 def test_sparse_law_predicts_a_run_it_never_saw() -> None:
