@@ -14,6 +14,7 @@ import statistics
 import sys
 import tempfile
 import time
+from concurrent.futures import ThreadPoolExecutor
 from itertools import pairwise
 from pathlib import Path
 
@@ -71,15 +72,21 @@ def soak(minutes: float, factor: float, *, record: bool) -> None:
         ) as node,
     ):  # fmt: skip
         time.sleep(30.0)
-        begin_s, first_mb, samples = time.monotonic(), node.memory_mb(), list[float]()
-        while time.monotonic() - begin_s < 60.0 * minutes:
-            time.sleep(10.0)
-            samples.append(node.memory_mb())
-        tail = samples[len(samples) // 2 :]
-        growth = statistics.mean(tail[len(tail) // 2 :]) - statistics.mean(tail[: len(tail) // 2])
-        row("resident memory after 30 s", first_mb, "MB", "")
-        row(f"resident memory after {minutes:g} min at factor {factor:g}", samples[-1], "MB", "")
-        row("growth between the third and the last quarter", growth, "MB", "0")
+        first_mb, samples, span_s = node.memory_mb(), list[float](), 60.0 * minutes
+        with ThreadPoolExecutor(1) as reader:
+            heard = reader.submit(listen, span_s)
+            while not heard.done():
+                time.sleep(10.0)
+                samples.append(node.memory_mb())
+    tail = samples[len(samples) // 2 :]
+    growth = statistics.mean(tail[len(tail) // 2 :]) - statistics.mean(tail[: len(tail) // 2])
+    late_ms = heard.result()["late_p99_ms"]
+    row("resident memory after 30 s", first_mb, "MB", "")
+    row(f"resident memory after {minutes:g} min at factor {factor:g}", samples[-1], "MB", "")
+    row("growth between the third and the last quarter", growth, "MB", "0")
+    row("factor, mean", statistics.mean(heard.result()["factor"]), "", f"{factor:g}")
+    row("lateness p99 in the node, median of the reports", statistics.median(late_ms), "ms", "2")
+    row("lateness p99 in the node, worst report", max(late_ms), "ms", "")
 
 
 def main(words: list[str]) -> None:

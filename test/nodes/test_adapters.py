@@ -76,10 +76,13 @@ class Node:
         self.sent: dict[str, list[Any]] = {}
         self.served: dict[str, Callable[[Any, Any], Any]] = {}
 
-    def create_subscription(self, _: type, topic: str, callback: Any, __: int) -> None:
+    def resolve_topic_name(self, topic: str) -> str:
+        return topic
+
+    def create_subscription(self, _: type, topic: str, callback: Any, *__: Any, **___: Any) -> None:
         self.taken[topic] = callback
 
-    def create_publisher(self, _: type, topic: str, __: int) -> SimpleNamespace:
+    def create_publisher(self, _: type, topic: str, *__: Any, **___: Any) -> SimpleNamespace:
         return SimpleNamespace(publish=self.sent.setdefault(topic, []).append)
 
     def create_service(self, _: type, name: str, callback: Any) -> None:

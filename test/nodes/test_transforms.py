@@ -23,7 +23,10 @@ class Node:
     def __init__(self) -> None:
         self.sent: dict[str, list[Any]] = {}
 
-    def create_publisher(self, _: type, topic: str, __: object) -> SimpleNamespace:
+    def resolve_topic_name(self, topic: str) -> str:
+        return topic
+
+    def create_publisher(self, _: type, topic: str, *__: object, **___: object) -> SimpleNamespace:
         return SimpleNamespace(publish=self.sent.setdefault(topic, []).append)
 
 

@@ -6,11 +6,11 @@ import struct
 from typing import Any, Protocol
 
 from rclpy.node import Node
-from rclpy.qos import QoSProfile, ReliabilityPolicy
 from rosgraph_msgs.msg import Clock
 
 from truck_blowout_sim.nodes.clock import NS, FollowPace, jump
 from truck_blowout_sim.nodes.plant import Plant
+from truck_blowout_sim.nodes.qos import latest, publisher, reliable, subscription
 
 # A datagram that arrives out of order may carry a clock that is a little older.
 _REORDERED_NS = 50_000_000
@@ -27,7 +27,7 @@ class ClockPublisher:
     """
 
     def __init__(self, node: Node, every: int) -> None:
-        self._publisher = node.create_publisher(Clock, "/clock", 10)
+        self._publisher = publisher(node, Clock, "/clock", reliable())
         self._every = every
         self._ticks = 0
 
@@ -69,9 +69,7 @@ class FollowedClock:
         self._simulator = simulator
         self._pace = pace
         self._values = values
-        # A clock is worth its latest reading only; best effort matches every publisher.
-        qos = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
-        node.create_subscription(Clock, "/clock", self._take, qos)
+        subscription(node, Clock, "/clock", self._take, latest())
 
     def rejoin(self) -> None:
         """After a pause: stand at the clock's present time, nothing is made up for."""

@@ -8,18 +8,15 @@ from time import monotonic
 from typing import cast
 
 from rclpy.node import Node
-from rclpy.qos import QoSProfile, ReliabilityPolicy
-from rclpy.qos_overriding_options import QoSOverridingOptions
 from std_msgs.msg import Float64
 
 from truck_blowout_sim.nodes.inputs import Input
+from truck_blowout_sim.nodes.qos import in_force, reliable, subscription
+from truck_blowout_sim.nodes.recorder import Recorder
 from truck_blowout_sim.recordings.channels import FLOAT64
-
-COMMAND_QOS = QoSProfile(depth=10, reliability=ReliabilityPolicy.RELIABLE)
 
 _WARN_EVERY_S = 5.0
 _LITTLE_ENDIAN = b"\x00\x01\x00\x00"
-Write = Callable[[str, str, int, bytes], None]
 
 
 def float64_bytes(value: float) -> bytes:
@@ -34,20 +31,23 @@ class CommandTopic:
         node: owner.
         guarded: the input it feeds.
         now_ns: tells the simulated time.
-        write: records a message: absolute topic, type, stamp, bytes.
+        recorder: gets every value that applies.
     """
 
-    def __init__(self, node: Node, guarded: Input, now_ns: Callable[[], int], write: Write) -> None:
+    def __init__(
+        self, node: Node, guarded: Input, now_ns: Callable[[], int], recorder: Recorder
+    ) -> None:
         self.guarded = guarded
         self._log = node.get_logger()
         self._now_ns = now_ns
-        self._write = write
+        self._write = recorder.write
         self._next_warning_s = 0.0
-        self._subscription = node.create_subscription(
-            Float64, guarded.topic, self._take, COMMAND_QOS, raw=True,
-            qos_overriding_options=QoSOverridingOptions.with_default_policies(),
-        )  # fmt: skip
+        self._subscription = subscription(
+            node, Float64, guarded.topic, self._take, reliable(), raw=True
+        )
         self.topic = self._subscription.topic_name
+        # Its writers may come and go; whoever offers this, is read.
+        recorder.offered(self.topic, in_force(self._subscription))
 
     def drain(self) -> None:
         """Take every message that has arrived, without asking the executor.

@@ -14,13 +14,12 @@ from typing import Any
 from nav_msgs.msg import Odometry
 from rclpy.executors import Executor
 from rclpy.node import Node
-from rclpy.qos import QoSProfile
 from std_msgs.msg import Float64, String
 
 from truck_blowout_sim.nodes import runtime
 from truck_blowout_sim.nodes.lane_control import CruiseControl, Lane, LaneKeeper
 from truck_blowout_sim.nodes.parameters import Spec
-from truck_blowout_sim.nodes.publishing import EVENT_QOS
+from truck_blowout_sim.nodes.qos import event, publisher, reliable, subscription
 from truck_blowout_sim.nodes.signals import StopFlag
 
 ABOUT = "Keeps a straight lane, also when a tire blows, using the simulator's topics alone."
@@ -51,10 +50,10 @@ class LaneKeeperNode:
         self.released = False
         self.release = bool(values["release_on_blowout"])
         self._last_s: float | None = None
-        self._wheel = node.create_publisher(Float64, "steering_wheel_angle", 10)
-        self._throttle = node.create_publisher(Float64, "throttle", 10)
-        node.create_subscription(Odometry, "tractor/odometry", self._drive, QoSProfile(depth=1))
-        node.create_subscription(String, "blowout", self._blowout, EVENT_QOS)
+        self._wheel = publisher(node, Float64, "steering_wheel_angle", reliable())
+        self._throttle = publisher(node, Float64, "throttle", reliable())
+        subscription(node, Odometry, "tractor/odometry", self._drive, reliable(1))
+        subscription(node, String, "blowout", self._blowout, event())
 
     def run(self, executor: Executor, stop: StopFlag) -> int:
         """Answer every odometry message until asked to end."""

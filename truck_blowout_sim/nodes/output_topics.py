@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from rclpy.node import Node
-from rclpy.qos import QoSProfile
 from visualization_msgs.msg import MarkerArray
 
 from truck_blowout_sim.nodes.clock import NS
@@ -13,6 +12,7 @@ from truck_blowout_sim.nodes.markers import ForceMarkers
 from truck_blowout_sim.nodes.outputs import OutputTable
 from truck_blowout_sim.nodes.plant import Plant
 from truck_blowout_sim.nodes.publishing import make_publishers
+from truck_blowout_sim.nodes.qos import in_force, publisher, reliable
 from truck_blowout_sim.nodes.recorder import Recorder
 from truck_blowout_sim.nodes.simulator_parameters import Timing, Values
 from truck_blowout_sim.nodes.transforms import Transforms, tf_message_class
@@ -36,10 +36,10 @@ class OutputTopics:
         types = {slot.topic: slot.ros_type for b in self._table.batches for slot in b.encoder.slots}
         self._types = {**types, BLOWOUT: STRING}
         self._publishers = make_publishers(node, self._types)
+        for made in self._publishers.values():
+            recorder.offered(made.topic_name, in_force(made))
         self._markers = ForceMarkers(plant.vehicle, names)
-        self._marker_publisher = node.create_publisher(
-            MarkerArray, "tire_forces", QoSProfile(depth=1)
-        )
+        self._marker_publisher = publisher(node, MarkerArray, "tire_forces", reliable(1))
         message = tf_message_class() if values["publish_tf"] else None
         self._transforms = Transforms(node, plant.vehicle, names, message) if message else None
         self._others: list[Callable[[int], None]] = []

@@ -7,10 +7,10 @@ from time import monotonic
 
 from rclpy.executors import Executor
 from rclpy.node import Node
-from rclpy.qos import QoSProfile, ReliabilityPolicy
 from rosgraph_msgs.msg import Clock
 
 from truck_blowout_sim.nodes.clock import NS
+from truck_blowout_sim.nodes.qos import latest, subscription
 from truck_blowout_sim.nodes.signals import StopFlag
 
 
@@ -81,8 +81,7 @@ class ClockTime(WallTime):
     def __init__(self, node: Node, rate: float) -> None:
         super().__init__(node, rate)
         self._clock_ns: int | None = None
-        qos = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
-        node.create_subscription(Clock, "/clock", self._take, qos)
+        subscription(node, Clock, "/clock", self._take, latest())
 
     def wait_s(self, next_s: float) -> float:
         """0 if due, else until `/clock` says something."""

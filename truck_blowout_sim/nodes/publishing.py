@@ -8,15 +8,8 @@ from typing import Any
 
 from rclpy.node import Node
 from rclpy.publisher import Publisher
-from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
-from rclpy.qos_overriding_options import QoSOverridingOptions
 
-EVENT_QOS = QoSProfile(
-    depth=100,
-    reliability=ReliabilityPolicy.RELIABLE,
-    durability=DurabilityPolicy.TRANSIENT_LOCAL,
-)
-"""For what late joiners must still hear of."""
+from truck_blowout_sim.nodes.qos import event, publisher, reliable
 
 
 def message_class(ros_type: str) -> type[Any]:
@@ -40,14 +33,12 @@ def make_publishers(
         prefix: put before every topic.
         depth: messages kept for a reader that lags behind.
     """
-    # Reliable, so that every reader matches; `qos_overrides` makes it what a network needs.
-    state = QoSProfile(depth=depth, reliability=ReliabilityPolicy.RELIABLE)
     return {
-        topic: node.create_publisher(
+        topic: publisher(
+            node,
             message_class(ros_type),
             prefix + topic,
-            EVENT_QOS if topic.rsplit("/", 1)[-1] == "blowout" else state,
-            qos_overriding_options=QoSOverridingOptions.with_default_policies(),
+            event() if topic.rsplit("/", 1)[-1] == "blowout" else reliable(depth),
         )
         for topic, ros_type in types.items()
     }

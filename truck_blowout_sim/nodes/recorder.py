@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from datetime import datetime
 from pathlib import Path
+from typing import Any
 
 from truck_blowout_sim.errors import InputError, StorageError
 from truck_blowout_sim.nodes.clock import NS
@@ -25,8 +26,13 @@ class Recorder:
     def __init__(self, report: Callable[[str, str], None], metadata: Mapping[str, str]) -> None:
         self._report = report
         self._metadata = dict(metadata)
+        self._qos: dict[str, Mapping[str, Any]] = {}
         self._bag: BagWriter | None = None
         self._failed = ""
+
+    def offered(self, topic: str, qos: Mapping[str, Any]) -> None:
+        """Say with which QoS profile an absolute topic is published or read."""
+        self._qos[topic] = qos
 
     @property
     def active(self) -> bool:
@@ -67,7 +73,9 @@ class Recorder:
         path = free_path(Path(wanted or datetime.now().strftime("truck_%Y_%m_%d-%H_%M_%S")))
         try:
             # the writer flushes at half of this: a kill costs half a second
-            self._bag = BagWriter(path, metadata=self._metadata, raise_errors=False, flush_s=1.0)
+            self._bag = BagWriter(
+                path, metadata=self._metadata, qos=self._qos, raise_errors=False, flush_s=1.0
+            )
         except (InputError, StorageError) as error:
             self._failed = str(error)
             self._report("error", f"cannot record: {error}")

@@ -9,6 +9,7 @@ from rclpy.node import Node
 
 from truck_blowout_sim.nodes import diagnostics
 from truck_blowout_sim.nodes.clock import FollowPace
+from truck_blowout_sim.nodes.qos import publisher, reliable
 
 if TYPE_CHECKING:
     from truck_blowout_sim.nodes.simulator import Simulator
@@ -22,7 +23,7 @@ class Reporter:
     def __init__(self, node: Node, simulator: Simulator) -> None:
         self._node = node
         self._simulator = simulator
-        self._publisher = node.create_publisher(DiagnosticArray, "/diagnostics", 10)
+        self._publisher = publisher(node, DiagnosticArray, "/diagnostics", reliable())
         self._period_s = 1.0 / simulator.values["diagnostics_rate_hz"]
         self._due_s = 0.0
         self._clock_due_s = 0.0

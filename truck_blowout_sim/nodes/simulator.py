@@ -56,7 +56,7 @@ class Simulator:
         self.recorder = Recorder(self._say, {"vehicle": vehicle.name})
         self.outputs = OutputTopics(node, self.plant, self.timing, values, self.recorder)
         self.commands = [
-            CommandTopic(node, one, lambda: self.plant.now_ns, self.recorder.write)
+            CommandTopic(node, one, lambda: self.plant.now_ns, self.recorder)
             for one in self.plant.bank.inputs
         ]
         tick_s = self.timing.tick_steps * values["step_s"]

@@ -9,10 +9,10 @@ import numpy as np
 from geometry_msgs.msg import TransformStamped
 from numpy.typing import NDArray
 from rclpy.node import Node
-from rclpy.qos import DurabilityPolicy, QoSProfile
 
 from truck_blowout_sim.nodes.clock import NS
 from truck_blowout_sim.nodes.geometry import hitch_of
+from truck_blowout_sim.nodes.qos import event, publisher, reliable
 from truck_blowout_sim.recordings.angles import quaternion
 from truck_blowout_sim.vehicle import Vehicle
 
@@ -47,9 +47,8 @@ class Transforms:
         ]  # fmt: skip
         moving = [_frame("map", f"{unit}/base_link") for unit in vehicle.units]
         self.message = message(transforms=moving)
-        self._publisher = node.create_publisher(message, "/tf", 100)
-        latched = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
-        self._static = node.create_publisher(message, "/tf_static", latched)
+        self._publisher = publisher(node, message, "/tf", reliable(100))
+        self._static = publisher(node, message, "/tf_static", event())
         self._static.publish(message(transforms=hitch_frames(vehicle)))
 
     def publish(self, stamp_ns: int, outputs: NDArray[np.float64]) -> None:

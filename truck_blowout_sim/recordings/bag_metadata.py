@@ -173,15 +173,15 @@ def _custom_data(info: Mapping[str, Any]) -> dict[str, str]:
     return {str(k): str(v) for k, v in custom.items()} if isinstance(custom, dict) else {}
 
 
-def qos_text(topic: str) -> str:
-    """QoS profiles of a topic as the YAML text that MCAP channel metadata holds."""
-    return str(yaml.dump(offered_qos(topic), Dumper=_Plain, sort_keys=False))
+def qos_text(profile: Mapping[str, Any]) -> str:
+    """A topic's QoS profile as the YAML text, a list, that MCAP channel metadata holds."""
+    return str(yaml.dump([dict(profile)], Dumper=_Plain, sort_keys=False))
 
 
 def _qos_of(topic: str, channel_metadata: Mapping[str, str]) -> list[Any]:
     text = channel_metadata.get("offered_qos_profiles")
     if text is None:
-        return offered_qos(topic)
+        return [offered_qos(topic)]
     try:
         profiles = yaml.safe_load(text)
     except NOT_YAML:

@@ -17,6 +17,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from types import TracebackType
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -80,6 +81,8 @@ class BagWriter:
             before its origin; ROS stamps cannot be negative).
         metadata: free text by key.
         variances: noise variance by channel name, for the messages' covariances.
+        qos: QoS profile by absolute topic, as :func:`message_types.qos_profile` makes it; the
+            simulator's default for other topics.
         background: flush from a thread every ``flush_s`` of wall time; without it chunks follow
             from the data alone and the same data give the same bytes.
         flush_s: longest wall time that a sample stays in memory.
@@ -101,6 +104,7 @@ class BagWriter:
         time_origin_s: float = 0.0,
         metadata: Mapping[str, str] | None = None,
         variances: Mapping[str, float] | None = None,
+        qos: Mapping[str, Mapping[str, Any]] | None = None,
         background: bool = True,
         flush_s: float = 0.5,
         raise_errors: bool = True,
@@ -118,7 +122,7 @@ class BagWriter:
         self._streams: dict[tuple[str, ...], BagStream] = {}
         self._file = McapFile(create_target(self.path, file_stem or self.path.name))
         self._file.write_metadata(METADATA_NAME, self._custom)
-        self._topics = TopicRegistry(self._file.contents)
+        self._topics = TopicRegistry(self._file.contents, qos)
         self._sink = ChunkSink(self._file, flush_s if background else None)
 
     @property

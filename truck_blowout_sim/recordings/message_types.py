@@ -16,17 +16,7 @@ from rosbags.typesys.store import Typestore
 
 ROS_DISTRO = "kilted"
 
-_DEFAULT_QOS: dict[str, Any] = {
-    "history": "keep_last",
-    "depth": 10,
-    "reliability": "reliable",
-    "durability": "volatile",
-    "deadline": {"sec": 9223372036, "nsec": 854775807},
-    "lifespan": {"sec": 9223372036, "nsec": 854775807},
-    "liveliness": "automatic",
-    "liveliness_lease_duration": {"sec": 9223372036, "nsec": 854775807},
-    "avoid_ros_namespace_conventions": False,
-}
+_FOREVER = {"sec": 9223372036, "nsec": 854775807}
 
 
 @lru_cache(maxsize=1)
@@ -52,11 +42,32 @@ def type_hash(ros_type: str) -> str:
     return typestore().hash_rihs01(ros_type)
 
 
-def offered_qos(topic: str) -> list[dict[str, Any]]:
-    """QoS profiles that the simulator offers on a topic, as rosbag2 lists them.
+def qos_profile(
+    *,
+    history: str = "keep_last",
+    depth: int = 10,
+    reliability: str = "reliable",
+    durability: str = "volatile",
+) -> dict[str, Any]:
+    """A QoS profile as rosbag2 writes it; what no node here ever sets has rmw's default."""
+    return {
+        "history": history,
+        "depth": depth,
+        "reliability": reliability,
+        "durability": durability,
+        "deadline": dict(_FOREVER),
+        "lifespan": dict(_FOREVER),
+        "liveliness": "automatic",
+        "liveliness_lease_duration": dict(_FOREVER),
+        "avoid_ros_namespace_conventions": False,
+    }
+
+
+def offered_qos(topic: str) -> dict[str, Any]:
+    """QoS profile that the simulator offers on a topic unless it is told otherwise.
 
     Blowouts are events: late joiners (and a bag played later) must still get them.
     """
     if topic.rsplit("/", 1)[-1] == "blowout":
-        return [{**_DEFAULT_QOS, "depth": 100, "durability": "transient_local"}]
-    return [dict(_DEFAULT_QOS)]
+        return qos_profile(depth=100, durability="transient_local")
+    return qos_profile()

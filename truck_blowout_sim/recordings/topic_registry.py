@@ -2,19 +2,30 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from typing import Any
+
 from mcap import records
 
 from truck_blowout_sim.recordings.bag_metadata import qos_text
 from truck_blowout_sim.recordings.chunk import Chunk
 from truck_blowout_sim.recordings.mcap_file import Contents, to_bytes
-from truck_blowout_sim.recordings.message_types import definition, type_hash
+from truck_blowout_sim.recordings.message_types import definition, offered_qos, type_hash
 
 
 class TopicRegistry:
-    """Numbers topics and message types, each described in the chunk in which it first appears."""
+    """Numbers topics and message types, each described in the chunk in which it first appears.
 
-    def __init__(self, contents: Contents) -> None:
+    Args:
+        contents: what the file holds so far.
+        qos: QoS profile by absolute topic; the simulator's default where none is given.
+    """
+
+    def __init__(
+        self, contents: Contents, qos: Mapping[str, Mapping[str, Any]] | None = None
+    ) -> None:
         self._contents = contents
+        self._qos = dict(qos or {})
         self._topics: dict[str, int] = {}
         self._types: dict[str, int] = {}
 
@@ -39,7 +50,7 @@ class TopicRegistry:
             topic=topic,
             message_encoding="cdr",
             metadata={
-                "offered_qos_profiles": qos_text(topic),
+                "offered_qos_profiles": qos_text(self._qos.get(topic) or offered_qos(topic)),
                 "topic_type_hash": type_hash(ros_type),
             },
             schema_id=self._types[ros_type],

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any
 from rclpy.node import Node
 
 from truck_blowout_sim.nodes.adapters.commands import ForeignCommands
+from truck_blowout_sim.nodes.qos import reliable, subscription
 
 if TYPE_CHECKING:
     from truck_blowout_sim.nodes.simulator import Simulator
@@ -34,5 +35,5 @@ def attach(node: Node, simulator: Simulator) -> bool:
         drive = message.drive
         commands.take(drive.steering_angle, drive.speed, drive.acceleration)
 
-    node.create_subscription(AckermannDriveStamped, TOPIC, take, 10)
+    subscription(node, AckermannDriveStamped, TOPIC, take, reliable())
     return True

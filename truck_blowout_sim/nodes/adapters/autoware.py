@@ -17,6 +17,7 @@ from rclpy.node import Node
 
 from truck_blowout_sim.nodes.adapters.commands import ForeignCommands
 from truck_blowout_sim.nodes.clock import NS
+from truck_blowout_sim.nodes.qos import publisher, reliable, subscription
 
 if TYPE_CHECKING:
     from truck_blowout_sim.nodes.simulator import Simulator
@@ -41,9 +42,9 @@ def attach(node: Node, simulator: Simulator) -> bool:
         wanted_mps2 = longitudinal.acceleration if longitudinal.is_defined_acceleration else 0.0
         commands.take(message.lateral.steering_tire_angle, longitudinal.velocity, wanted_mps2)
 
-    node.create_subscription(Control, COMMAND, take, 1)
-    velocity = node.create_publisher(VelocityReport, VELOCITY, 1)
-    steering = node.create_publisher(SteeringReport, STEERING, 1)
+    subscription(node, Control, COMMAND, take, reliable(1))
+    velocity = publisher(node, VelocityReport, VELOCITY, reliable(1))
+    steering = publisher(node, SteeringReport, STEERING, reliable(1))
     names = list(simulator.plant.truck.output_names)
     columns = [names.index(f"tractor_{key}") for key in ("vx_mps", "vy_mps", "yaw_rate_radps")]
 
