@@ -17,11 +17,11 @@ from proving_ground.cases import GROUPS, CaseSpec, read_case, write_case
 from proving_ground.generate import generate as generate_cases
 from proving_ground.generate import interleaved, pending
 from proving_ground.seal import broken_seals, write_manifest
-from proving_ground.table import COUNTS, Table
+from proving_ground.table import SETS, cases_of
 
 app = typer.Typer(no_args_is_help=True, add_completion=False, help=__doc__)
 console = Console(stderr=True)
-SetName = Annotated[str, typer.Option("--set", help="dev or test")]
+SetName = Annotated[str, typer.Option("--set", help="dev, test or ci")]
 Out = Annotated[Path, typer.Option("--out", "-o", help="folder of the set")]
 
 
@@ -31,9 +31,9 @@ def _stop(message: str) -> typer.Exit:
 
 
 def _table(name: str) -> list[CaseSpec]:
-    if name not in COUNTS:
-        raise _stop(f"--set: {name!r}, expected one of {sorted(COUNTS)}")
-    return Table(name).cases()
+    if name not in SETS:
+        raise _stop(f"--set: {name!r}, expected one of {SETS}")
+    return cases_of(name)
 
 
 @app.command()
@@ -66,7 +66,7 @@ def generate(
                 console.print(f"{done}: {astray}", style="red", markup=False)
     left = len(pending(specs, out))
     typer.echo(f"{len(specs)} cases, {todo - left} made now, {left} failed; "
-               f"{write_manifest(out, name)}")
+               f"{write_manifest(out, 'own' if case else name)}")
     if left:
         raise typer.Exit(1)
 
@@ -91,16 +91,24 @@ def list_cases(name: SetName = "dev",
 
 
 @app.command()
-def seal(out: Out, check: Annotated[Path | None, typer.Option(help="manifest to check against")]
-         = None, name: SetName = "test") -> None:
+def seal(
+    out: Out,
+    check: Annotated[Path | None, typer.Option(help="manifest to check against")] = None,
+    name: SetName = "test",
+    to: Annotated[Path | None, typer.Option(help="file to publish instead of manifest.json "
+                                      "beside the cases; the set must be whole")] = None,
+) -> None:
     """Write the manifest of a generated set, or check the set against an earlier manifest."""
-    if check is None:
-        typer.echo(str(write_manifest(out, name)))
+    if check is not None:
+        broken = broken_seals(out, check)
+        if broken:
+            raise _stop(f"{len(broken)} broken seals: {', '.join(broken[:10])}")
+        typer.echo("all seals hold")
         return
-    broken = broken_seals(out, check)
-    if broken:
-        raise _stop(f"{len(broken)} broken seals: {', '.join(broken[:10])}")
-    typer.echo("all seals hold")
+    left = pending(_table(name), out) if to else []
+    if left:
+        raise _stop(f"{len(left)} cases of {name} are not made yet: {left[0].id}, ...")
+    typer.echo(str(write_manifest(out, name, to)))
 
 
 @app.command()

@@ -40,9 +40,10 @@ def make_manifest(out: Path, name: str) -> dict[str, Any]:
     return {"set": name, "count": len(cases), "seal": total.hexdigest(), "cases": cases}
 
 
-def write_manifest(out: Path, name: str) -> Path:
-    """Write the manifest beside the cases."""
-    path = out / MANIFEST
+def write_manifest(out: Path, name: str, to: Path | None = None) -> Path:
+    """Write the manifest beside the cases, or to a place where it is published."""
+    path = to or out / MANIFEST
+    path.parent.mkdir(parents=True, exist_ok=True)
     path.write_text(json.dumps(make_manifest(out, name), indent=1) + "\n", encoding="utf-8")
     return path
 

@@ -1,6 +1,6 @@
 """The seeded tables of cases: `dev` to develop against, `test` to be scored once.
 
-The two share no seed, no severity and no manoeuvre kind.
+The two share no seed, no severity and no manoeuvre kind. `ci` is a short list of its own.
 """
 
 from __future__ import annotations
@@ -10,6 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from proving_ground.cases import CaseSpec, EffectSpec, FaultSpec, check
+from proving_ground.ci import ci_cases
 from proving_ground.effects import LISTED, UNLISTED
 from proving_ground.faults import FAULTS
 
@@ -66,6 +67,12 @@ class Counts:
 
 COUNTS = {"dev": Counts(40, 84, 16, 16, 16), "test": Counts(120, 160, 40, 40, 40)}
 FIRST_SEED = {"dev": 10_000, "test": 500_000}
+SETS = ("dev", "test", "ci")
+
+
+def cases_of(name: str) -> list[CaseSpec]:
+    """All cases of a set."""
+    return ci_cases() if name == "ci" else Table(name).cases()
 
 
 class Table:

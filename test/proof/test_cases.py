@@ -1,6 +1,8 @@
 from __future__ import annotations
 
+import hashlib
 import json
+import sys
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -9,7 +11,7 @@ import pytest
 
 from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.proof.cases import find_cases, read_truth, spread
-from truck_blowout_sim.proof.seal import check_seals
+from truck_blowout_sim.proof.seal import check_seals, find_manifest
 
 WriteCase = Callable[..., Path]
 
@@ -70,8 +72,9 @@ def test_seals_hold_until_anything_moves(
     (tmp_path / "cases" / "b" / "train_1.csv").write_text("changed")
     write_case(tmp_path, "d")
     check = check_seals(find_cases(tmp_path), sealed)
-    assert (check.holds, check.broken, check.absent) == (("c",), ("a", "b"), ("d",))
-    assert "2 broken" in check.sentence()
+    assert (check.holds, check.broken, check.remade, check.absent) == (
+        ("c",), ("a",), ("b",), ("d",))
+    assert "1 broken, 1 with the sealed answer and other recordings" in check.sentence()
     assert "not sealed" in check_seals(cases, None).sentence()
 
 
@@ -79,3 +82,39 @@ def test_a_manifest_of_another_form_is_refused(tmp_path: Path) -> None:
     (tmp_path / "m.json").write_text("[]")
     with pytest.raises(InputError, match="manifest"):
         check_seals([], tmp_path / "m.json")
+
+
+def test_a_manifest_that_was_edited_is_refused(
+    tmp_path: Path, write_case: WriteCase, manifest: Callable[[Path], Path]
+) -> None:
+    write_case(tmp_path, "a")
+    sealed = manifest(tmp_path)
+    tree = json.loads(sealed.read_text())
+    answer = tree["cases"]["a"]["answer_sha256"]
+    tree["seal"] = hashlib.sha256(f"a {answer}\n".encode()).hexdigest()
+    sealed.write_text(json.dumps(tree))
+    assert check_seals(find_cases(tmp_path), sealed).holds == ("a",)
+    tree["cases"]["a"]["answer_sha256"] = "0" * 64
+    sealed.write_text(json.dumps(tree))
+    with pytest.raises(InputError, match="seal is not that"):
+        check_seals(find_cases(tmp_path), sealed)
+
+
+def test_published_seals_come_before_those_beside_the_cases(
+    tmp_path: Path, write_case: WriteCase, manifest: Callable[[Path], Path],
+    monkeypatch: pytest.MonkeyPatch
+) -> None:
+    assert find_manifest(tmp_path) is None
+    write_case(tmp_path, "a")
+    beside = manifest(tmp_path)  # of a set called dev
+    assert find_manifest(tmp_path) == beside
+    package = tmp_path / "elsewhere" / "proving_ground"
+    (package / "sealed").mkdir(parents=True)
+    (package / "__init__.py").touch()
+    published = package / "sealed" / "dev.json"
+    published.write_text(beside.read_text())
+    monkeypatch.syspath_prepend(str(package.parent))
+    monkeypatch.delitem(sys.modules, "proving_ground", raising=False)
+    assert find_manifest(tmp_path) == published
+    assert find_manifest(tmp_path, "dev") == published
+    assert find_manifest(tmp_path, "other") == beside

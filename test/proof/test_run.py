@@ -2,12 +2,15 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Iterator
+from concurrent.futures import ProcessPoolExecutor
+from multiprocessing import get_context
 from pathlib import Path
 from typing import Any
 
 import pytest
 
 from truck_blowout_sim.proof import run
+from truck_blowout_sim.proof.blindfold import blindfold, blindfolded
 from truck_blowout_sim.proof.cases import find_cases
 from truck_blowout_sim.proof.run import RESULTS, append, mixed, read_lines, unfinished
 from truck_blowout_sim.proof.seal import folder_hash
@@ -77,3 +80,17 @@ def test_a_diagnosis_that_breaks_down_is_a_line(tmp_path: Path, monkeypatch: pyt
     assert line["answer"] is None
     assert line["error"] == "FloatingPointError: state is not finite"
     assert json.dumps(line, allow_nan=False)
+
+
+def test_a_process_that_diagnoses_is_refused_every_answer(
+    tmp_path: Path, write_case: WriteCase
+) -> None:
+    answer = write_case(tmp_path, "a")
+    recording = tmp_path / "cases" / "a" / "train_1.csv"
+    with ProcessPoolExecutor(1, get_context("spawn"), initializer=blindfold) as pool:
+        assert pool.submit(Path.read_text, recording).result() == "time_s\na\n"
+        assert pool.submit(blindfolded).result()
+        with pytest.raises(PermissionError, match="sealed answer"):
+            pool.submit(Path.read_text, answer).result()
+    assert not blindfolded()
+    assert answer.read_text()

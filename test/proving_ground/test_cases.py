@@ -12,7 +12,7 @@ from proving_ground.__main__ import app
 from proving_ground.cases import CaseSpec, EffectSpec, read_case, write_case
 from proving_ground.generate import generate, interleaved, pending
 from proving_ground.seal import broken_seals, write_manifest
-from proving_ground.table import COUNTS, Table
+from proving_ground.table import SETS, Table, cases_of
 
 SMALL = CaseSpec("small-1", "single", 77, ("straight",), ("blowout_free",), ("blowout_free",),
                  (EffectSpec("blown_tire_drag", 0, 1.0, None, 0.5),), (), ("tire_pressure",))
@@ -20,7 +20,7 @@ SMALL = CaseSpec("small-1", "single", 77, ("straight",), ("blowout_free",), ("bl
 
 @pytest.fixture(scope="module")
 def tables() -> dict[str, list[CaseSpec]]:
-    return {name: Table(name).cases() for name in COUNTS}
+    return {name: cases_of(name) for name in SETS}
 
 
 def test_test_set_is_as_large_as_promised(tables: dict[str, list[CaseSpec]]) -> None:
@@ -42,6 +42,17 @@ def test_sets_share_no_seed_manoeuvre_or_severity(tables: dict[str, list[CaseSpe
     assert not dev[0] & test[0]
     assert not dev[1] & test[1]
     assert not dev[2] & test[2]
+
+
+def test_the_small_set_has_every_group_and_seeds_of_its_own(
+        tables: dict[str, list[CaseSpec]]) -> None:
+    groups = [spec.group for spec in tables["ci"]]
+    assert {group: groups.count(group) for group in set(groups)} == {
+        "null": 6, "single": 10, "pair": 2, "sensor": 4, "unknown": 2}
+    # Halves are diagnosed side by side and have a share of each group.
+    assert sorted(groups[::2]) == sorted(groups[1::2])
+    seeds = {spec.seed for spec in tables["ci"]}
+    assert not seeds & {spec.seed for name in ("dev", "test") for spec in tables[name]}
 
 
 def test_singles_cover_every_name_and_four_severities(
@@ -123,3 +134,19 @@ def test_severity_is_calibrated_to_the_wanted_sigma(tmp_path: Path) -> None:
     list(generate([spec], tmp_path, 1))
     answer = json.loads((tmp_path / "answers" / "small-2.json").read_text(encoding="utf-8"))
     assert answer["effects"][0]["sigma"] == pytest.approx(25.0, rel=0.17)
+
+
+def test_only_a_whole_set_is_published(tmp_path: Path, tables: dict[str, list[CaseSpec]]) -> None:
+    for spec in tables["ci"]:
+        path = tmp_path / "answers" / f"{spec.id}.json"
+        path.parent.mkdir(exist_ok=True)
+        path.write_text(spec.id, encoding="utf-8")
+    to = tmp_path / "sealed" / "ci.json"
+    words = ["seal", "-o", str(tmp_path), "--set", "ci", "--to", str(to)]
+    assert CliRunner().invoke(app, words).exit_code == 0
+    assert json.loads(to.read_text(encoding="utf-8"))["count"] == 24
+    assert CliRunner().invoke(app, ["seal", "-o", str(tmp_path), "--check", str(to)]).exit_code == 0
+    path.write_text("moved", encoding="utf-8")
+    assert CliRunner().invoke(app, ["seal", "-o", str(tmp_path), "--check", str(to)]).exit_code == 2
+    path.unlink()
+    assert CliRunner().invoke(app, words).exit_code == 2

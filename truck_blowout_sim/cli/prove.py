@@ -16,7 +16,7 @@ def command(
         None, "--cases", help="Folder with generated cases; without it a set is generated."
     ),
     name: str = typer.Option(
-        "ci", "--set", help="Set to generate: dev, test, or ci (24 cases of dev, all groups)."
+        "ci", "--set", help="Set to generate: dev, test, or ci (24 small cases, all groups)."
     ),
     limit: int = typer.Option(
         0, "--limit", min=0, help="So many cases, spread over the set; 0: all."
@@ -28,7 +28,8 @@ def command(
         os.cpu_count() or 1, "--workers", min=1, help="Processes, one case each at a time."
     ),
     manifest: Path | None = typer.Option(
-        None, "--manifest", help="Sealed hashes. By default manifest.json beside the cases."
+        None, "--manifest", help="Sealed hashes. By default the published ones of the set, else "
+        "manifest.json beside the cases."
     ),
     step_s: float = typer.Option(0.0025, "--step-s", help="Integration step of the model [s]."),
     baselines: bool = typer.Option(
@@ -40,6 +41,7 @@ def command(
     from truck_blowout_sim.proof.generate import generate_set
     from truck_blowout_sim.proof.prove import score_run
     from truck_blowout_sim.proof.run import RESULTS, read_lines, run_cases
+    from truck_blowout_sim.proof.seal import find_manifest
 
     root = cases or generate_set(name, output, limit=limit, workers=workers)
     found = find_cases(root, limit)
@@ -53,9 +55,8 @@ def command(
             if line["error"]:
                 progress.console.print(f"{line['case']}: {line['error']}", style="red",
                                        markup=False)
-    beside = root / "manifest.json"
     figures = score_run(found, read_lines(output / RESULTS), output,
-                        manifest or (beside if beside.is_file() else None))
+                        manifest or find_manifest(root, "" if cases else name))
     _print(figures, output)
 
 
@@ -70,7 +71,7 @@ def _print(figures: dict[str, Any], output: Path) -> None:
 
     for name, entry in figures["proportions"].items():
         typer.echo(f"{name:<52} {Proportion(entry['hits'], entry['trials'])}")
-    broken = figures["seals"]["broken"]
-    if broken:
-        typer.echo(f"BROKEN SEALS: {', '.join(broken)}", err=True)
+    for state, words in (("broken", "BROKEN SEALS"), ("remade", "OTHER RECORDINGS THAN SEALED")):
+        if figures["seals"][state]:
+            typer.echo(f"{words}: {', '.join(figures['seals'][state])}", err=True)
     typer.echo(str(output / "proof.md"))

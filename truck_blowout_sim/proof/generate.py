@@ -12,7 +12,7 @@ from pathlib import Path
 
 from truck_blowout_sim.errors import InputError
 
-SETS = {"dev": ("dev", 0), "test": ("test", 0), "ci": ("dev", 24)}  # set, number of cases
+SETS = ("dev", "test", "ci")
 
 
 def generate_set(name: str, out: Path, *, limit: int = 0, workers: int = 1) -> Path:
@@ -23,11 +23,9 @@ def generate_set(name: str, out: Path, *, limit: int = 0, workers: int = 1) -> P
     """
     if name not in SETS:
         raise InputError(f"--set {name!r}", expected="one of " + ", ".join(SETS))
-    source, usual = SETS[name]
     folder = out / "cases" / name
-    wanted = limit or usual
-    command = [sys.executable, "-m", "proving_ground", "generate", "--set", source, "-o",
-               str(folder), "--cores", str(workers), *(["--limit", str(wanted)] if wanted else [])]
+    command = [sys.executable, "-m", "proving_ground", "generate", "--set", name, "-o",
+               str(folder), "--cores", str(workers), "--limit", str(limit)]
     done = subprocess.run(command, stdout=sys.stderr, check=False)
     if done.returncode:
         raise InputError(f"generating the set ended with status {done.returncode}",

@@ -13,6 +13,7 @@ from multiprocessing import get_context
 from pathlib import Path
 from typing import Any
 
+from truck_blowout_sim.proof.blindfold import blindfold
 from truck_blowout_sim.proof.cases import Case
 from truck_blowout_sim.proof.seal import folder_hash
 from truck_blowout_sim.proof.worker import attempt
@@ -54,7 +55,7 @@ def run_cases(cases: Sequence[Case], out: Path, *, workers: int, step_s: float,
     out.mkdir(parents=True, exist_ok=True)
     for name in ONE_THREAD:
         os.environ.setdefault(name, "1")
-    with ProcessPoolExecutor(workers, mp_context=get_context("spawn")) as pool:
+    with ProcessPoolExecutor(workers, get_context("spawn"), initializer=blindfold) as pool:
         jobs = [pool.submit(attempt, (case, step_s, with_baselines)) for case in mixed(todo)]
         try:
             for job in as_completed(jobs):

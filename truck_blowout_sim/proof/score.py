@@ -73,6 +73,12 @@ class CaseScore:
         return self.verdict not in NOTHING_MISSING
 
     @property
+    def solved(self) -> bool:
+        """Right in verdict and, where something listed was concealed, in every name."""
+        listed = self.group not in ("null", "unknown")
+        return self.right and (not listed or all(c.aliased for c in self.causes))
+
+    @property
     def sigma(self) -> float | None:
         """Visibility of the weakest cause."""
         known = [c.sigma for c in self.causes if c.sigma is not None]

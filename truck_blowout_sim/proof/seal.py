@@ -11,12 +11,16 @@ from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from importlib.util import find_spec
 from pathlib import Path
+from typing import Any
 
 from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.proof.cases import Case
+
+MANIFEST = "manifest.json"
 
 
 @dataclass(frozen=True)
@@ -25,21 +29,31 @@ class SealCheck:
 
     Attributes:
         manifest: file that was checked against; None: there was none.
+        seal: the manifest's one hash over all answers.
         holds: cases whose answer and recordings are as sealed.
-        broken: cases that differ; ``absent``: cases that the manifest does not name.
+        broken: cases whose answer differs.
+        remade: cases with the sealed answer and other recordings.
+        absent: cases that the manifest does not name.
     """
 
     manifest: str | None
+    seal: str = ""
     holds: tuple[str, ...] = ()
     broken: tuple[str, ...] = ()
+    remade: tuple[str, ...] = ()
     absent: tuple[str, ...] = ()
 
     def sentence(self) -> str:
         """For the reader of a table."""
         if self.manifest is None:
             return "No manifest: these answers were not sealed."
-        text = f"Seals checked against `{self.manifest}`: {len(self.holds)} hold"
+        text = f"Seals checked against `{self.manifest}`"
+        text += f" ({self.seal[:16]})" if self.seal else ""
+        text += f": {len(self.holds)} hold"
         text += f", {len(self.broken)} broken" if self.broken else ", none broken"
+        # Recordings repeat byte for byte on one kind of processor only.
+        text += (f", {len(self.remade)} with the sealed answer and other recordings"
+                 if self.remade else "")
         return text + (f", {len(self.absent)} cases not in it." if self.absent else ".")
 
 
@@ -56,26 +70,67 @@ def folder_hash(folder: Path) -> str:
     return total.hexdigest()
 
 
+def find_manifest(root: Path, name: str = "") -> Path | None:
+    """The published manifest of the set that lies in a folder, else the one beside its cases.
+
+    Args:
+        root: folder of the set.
+        name: the set's name; by default what the manifest beside the cases says.
+
+    Raises:
+        InputError: the manifest beside the cases cannot be read.
+    """
+    beside = root / MANIFEST
+    if not name and beside.is_file():
+        name = str(_read(beside).get("set", ""))
+    published = _published(name)
+    return published or (beside if beside.is_file() else None)
+
+
+def _published(name: str) -> Path | None:
+    """The manifest that ships with the proving ground, found without importing it."""
+    spec = find_spec("proving_ground")
+    for folder in (spec.submodule_search_locations or ()) if spec and name else ():
+        path = Path(folder) / "sealed" / f"{name}.json"
+        if path.is_file():
+            return path
+    return None
+
+
+def _read(manifest: Path) -> dict[str, Any]:
+    try:
+        tree = json.loads(manifest.read_text(encoding="utf-8"))
+        cases = tree["cases"].items()
+        total = "".join(f"{case} {hashes['answer_sha256']}\n" for case, hashes in cases)
+    except (OSError, AttributeError, KeyError, TypeError, json.JSONDecodeError) as error:
+        raise InputError(f"not a manifest: {error!r}", file=manifest,
+                         expected="JSON with the hashes of all cases") from error
+    if tree.get("seal", "") not in ("", hashlib.sha256(total.encode()).hexdigest()):
+        raise InputError("the seal is not that of the cases listed", file=manifest,
+                         expected="the manifest as it was written")
+    return dict(tree)
+
+
 def check_seals(cases: Sequence[Case], manifest: Path | None) -> SealCheck:
     """Compare cases with a manifest.
 
     Raises:
-        InputError: the manifest cannot be read.
+        InputError: the manifest cannot be read, or contradicts itself.
     """
     if manifest is None:
         return SealCheck(None)
-    try:
-        sealed = json.loads(manifest.read_text(encoding="utf-8"))["cases"]
-    except (OSError, KeyError, TypeError, json.JSONDecodeError) as error:
-        raise InputError(f"not a manifest: {error!r}", file=manifest,
-                         expected="JSON with the hashes of all cases") from error
-    holds, broken, absent = [], [], []
+    sealed = _read(manifest)
+    found: dict[str, list[str]] = {"holds": [], "broken": [], "remade": [], "absent": []}
     for case in cases:
-        if case.id not in sealed:
-            absent.append(case.id)
-        elif sealed[case.id] == {"answer_sha256": file_hash(case.answer),
-                                 "recordings_sha256": folder_hash(case.folder)}:
-            holds.append(case.id)
-        else:
-            broken.append(case.id)
-    return SealCheck(str(manifest), tuple(holds), tuple(broken), tuple(absent))
+        found[_state(case, sealed["cases"].get(case.id))].append(case.id)
+    return SealCheck(str(manifest), str(sealed.get("seal", "")),
+                     **{state: tuple(ids) for state, ids in found.items()})
+
+
+def _state(case: Case, hashes: Mapping[str, str] | None) -> str:
+    if hashes is None:
+        return "absent"
+    if hashes.get("answer_sha256") != file_hash(case.answer):
+        return "broken"
+    same = hashes.get("recordings_sha256") == folder_hash(case.folder)
+    return "holds" if same else "remade"

@@ -40,6 +40,12 @@ def confusion(scores: Sequence[CaseScore]) -> dict[str, Counter[str]]:
     return table
 
 
+def solved(scores: Sequence[CaseScore]) -> dict[str, Proportion]:
+    """By group: verdict right, and every listed effect in an alias set."""
+    groups = dict.fromkeys(score.group for score in scores)
+    return {group: proportion(s.solved for s in scores if s.group == group) for group in groups}
+
+
 def naming(scores: Sequence[CaseScore]) -> dict[str, Proportion]:
     """Names given to single physical effects and instrument faults of at least 10 sigma."""
     strong = [s for s in scores if s.group in ("single", "sensor") and len(s.causes) == 1
@@ -157,6 +163,7 @@ def summarize(scores: Sequence[CaseScore], failed: Mapping[str, str]) -> Figures
     return {
         "cases": len(scores), "failed": dict(failed),
         "confusion": {group: dict(counts) for group, counts in confusion(scores).items()},
+        "solved": {group: p.as_json() for group, p in solved(scores).items()},
         "proportions": {name: p.as_json() for name, p in rows.items()},
         "mean_alias_set_size": float(np.mean(sizes)) if sizes else None,
         "onset": onsets(causes),

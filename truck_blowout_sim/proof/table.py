@@ -126,8 +126,7 @@ def _cases(scores: Sequence[CaseScore], truths: Mapping[str, Truth]) -> list[str
         hidden = " + ".join(f"{c.name} {_place(c.where)}".strip() for c in truths[s.case].causes)
         named = "; ".join(n + (f" ({', '.join(a[1:])})" if len(a) > 1 else "")
                           for n, a in zip(s.named, s.aliases, strict=True))
-        name_right = s.group in ("null", "unknown") or all(c.aliased for c in s.causes)
-        mark = "yes" if s.right and name_right else "verdict" if s.right else "no"
+        mark = "yes" if s.solved else "verdict" if s.right else "no"
         fit = f"{s.holdout.before:.3g} → {s.holdout.after:.3g}" if s.holdout else "–"
         rows.append(f"| {s.case} | {hidden or 'nothing'} | {_number(s.sigma)} | "
                     f"{s.verdict.replace('_', ' ')} | {named or '–'} | {mark} | {fit} |")

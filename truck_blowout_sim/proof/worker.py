@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from typing import Any
 
+from truck_blowout_sim.proof.blindfold import blindfolded
 from truck_blowout_sim.proof.cases import ROLES, Case
 
 
@@ -41,4 +42,5 @@ def diagnose_case(case: Case, *, step_s: float, with_baselines: bool) -> dict[st
 def attempt(work: tuple[Case, float, bool]) -> dict[str, Any]:
     """:func:`diagnose_case` of one tuple, as a pool of processes wants it."""
     case, step_s, with_baselines = work
-    return diagnose_case(case, step_s=step_s, with_baselines=with_baselines)
+    line = diagnose_case(case, step_s=step_s, with_baselines=with_baselines)
+    return {**line, "blindfolded": blindfolded()}
