@@ -6,12 +6,15 @@ from pathlib import Path
 
 from truck_blowout_sim import (
     Recording,
+    Scenario,
     Truck,
     Vehicle,
+    load_scenario,
     load_vehicle,
     pack,
     read_recording,
     simulate,
+    simulate_batch,
     write_recording,
 )
 
@@ -24,3 +27,7 @@ weaker = pack(vehicle).with_values({"hub.trailer_2_left.brake_gain": 0.35})
 truck: Truck = Truck(weaker)
 fresh: bool = truck.blow("steer_left")
 state: dict[str, float] = truck.outputs()
+scenario: Scenario = load_scenario("fishhook")
+batch: list[Recording] = simulate_batch(
+    vehicle, scenario, [{"hub.trailer_2_left.brake_gain": gain} for gain in (0.35, 1.0)]
+)

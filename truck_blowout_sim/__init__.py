@@ -25,7 +25,16 @@ if TYPE_CHECKING:
         read_recording,
         write_recording,
     )
-    from truck_blowout_sim.simulation import InitialState, Inputs, Truck, simulate, simulate_inputs
+    from truck_blowout_sim.simulation import (
+        InitialState,
+        Inputs,
+        Scenario,
+        Truck,
+        load_scenario,
+        simulate,
+        simulate_batch,
+        simulate_inputs,
+    )
     from truck_blowout_sim.vehicle import Packed, Vehicle, load_vehicle, pack
 
 __version__ = "0.1.0"
@@ -37,15 +46,18 @@ __all__ = [
     "Inputs",
     "Packed",
     "Recording",
+    "Scenario",
     "Series",
     "Truck",
     "Vehicle",
     "compare",
     "diagnose",
+    "load_scenario",
     "load_vehicle",
     "pack",
     "read_recording",
     "simulate",
+    "simulate_batch",
     "simulate_inputs",
     "write_recording",
 ]
@@ -55,7 +67,8 @@ _ROOMS = {
     "diagnosis": ("diagnose",),
     "errors": ("InputError",),
     "recordings": ("Blowout", "Recording", "Series", "read_recording", "write_recording"),
-    "simulation": ("InitialState", "Inputs", "Truck", "simulate", "simulate_inputs"),
+    "simulation": ("InitialState", "Inputs", "Scenario", "Truck", "load_scenario", "simulate",
+                   "simulate_batch", "simulate_inputs"),
     "vehicle": ("Packed", "Vehicle", "load_vehicle", "pack"),
 }
 _ROOM_OF = {name: room for room, names in _ROOMS.items() for name in names}

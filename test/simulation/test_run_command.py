@@ -46,7 +46,13 @@ def test_csv_values_and_blowouts_of_ones_own(tmp_path: Path) -> None:
 @pytest.mark.parametrize(("words", "line"), [
     (("fishok",), "no scenario of the name 'fishok'"),
     (("fishhook", "--vehicle", "lorry"), "no vehicle of the name 'lorry'"),
-    (("fishhook", "--set", "steering.ration=2"), "no parameter 'steering.ration'"),
+    (("fishhook", "--set", "steering.ration=2"), "no parameter 'steering.ration', "
+     "did you mean 'steering.ratio'?"),
+    (("fishhook", "--set", "trailer_2_left.brake_gain=2"),
+     "did you mean 'hub.trailer_2_left.brake_gain'?"),
+    (("fishhook", "--set", "mass_kg=1"), "expected one of: unit.tractor.mass_kg, "),
+    (("fishhook", "--set", "wrong.key=1"), "expected a name that begins with one of: world, "),
+    (("fishhook", "--set", "abs.x=1"), "; expected one of: abs."),
     (("fishhook", "--set", "steering.ratio"), "expected NAME=VALUE"),
     (("fishhook", "--set", "steering.ratio=x"), "'x' is not a number"),
     (("fishhook", "--set", "steering.ratio=nan"), "is not finite"),

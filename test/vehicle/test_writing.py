@@ -56,7 +56,7 @@ def test_over_its_own_base_is_refused(extending: Callable[[str], Path]) -> None:
 @pytest.mark.parametrize(
     ("values", "words"),
     [
-        ({"hub.trailer_2_left.brake_gian": 1.0}, "did you mean 'brake_gain'"),
+        ({"hub.trailer_2_left.brake_gian": 1.0}, "did you mean 'hub.trailer_2_left.brake_gain'"),
         ({GAIN: math.nan}, "NaN"),
         ({"unit.trailer.mass_kg": -1.0}, "out of bounds"),
         ({"hub.steer_left.toe_rad": math.inf}, "finite"),

@@ -101,8 +101,7 @@ def _on_the_road(packed: Packed, scenario: Scenario) -> Packed:
     try:
         return packed.with_values(scenario.values)
     except KeyError as error:
-        raise InputError(str(error.args[0]), file=scenario.path, where="values",
-                         expected=f"names of parameters of {packed.vehicle.name}") from None
+        raise InputError(str(error.args[0]), file=scenario.path, where="values") from None
 
 
 def _recording(scenario: Scenario) -> Recording:

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from difflib import get_close_matches
 from typing import Any
 
 from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.physics import layout
 from truck_blowout_sim.vehicle.document import Place
-from truck_blowout_sim.vehicle.reading import unknown
 from truck_blowout_sim.vehicle.schema.axle import CIRCUITS
 from truck_blowout_sim.vehicle.vehicle import Vehicle
 
@@ -55,11 +55,20 @@ def parameter_index(vehicle: Vehicle) -> dict[str, int]:
 
 
 def unknown_parameter(place: Place, name: str, index: Mapping[str, int]) -> InputError:
-    """An error about a parameter name, with the nearest that exists."""
-    problem = f"no parameter {name[:LONGEST_NAME]!r}"
-    prefix, _, field = name[:LONGEST_NAME].rpartition(".")
-    fields = tuple(key.rpartition(".")[2] for key in index if key.rpartition(".")[0] == prefix)
-    if fields:
-        return unknown(place, problem, field, fields)
-    prefixes = tuple(dict.fromkeys(key.rpartition(".")[0] for key in index))
-    return unknown(place, problem, prefix or name[:LONGEST_NAME], prefixes)
+    """An error about a parameter name, with the nearest that exists, written out in full."""
+    name = name[:LONGEST_NAME]
+    problem = f"no parameter {name!r}"
+    prefix, _, field = name.rpartition(".")
+    parts = [key.rpartition(".") for key in index]
+    # the same field elsewhere, else the nearest block, and in it the nearest field
+    blocks = dict.fromkeys(block for block, _, one in parts if one == field)
+    blocks = blocks or dict.fromkeys(block for block, _, _ in parts)
+    near = [prefix] if prefix in blocks else get_close_matches(prefix or name, blocks, n=1)
+    if not near:
+        same = [key for key, (_, _, one) in zip(index, parts, strict=True) if one == field]
+        how = "one of: " if same else "a name that begins with one of: "
+        return place.error(problem, how + ", ".join(same or blocks))
+    fields = [one for block, _, one in parts if block == near[0]]
+    if close := get_close_matches(field, fields, n=1):
+        return place.error(f"{problem}, did you mean {f'{near[0]}.{close[0]}'!r}?")
+    return place.error(problem, "one of: " + ", ".join(f"{near[0]}.{one}" for one in fields))

@@ -57,7 +57,8 @@ class Packed:
         """
         if name not in self.index:
             place = Place(str(self.vehicle.path), 0, "")
-            raise KeyError(unknown_parameter(place, name, self.index).problem)
+            error = unknown_parameter(place, name, self.index)
+            raise KeyError("; expected ".join(filter(None, (error.problem, error.expected))))
         return self.index[name]
 
     def with_values(self, values: Mapping[str, float]) -> Packed:
