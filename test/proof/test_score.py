@@ -65,9 +65,11 @@ def test_another_axle_of_the_same_tandem_is_wrong(line: Maker, effect: Maker, ca
 def test_onset_against_the_earliest_training_run(line: Maker, effect: Maker, cause: Maker,
                                                  truth: Callable[..., Truth]) -> None:
     sealed = cause("payload_shift", onset_s={"holdout_1": 1.0, "train_1": 4.0, "train_2": 3.0})
-    one = score_case(line(effects=(effect("payload_shift", onset_s=3.2),)),
+    found = effect("payload_shift", onset_s=3.2, onset_ci90_s=[3.1, 3.3])
+    one = score_case(line(effects=(found,)),
                      truth("single", sealed)).causes[0]
     assert one.onset_error_s == pytest.approx(0.2)
+    assert one.onset_covered is False
 
 
 def test_an_instrument_answered_with_physics_is_the_wrong_kind(

@@ -1,4 +1,4 @@
-"""Figures of a run: power curve, verdicts against truth, p-values of nulls."""
+"""Figures of a run: power, verdicts against truth, p-values of nulls, effect by effect."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from truck_blowout_sim.proof.by_effect import span
 from truck_blowout_sim.proof.table import VERDICTS
 from truck_blowout_sim.report.style import BLUE, CYCLE, SOFT, Picture, new_axes, styled
 
@@ -20,6 +21,8 @@ def pictures(figures: Mapping[str, Any]) -> list[Picture]:
         made.append(draw_power(figures["power"]))
     if len(figures["null_p_values"]) >= 5:
         made.append(draw_reliability(figures["null_p_values"]))
+    if figures["effects"]:
+        made.append(draw_effects(figures["effects"]))
     return made
 
 
@@ -61,6 +64,23 @@ def draw_confusion(table: Mapping[str, Mapping[str, int]]) -> Picture:
     axes.set_xticks(range(len(VERDICTS)), [v.replace("_", "\n") for v in VERDICTS])
     axes.set_yticks(range(len(table)), list(table))
     return Picture("confusion", "Verdicts", "Number of cases.", figure)
+
+
+@styled
+def draw_effects(rows: Sequence[Mapping[str, Any]]) -> Picture:
+    """Found of concealed for each effect and class of visibility."""
+    figure, axes = new_axes((6.4, 1.1 + 0.23 * len(rows)), x="visibility (sigma)", y="")
+    share = np.array([[np.nan if p["value"] is None else p["value"] for p in row["by_sigma"]]
+                      for row in rows])
+    axes.imshow(share, cmap="RdYlBu", vmin=-0.15, vmax=1.15, aspect="auto")
+    axes.grid(visible=False)
+    for i, row in enumerate(rows):
+        for j, p in enumerate(row["by_sigma"]):
+            if p["trials"]:
+                axes.text(j, i, f"{p['hits']}/{p['trials']}", ha="center", va="center", size=8)
+    axes.set_xticks(range(share.shape[1]), [span(k) for k in range(share.shape[1])])
+    axes.set_yticks(range(len(rows)), [row["name"].replace("_", " ") for row in rows], size=8)
+    return Picture("effects", "Found of concealed", "Blue: found; red: not.", figure)
 
 
 @styled

@@ -46,6 +46,7 @@ class CauseScore:
     body: bool | None
     axle: bool | None
     onset_error_s: float | None
+    onset_covered: bool | None
     parameter: ParameterScore | None
 
 
@@ -125,7 +126,7 @@ def score_cause(cause: Cause, effects: Sequence[Mapping[str, Any]],
         alias_size=len(aliases[holding]) if holding is not None else None,
         body=_same(cause.where["body"], place.get("body")),
         axle=_same_axle(cause.where["axle"], place.get("axle")),
-        onset_error_s=_onset_error(cause, chosen),
+        onset_error_s=_onset_error(cause, chosen), onset_covered=_onset_covered(cause, chosen),
         parameter=compare_parameter(cause, exact) if exact else None)
 
 
@@ -140,12 +141,25 @@ def _same_axle(wanted: str | None, found: str | None) -> bool | None:
     return (wanted == found or wanted.startswith(f"{found}_") or found.startswith(f"{wanted}_"))
 
 
+def _true_onset(cause: Cause) -> float | None:
+    """The earliest one among the training runs."""
+    return min((t for run, t in cause.onset_s.items() if run.startswith("train")), default=None)
+
+
 def _onset_error(cause: Cause, effect: Mapping[str, Any] | None) -> float | None:
-    """Distance of the stated onset from the earliest true one among the training runs."""
-    true = [t for run, t in cause.onset_s.items() if run.startswith("train")]
-    if effect is None or effect["onset_s"] is None or not true:
+    """Distance of the stated onset from the true one."""
+    true = _true_onset(cause)
+    if effect is None or effect["onset_s"] is None or true is None:
         return None
-    return abs(float(effect["onset_s"]) - min(true))
+    return abs(float(effect["onset_s"]) - true)
+
+
+def _onset_covered(cause: Cause, effect: Mapping[str, Any] | None) -> bool | None:
+    """Whether the stated 90 % interval of the onset holds the true one."""
+    true, interval = _true_onset(cause), effect and effect.get("onset_ci90_s")
+    if not interval or true is None:
+        return None
+    return bool(interval[0] <= true <= interval[1])
 
 
 def fitted(fit: Mapping[str, Mapping[str, float]], floor: Mapping[str, float] | None

@@ -12,12 +12,13 @@ from typing import Any
 
 import numpy as np
 
+from truck_blowout_sim.proof.by_effect import SIGMA_EDGES, effect_rows
 from truck_blowout_sim.proof.comparable import NOT_COMPARABLE, ParameterScore
 from truck_blowout_sim.proof.score import ABRUPT, CaseScore, CauseScore
 from truck_blowout_sim.proof.statistics import Proportion, proportion, quantile
 
-SIGMA_EDGES = (0.0, 7.0, 14.0, 28.0, 64.0, float("inf"))
 STRONG_SIGMA = 10.0
+P_LEVELS = (0.01, 0.05, 0.1, 0.5)
 RIVALS = ("no_change", "recalibrated", "gaussian_process", "sparse_regression", "diagnosed")
 Figures = dict[str, Any]
 
@@ -96,7 +97,8 @@ def onsets(causes: Sequence[CauseScore]) -> Figures:
     def figures(chosen: Sequence[CauseScore]) -> Figures:
         errors = [c.onset_error_s for c in chosen if c.onset_error_s is not None]
         return {"count": len(errors), "median_s": quantile(errors, 0.5),
-                "p90_s": quantile(errors, 0.9)}
+                "p90_s": quantile(errors, 0.9),
+                "coverage": proportion(c.onset_covered for c in chosen).as_json()}
     return {"abrupt": figures([c for c in causes if c.name in ABRUPT]), "all": figures(causes)}
 
 
@@ -170,8 +172,12 @@ def summarize(scores: Sequence[CaseScore], failed: Mapping[str, str]) -> Figures
         "parameters": parameters([c.parameter for c in causes if c.parameter]),
         "power": [{k: v.as_json() if isinstance(v, Proportion) else v for k, v in row.items()}
                   for row in power(scores)],
+        "effects": effect_rows(scores),
         "holdout": improvement(scores), "rivals": rivals(scores),
         "null_p_values": null_p_values(scores),
+        "null_p_values_at_most": {
+            str(level): proportion(p <= level for p in null_p_values(scores)).as_json()
+            for level in P_LEVELS},
         "cpu_s": {"median": quantile([s.cpu_s for s in scores], 0.5),
                   "total": float(sum(s.cpu_s for s in scores))},
     }

@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from truck_blowout_sim.proof.by_effect import effect_table
 from truck_blowout_sim.proof.cases import Truth
 from truck_blowout_sim.proof.score import CaseScore
 from truck_blowout_sim.proof.statistics import Proportion
@@ -39,6 +40,8 @@ def markdown(figures: Mapping[str, Any], scores: Sequence[CaseScore], truths: Ma
     """Everything, as one document."""
     parts = [seal, "", "## Figures", "", *_proportions(figures), "", *_numbers(figures), "",
              "## Verdicts", "", *_confusion(figures), "", "## Power", "", *_power(figures), "",
+             "## Effect by effect", "", *effect_table(figures["effects"]), "",
+             "## p-values where nothing is missing", "", *_reliability(figures), "",
              "## Rivals on holdout", "", *_rivals(figures), "", "## Parameters", "",
              *_parameters(figures), "", "## Every case", "", *_cases(scores, truths),
              *_failed(figures)]
@@ -68,7 +71,8 @@ def _numbers(figures: Mapping[str, Any]) -> list[str]:
            f"({row['count']})") for kind, row in onset.items()),
         ("parameter: median relative error", "≤ 0.10",
          f"{_number(par['median_relative_error'])} ({par['count']})"),
-        ("90 % intervals that hold the truth", "85–95 %", _count(par["coverage"])),
+        ("90 % intervals that hold the truth: parameters", "85–95 %", _count(par["coverage"])),
+        ("the same: onsets", "85–95 %", _count(onset["all"]["coverage"])),
         ("holdout improved", "≥ 95 %", _count(fit["improved"])),
         ("holdout, median share removed of the excess over the instruments' noise", "",
          f"{_number(fit['median_removed_of_excess_over_instruments'])} "
@@ -83,9 +87,10 @@ def _numbers(figures: Mapping[str, Any]) -> list[str]:
 
 
 def _confusion(figures: Mapping[str, Any]) -> list[str]:
-    rows = ["| concealed | " + " | ".join(v.replace("_", " ") for v in VERDICTS) + " |",
-            "|---" * (len(VERDICTS) + 1) + "|"]
-    return rows + [f"| {group} | " + " | ".join(str(counts.get(v, 0)) for v in VERDICTS) + " |"
+    rows = ["| concealed | " + " | ".join(v.replace("_", " ") for v in VERDICTS)
+            + " | verdict and names right |", "|---" * (len(VERDICTS) + 2) + "|"]
+    return rows + [f"| {group} | " + " | ".join(str(counts.get(v, 0)) for v in VERDICTS)
+                   + f" | {_count(figures['solved'][group])} |"
                    for group, counts in figures["confusion"].items()]
 
 
@@ -97,6 +102,12 @@ def _power(figures: Mapping[str, Any]) -> list[str]:
         rows.append(f"| {span} | {_count(row['noticed'])} | {_count(row['aliased'])} | "
                     f"{_count(row['raw'])} |")
     return rows
+
+
+def _reliability(figures: Mapping[str, Any]) -> list[str]:
+    rows = ["| stated p-value at most | nulls (95 % Wilson) |", "|---|---|"]
+    return rows + [f"| {level} | {_count(entry)} |"
+                   for level, entry in figures["null_p_values_at_most"].items()]
 
 
 def _rivals(figures: Mapping[str, Any]) -> list[str]:
