@@ -23,6 +23,7 @@ PHYSICS = {
     "payload_shift", "fifth_wheel_friction",
 }  # fmt: skip
 EVERY = [pytest.param(effect, id=effect.name) for effect in LIBRARY]
+OF_TRUCKS = [effect for effect in LIBRARY if effect.amount.name != "inverse_peak_friction"]
 
 
 def hypotheses(effect: Effect, packed: Packed) -> list[Hypothesis]:
@@ -32,7 +33,7 @@ def hypotheses(effect: Effect, packed: Packed) -> list[Hypothesis]:
 
 
 def test_names_are_the_canonical_ones() -> None:
-    names = [effect.name for effect in LIBRARY]
+    names = [effect.name for effect in OF_TRUCKS]
     assert len(names) == len(set(names))
     assert {e.name for e in LIBRARY if e.kind == "physics"} == PHYSICS
     assert {e.name for e in LIBRARY if e.kind == "sensor"} == {"steering_angle_offset"}
@@ -52,7 +53,14 @@ def test_the_neutral_amount_changes_no_parameter(effect: Effect, vehicle: str) -
         assert {n: packed[n] for n in values} == pytest.approx(values), str(h.place)
 
 
-@pytest.mark.parametrize("effect", EVERY)
+@pytest.mark.parametrize("vehicle", config_names("vehicles"))
+def test_no_axle_has_a_name_twice(vehicle: str) -> None:
+    loaded = load_vehicle(vehicle)
+    keys = [(effect.name, str(place)) for effect in LIBRARY for place in effect.places(loaded)]
+    assert len(keys) == len(set(keys))
+
+
+@pytest.mark.parametrize("effect", OF_TRUCKS, ids=lambda effect: effect.name)
 def test_a_step_changes_the_truck_at_every_place_and_in_no_other_run(
     effect: Effect, truck: Packed
 ) -> None:

@@ -27,3 +27,14 @@ def test_both_axles_carry_the_published_stiffness() -> None:
         total = sum(packed[f"tire.{axle}_{side}.linear_cornering_nprad"]
                     * packed[f"tire.{axle}_{side}.cornering_scale"] for side in ("left", "right"))
         assert total == pytest.approx(stiffness)
+
+
+def test_saturation_keeps_the_slope_and_levels_off(block: Callable[[str], int]) -> None:
+    packed = pack(load_vehicle("ferrari_250lm"))
+    at = min(i for name, i in packed.index.items() if name.startswith("tire.front_left."))
+    k, fz_n = packed["tire.front_left.linear_cornering_nprad"], 2500.0
+    level = packed.with_values({"tire.front_left.saturation": 0.8})
+    _, small, _ = forces(level.params, at, fz_n, 0.0, 1e-4, 1.0, 1.0, k)
+    assert small == pytest.approx(1e-4 * k, rel=1e-4)
+    _, large, _ = forces(level.params, at, fz_n, 0.0, 1.0, 1.0, 1.0, k)
+    assert large == pytest.approx(fz_n / 0.8, rel=1e-4)

@@ -72,6 +72,7 @@ class TireParams(NamedTuple):
     pressure_valid: int  # lower bound of q in the cornering formula
     flat_cornering: int
     flat_cornering_scale: int  # 1; what a diagnosis changes
+    saturation: int  # linear tires: inverse of the friction they level off at
     flat_trail: int
     flat_camber: int
     flat_rolling: int

@@ -25,6 +25,7 @@ from truck_blowout_sim.diagnosis.effects import (
     steering_lash,
     tire_relaxation,
     tire_saturation,
+    tire_saturation_linear,
 )
 from truck_blowout_sim.diagnosis.effects.base import Amount, Effect
 
@@ -38,6 +39,7 @@ _MODULES = (
     roll_steer,
     tire_relaxation,
     tire_saturation,
+    tire_saturation_linear,
     friction_change,
     crosswind,
     aerodynamic_drag,

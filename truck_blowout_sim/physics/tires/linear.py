@@ -1,5 +1,8 @@
 """Linear tire: force proportional to slip, capped by friction, no aligning moment.
 
+With ``saturation`` s > 0 the lateral force levels off: F_y = (mu F_z / s) tanh(s C alpha / mu F_z).
+The slope at the origin stays C; s = 0 is the straight line.
+
 References: the linear single-track model (Riekert and Schunck 1940).
 Known limits: no load dependence of the stiffness; cap by the friction circle only.
 Validated with: test/physics/test_linear_tire.py.
@@ -24,7 +27,11 @@ def forces(p: Floats, t: int, fz_n: float, slip: float, slip_tan: float, frictio
     """Longitudinal and lateral force [N]; the aligning moment is zero."""
     fx = p[t + TIRE.linear_slip_n] * slip
     fy = cornering * math.atan(slip_tan)
+    sharpness = p[t + TIRE.saturation]
     limit = p[t + TIRE.peak_y] * p[t + TIRE.friction_scale] * friction * axle_peak * fz_n
+    if sharpness > 0.0 and limit > 0.0:
+        level = friction * axle_peak * fz_n / sharpness
+        fy = level * math.tanh(fy / level)
     size = math.sqrt(fx * fx + fy * fy)
     if size > limit:
         fx *= limit / size

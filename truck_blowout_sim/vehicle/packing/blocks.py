@@ -58,6 +58,7 @@ NEUTRAL: dict[type[Any], dict[str, float]] = {
         "blow_hole_scale": 1.0,
         "relaxation_scale": 1.0,
         "flat_cornering_scale": 1.0,
+        "saturation": 0.0,
         "flat_drag_scale": 1.0,
     },
 }
