@@ -23,7 +23,8 @@ PHYSICS = {
     "payload_shift", "fifth_wheel_friction",
 }  # fmt: skip
 EVERY = [pytest.param(effect, id=effect.name) for effect in LIBRARY]
-OF_TRUCKS = [effect for effect in LIBRARY if effect.amount.name != "inverse_peak_friction"]
+OF_TRUCKS = [effect for effect in LIBRARY
+             if effect.amount.name != "inverse_peak_friction" and not effect.variant]
 
 
 def hypotheses(effect: Effect, packed: Packed) -> list[Hypothesis]:
@@ -56,7 +57,8 @@ def test_the_neutral_amount_changes_no_parameter(effect: Effect, vehicle: str) -
 @pytest.mark.parametrize("vehicle", config_names("vehicles"))
 def test_no_axle_has_a_name_twice(vehicle: str) -> None:
     loaded = load_vehicle(vehicle)
-    keys = [(effect.name, str(place)) for effect in LIBRARY for place in effect.places(loaded)]
+    keys = [(effect.name, str(place), effect.variant)
+            for effect in LIBRARY for place in effect.places(loaded)]
     assert len(keys) == len(set(keys))
 
 

@@ -39,7 +39,7 @@ def test_friction_of_a_patch_and_of_a_change(truck: Packed) -> None:
 
 def test_gravity_keeps_its_size_on_any_slope(truck: Packed) -> None:
     p = truck.with_values({"world.road_grade_rad": 0.03, "world.road_bank_rad": -0.02}).params
-    g = road.gravity(p)
+    g = road.gravity(p, 0.0)
     assert math.hypot(*g) == pytest.approx(9.81)
     assert g[0] == pytest.approx(-9.81 * math.sin(0.03))
     assert g[1] > 0.0
@@ -60,3 +60,12 @@ def test_a_rolling_truck_gains_on_a_grade_what_gravity_gives(truck: Packed) -> N
 
 def truck_mass(truck: Packed) -> float:
     return sum(v for v in (truck[n] for n in truck.index if n.endswith(".mass_kg")))
+
+
+def test_a_slope_that_begins_eases_in(truck: Packed) -> None:
+    p = truck.with_values({"world.slope_change_grade_rad": 0.02, "world.slope_change_time_s": 3.0,
+                           "world.slope_change_ramp_s": 2.0}).params
+    before, half, after = (road.gravity(p, time_s)[0] for time_s in (3.0, 4.0, 9.0))
+    assert before == pytest.approx(0.0, abs=1e-12)
+    assert half == pytest.approx(-9.80665 * math.sin(0.01), rel=1e-3)
+    assert after == pytest.approx(-9.80665 * math.sin(0.02), rel=1e-3)

@@ -95,19 +95,26 @@ def candidates(study: Study, named: Sequence[Hypothesis],
         else:
             done.append(one)
     best = max((r.delta for r in done if r.refitted), default=0.0)
-    done += _timed(study, projector, named, chi2, max(worth, 0.5 * best), taken, progress)
-    return sorted(done, key=lambda r: (-r.delta, r.hypothesis.key))
+    promising = {r.hypothesis.effect.name for r in done if r.delta > worth}
+    done += _timed(study, projector, named, chi2, max(worth, 0.5 * best), taken, promising,
+                   progress)
+    best_of: dict[tuple[str, str], Ranked] = {}
+    for one in sorted(done, key=lambda r: (-r.delta, r.hypothesis.key)):
+        best_of.setdefault(one.hypothesis.key, one)
+    return list(best_of.values())
 
 
 def _timed(study: Study, projector: Projector, named: Sequence[Hypothesis], chi2: float,
-           worth: float, taken: set[tuple[str, str]], progress: Progress | None) -> list[Ranked]:
+           worth: float, taken: set[tuple[str, str]], promising: set[str],
+           progress: Progress | None) -> list[Ranked]:
     """Events: tires that lost pressure by themselves, and everything scanned over time."""
     found: list[Ranked] = []
     for tire, times in failed_tires(study, study.train).items():
         found += [_failed(study, named, chi2, tire, times)]
     scanned = []
     for effect in timed_effects():
-        if effect.name == "secondary_blowout":
+        if effect.name == "secondary_blowout" or (
+                effect.variant and effect.name not in promising):
             continue
         for place in effect.places(study.packed.vehicle):
             if (effect.name, str(place)) not in taken:

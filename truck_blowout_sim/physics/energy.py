@@ -44,7 +44,7 @@ Integers = NDArray[np.int64]
 @entry
 def energy_j(x: Floats, p: Floats, topo: Integers, work: Floats) -> float:
     """Kinetic and potential energy [J] of bodies, axles, wheels and suspension springs."""
-    g = road.gravity(p)
+    g = road.gravity(p, x[GLOBAL_S.time_s])
     total = 0.0
     for u in range(topo[TOPOLOGY.n_units]):
         s, a = STATE_UNIT_AT + u * len(UNIT_S), UNIT_AT + u * UNIT_SIZE

@@ -58,7 +58,7 @@ def step(x: Floats, p: Floats, topo: Integers, inputs: Floats, dt: float, work: 
         # limits further down would turn a NaN into a command
         if not np.isfinite(inputs[k]):
             x[GLOBAL_S.nonfinite] = 1.0
-    g = road.gravity(p)
+    g = road.gravity(p, x[GLOBAL_S.time_s])
     for u in range(n_units):
         s, a, w = STATE_UNIT_AT + u * N_UNIT_STATE, UNIT_AT + u * UNIT_SIZE, u * UNIT_WORK_SIZE
         fill_rotation(x, s, work, w)

@@ -54,7 +54,8 @@ _MODULES = (
     fifth_wheel_friction,
     steering_angle_offset,
 )
-LIBRARY: tuple[Effect, ...] = tuple(module.EFFECT for module in _MODULES)
+LIBRARY: tuple[Effect, ...] = (*(module.EFFECT for module in _MODULES),
+                               road_grade.FROM_AN_INSTANT, road_bank.FROM_AN_INSTANT)
 """Every candidate, physics first."""
 
 __all__ = ["LIBRARY", "Amount", "Effect"]

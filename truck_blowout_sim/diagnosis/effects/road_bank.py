@@ -9,13 +9,28 @@ from truck_blowout_sim.diagnosis.effects.base import (
     whole_truck,
 )
 
+_AMOUNT = Amount("bank_rad", "rad", step=0.005, low=-0.12, high=0.12, material=0.004)
+
 EFFECT = Effect(
     name="road_bank",
-    amount=Amount("bank_rad", "rad", step=0.005, low=-0.12, high=0.12, material=0.004),
+    amount=_AMOUNT,
     places=whole_truck,
     values=lambda packed, place, a: added(packed, "world.road_bank_rad", a),
     sentence="The road is banked by {percent} percent (positive: left side high).",
     equation="F_y = -m g sin({value} rad)",
     splits="the lateral accelerometer against yaw rate times speed",
     absorbs="road_crossfall",
+)
+
+FROM_AN_INSTANT = Effect(
+    name="road_bank",
+    amount=_AMOUNT,
+    places=whole_truck,
+    values=lambda packed, place, a: {"world.slope_change_bank_rad": a},
+    timing="step",
+    timed=lambda packed, place, start, end: {"world.slope_change_time_s": start},
+    variant=True,
+    sentence="From {onset} on the road is banked by {percent} percent (positive: left side high).",
+    equation="F_y = -m g sin({value} rad) from t = {onset}",
+    splits="the lateral accelerometer against yaw rate times speed",
 )

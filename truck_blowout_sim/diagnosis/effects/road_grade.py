@@ -9,13 +9,28 @@ from truck_blowout_sim.diagnosis.effects.base import (
     whole_truck,
 )
 
+_AMOUNT = Amount("grade_rad", "rad", step=0.003, low=-0.12, high=0.12, material=0.0012)
+
 EFFECT = Effect(
     name="road_grade",
-    amount=Amount("grade_rad", "rad", step=0.003, low=-0.12, high=0.12, material=0.0012),
+    amount=_AMOUNT,
     places=whole_truck,
     values=lambda packed, place, a: added(packed, "world.road_grade_rad", a),
     sentence="The road climbs by {percent} percent along its course.",
     equation="F_x = -m g sin({value} rad)",
     splits="the accelerometer against the wheel speeds, at any speed",
     absorbs="road_slope",
+)
+
+FROM_AN_INSTANT = Effect(
+    name="road_grade",
+    amount=_AMOUNT,
+    places=whole_truck,
+    values=lambda packed, place, a: {"world.slope_change_grade_rad": a},
+    timing="step",
+    timed=lambda packed, place, start, end: {"world.slope_change_time_s": start},
+    variant=True,
+    sentence="From {onset} on the road climbs by {percent} percent along its course.",
+    equation="F_x = -m g sin({value} rad) from t = {onset}",
+    splits="the accelerometer against the wheel speeds, at any speed",
 )
