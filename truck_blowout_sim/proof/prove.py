@@ -13,6 +13,7 @@ from truck_blowout_sim.proof.cases import Case, read_truth
 from truck_blowout_sim.proof.figures import pictures
 from truck_blowout_sim.proof.score import score_case
 from truck_blowout_sim.proof.seal import check_seals
+from truck_blowout_sim.proof.short import short_table
 from truck_blowout_sim.proof.summary import null_floor, summarize
 from truck_blowout_sim.proof.table import markdown
 from truck_blowout_sim.recordings.atomic import replacing
@@ -22,7 +23,7 @@ Figures = dict[str, Any]
 
 def score_run(cases: Sequence[Case], lines: Mapping[str, Mapping[str, Any]], out: Path,
               manifest: Path | None = None) -> Figures:
-    """Check the seals, score every case that has a line, write proof.json, proof.md and figures.
+    """Check the seals, score every case that has a line, write all files.
 
     Raises:
         InputError: an answer or the manifest cannot be read.
@@ -44,6 +45,7 @@ def score_run(cases: Sequence[Case], lines: Mapping[str, Mapping[str, Any]], out
         "" if len(figures["code"]) < 2 else
         f" The lines were made by {len(figures['code'])} versions of the code.")
     _write(out / "proof.md", markdown(figures, scores, truths, head))
+    _write(out / "summary.md", short_table(figures) + "\n")
     for picture in pictures(figures):
         (out / f"{picture.name}.png").write_bytes(picture.png())
     return figures

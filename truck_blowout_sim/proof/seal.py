@@ -29,7 +29,7 @@ class SealCheck:
 
     Attributes:
         manifest: file that was checked against; None: there was none.
-        seal: the manifest's one hash over all answers.
+        set: the manifest's name of the set; ``seal``: its one hash over all answers.
         holds: cases whose answer and recordings are as sealed.
         broken: cases whose answer differs.
         remade: cases with the sealed answer and other recordings.
@@ -37,6 +37,7 @@ class SealCheck:
     """
 
     manifest: str | None
+    set: str = ""
     seal: str = ""
     holds: tuple[str, ...] = ()
     broken: tuple[str, ...] = ()
@@ -123,7 +124,7 @@ def check_seals(cases: Sequence[Case], manifest: Path | None) -> SealCheck:
     found: dict[str, list[str]] = {"holds": [], "broken": [], "remade": [], "absent": []}
     for case in cases:
         found[_state(case, sealed["cases"].get(case.id))].append(case.id)
-    return SealCheck(str(manifest), str(sealed.get("seal", "")),
+    return SealCheck(str(manifest), str(sealed.get("set", "")), str(sealed.get("seal", "")),
                      **{state: tuple(ids) for state, ids in found.items()})
 
 
