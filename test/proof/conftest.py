@@ -82,3 +82,40 @@ def manifest() -> Callable[[Path], Path]:
         path.write_text(json.dumps({"set": "dev", "cases": cases}))
         return path
     return seal
+
+
+@pytest.fixture
+def prove_half_of_ci(tmp_path: Path) -> Callable[[int], dict[str, Any]]:
+    """Make every second case of the `ci` set, seal, diagnose and score it, as `prove` does."""
+    pytest.importorskip("mujoco")
+    from proving_ground.generate import generate
+    from proving_ground.seal import write_manifest
+    from proving_ground.table import cases_of
+    from truck_blowout_sim.proof.cases import find_cases
+    from truck_blowout_sim.proof.prove import score_run
+    from truck_blowout_sim.proof.run import run_cases
+
+    def prove(half: int) -> dict[str, Any]:
+        made = tmp_path / "made"
+        assert all(not astray for _, astray in generate(cases_of("ci")[half::2], made, 1))
+        sealed, cases = write_manifest(made, "ci"), find_cases(made)
+        lines = {line["case"]: line for line in run_cases(
+            cases, tmp_path / "out", workers=1, step_s=0.0025, with_baselines=False)}
+        figures = score_run(cases, lines, tmp_path / "out", sealed)
+        # Not one case broke down, no answer moved, and no process that diagnosed could read one.
+        assert (figures["cases"], figures["failed"]) == (12, {})
+        assert len(figures["seals"]["holds"]) == 12
+        assert all(line["blindfolded"] for line in lines.values())
+        return figures
+    return prove
+
+
+@pytest.fixture
+def as_many_as() -> Callable[[dict[str, Any], dict[str, int]], None]:
+    """Fail where fewer cases of a group were solved than a good version solved."""
+    def check(figures: dict[str, Any], least: dict[str, int]) -> None:
+        reached = {group: entry["hits"] for group, entry in figures["solved"].items()}
+        reached["all"] = sum(reached.values())
+        told = [f"{s['case']} {s['group']}: {s['verdict']} {s['named']}" for s in figures["each"]]
+        assert all(reached[group] >= count for group, count in least.items()), (reached, told)
+    return check
