@@ -8,6 +8,7 @@ from __future__ import annotations
 from launch.actions import (
     DeclareLaunchArgument,
     EmitEvent,
+    GroupAction,
     IncludeLaunchDescription,
     RegisterEventHandler,
 )
@@ -41,18 +42,23 @@ def generate_launch_description() -> LaunchDescription:
             "recording": ParameterValue(LaunchConfiguration("recording"), value_type=str),
             "start_offset": ParameterValue(LaunchConfiguration("start_offset"), value_type=float),
             "loop": ParameterValue(LaunchConfiguration("loop"), value_type=bool),
-            "wait_for_simulator_s": 60.0,
+            "record_path": ParameterValue(LaunchConfiguration("record_path"), value_type=str),
+            "wait_for_simulator_s": 600.0,  # the first start compiles the model
             "use_sim_time": True,
         }],
     )  # fmt: skip
-    simulator = IncludeLaunchDescription(
-        PythonLaunchDescriptionSource(PathJoinSubstitution([share, "launch",
-                                                            "simulator.launch.py"])),
-        launch_arguments={
-            name: LaunchConfiguration(name)
-            for name in ("vehicle", "namespace", "real_time_factor", "record_path", "rviz")
-        }.items(),
-    )  # fmt: skip
+    shared = ("vehicle", "namespace", "real_time_factor", "rviz")
+    # The player has the bag begun and ended. A group of its own: what the included file is given
+    # would otherwise hold for the player, too.
+    simulator = GroupAction([
+        IncludeLaunchDescription(
+            PythonLaunchDescriptionSource(
+                PathJoinSubstitution([share, "launch", "simulator.launch.py"])
+            ),
+            launch_arguments=[*((name, LaunchConfiguration(name)) for name in shared),
+                              ("record_path", "")],
+        )
+    ])  # fmt: skip
     # The simulator would run on for ever: the end of the recording is the end of the launch.
     end = RegisterEventHandler(
         OnProcessExit(target_action=player, on_exit=[EmitEvent(event=Shutdown(reason="played"))])

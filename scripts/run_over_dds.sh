@@ -19,14 +19,12 @@ export ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST FASTDDS_BUILTIN_TRANSPORTS=UDPv4
 export ROS_DOMAIN_ID="${ROS_DOMAIN_ID:-$(($$ % 100 + 1))}" ROS_LOG_DIR="$folder/log"
 
 # The player keeps to the simulation's clock: on a busy machine both are late together.
-# The speed of the test's first instant, so that the bag does not begin with a standing truck.
-"$bin/python" -m truck_blowout_sim.nodes.simulator --ros-args -p start_paused:=true \
-    -p initial_speed_mps:=23.44 -p record_path:="$folder/bag" &
+"$bin/python" -m truck_blowout_sim.nodes.simulator --start-paused &
 simulator=$!
 trap 'kill -INT $simulator 2>/dev/null || true' EXIT INT TERM
 
-"$bin/python" -m truck_blowout_sim.nodes.player "$recording" --ros-args -p use_sim_time:=true \
-    -p wait_for_simulator_s:=120.0
+"$bin/python" -m truck_blowout_sim.nodes.player "$recording" --record-path "$folder/bag" \
+    --wait-for-simulator-s 600 --ros-args -p use_sim_time:=true
 kill -INT "$simulator"
 wait "$simulator"
 trap - EXIT INT TERM

@@ -65,6 +65,13 @@ def test_inputs_are_held_at_the_ends_and_nan_where_not_recorded() -> None:
     assert recording.missing_inputs == INPUT_NAMES[2:]
 
 
+def test_commands_to_a_simulator_hold_until_the_next_one() -> None:
+    series = Series(np.array([0.0, 0.3, 1.0]), np.array([1.0, 2.0, 3.0]))
+    recording = Recording("r", {"throttle": series}, metadata={"inputs": "held"})
+    times_s = [-1.0, 0.0, 0.299, 3 * 0.1, 0.999, 1.0, 9.0]
+    assert recording.inputs_at(times_s)[:, 1].tolist() == [1.0, 1.0, 1.0, 2.0, 2.0, 3.0, 3.0]
+
+
 def test_a_part_keeps_its_events_and_drops_what_is_empty() -> None:
     recording = Recording(
         "r",

@@ -52,6 +52,9 @@ class Following(Protocol):
     def restart(self, why: str) -> None:
         """Return to the initial state."""
 
+    def record(self, wanted: bool) -> tuple[bool, str]:
+        """Start or stop a bag."""
+
 
 class FollowedClock:
     """Listens to `/clock` and sets the pace's target.
@@ -90,18 +93,16 @@ class FollowedClock:
         kind = jump(before_ns, now_ns, _REORDERED_NS, forward_ns)
         seconds = f"from {before_ns / NS:.3f} to {now_ns / NS:.3f} s"
         if kind == "backward":
-            self._new_bag()
+            recorder = self._simulator.recorder
+            recording = recorder.active
+            if recording:
+                recorder.stop()  # time in a bag cannot run backwards
             plant.clock.move_to(now_ns)
             self._simulator.restart(f"/clock jumped back {seconds}")
+            if recording:
+                self._simulator.record(True)
         elif kind == "forward":
             plant.clock.move_to(now_ns)
             log.warning(f"/clock jumped ahead {seconds}: the truck is carried over as it is")
         elif now_ns < before_ns:
             self._pace.target_ns = before_ns
-
-    def _new_bag(self) -> None:
-        # Time in a bag cannot run backwards.
-        recorder = self._simulator.recorder
-        if recorder.active:
-            recorder.stop()
-            recorder.start(self._values["record_path"])

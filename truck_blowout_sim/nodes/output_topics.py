@@ -80,6 +80,14 @@ class OutputTopics:
         """Call something at every publishing period, with the stamp."""
         self._others.append(report)
 
+    def record(self) -> None:
+        """Write the present state to the bag, which has just begun."""
+        now_ns = self._plant.now_ns
+        values = self._table.values(self._plant.outputs(), 0.0)
+        for batch in self._table.batches:
+            for topic, data in batch.encoder.messages(now_ns, values).items():
+                self._write(topic, now_ns, data)
+
     def announce_blowout(self, tire: str) -> None:
         """Publish and record the event."""
         self._send(BLOWOUT, self._plant.now_ns, template(STRING, data=tire))
@@ -89,10 +97,13 @@ class OutputTopics:
         self._last_ns = None
 
     def _send(self, topic: str, now_ns: int, data: bytes) -> None:
-        publisher = self._publishers[topic]
-        publisher.publish(data)
+        self._publishers[topic].publish(data)
         if self._recorder.active:
-            self._recorder.write(publisher.topic_name, self._types[topic], now_ns, data)
+            self._write(topic, now_ns, data)
+
+    def _write(self, topic: str, now_ns: int, data: bytes) -> None:
+        name = self._publishers[topic].topic_name
+        self._recorder.write(name, self._types[topic], now_ns, data)
 
     def _markers_due(self, everything: bool) -> bool:
         every = self._timing.marker_every

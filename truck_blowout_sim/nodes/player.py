@@ -27,9 +27,9 @@ from truck_blowout_sim.nodes.playtime import ClockTime, WallTime
 from truck_blowout_sim.nodes.publishing import make_publishers
 from truck_blowout_sim.nodes.signals import StopFlag
 from truck_blowout_sim.nodes.simulator_client import SimulatorClient
+from truck_blowout_sim.nodes.stage import Stage
 from truck_blowout_sim.recordings.cdr import template
 from truck_blowout_sim.recordings.channels import BLOWOUT_EVENT, STRING, channels_for
-from truck_blowout_sim.simulation.start import initial_state
 
 ABOUT = "Plays a recording onto the simulator's command topics and blows its tires on time."
 
@@ -38,15 +38,6 @@ _IDLE_S = 0.05
 _DISCOVERY_S = 0.3
 _DELIVERY_S = 1.0
 _BACKLOG = 1000  # a burst after a stall must not push out what no reader has yet
-_INITIAL = (
-    "speed_mps",
-    "lateral_speed_mps",
-    "yaw_rate_radps",
-    "x_m",
-    "y_m",
-    "yaw_rad",
-    "articulation_rad",
-)
 
 
 class Player:
@@ -78,6 +69,7 @@ class Player:
         self._stop: StopFlag | None = None
         self.simulator = SimulatorClient(node, values["simulator"], lambda: bool(self._stop))
         self.simulator.prepare_blowouts({t for b in recording.blowouts for t in b.tires})
+        self.stage = Stage(self.simulator, values["record_path"], self.log.info)
         self.published = 0
         self.blown: list[str] = []
         serve(node, self)
@@ -94,10 +86,9 @@ class Player:
         while not stop:
             self._begin(executor, present)
             self._play(executor, stop)
+            self._finish(executor, stop, present)
             if stop or not self.values["loop"]:
                 break
-        self.simulator.settle(executor, 2.0)
-        self._deliver(self.publishers)
         self._summary(stop)
         return 0
 
@@ -133,7 +124,10 @@ class Player:
         prepare = present and self.values["prepare_simulator"]
         if prepare:
             self._await_readers(executor)
-            self._prepare(executor)
+            recording = self.playlist.recording
+            self.stage.set(executor, recording.between(self.start_s, recording.end_s))
+        if present:
+            self.stage.record(executor)
         self.time.begin(executor, self._stop, self.start_s)
         if not self.paused:
             self._publish_until(self.start_s)
@@ -143,14 +137,11 @@ class Player:
         if not self.paused:
             self.time.go()
 
-    def _prepare(self, executor: Executor) -> None:
-        recording = self.playlist.recording
-        self.simulator.call(executor, "pause")
-        state = initial_state(recording.between(self.start_s, recording.end_s))
-        initial = {f"initial_{name}": float(getattr(state, name)) for name in _INITIAL}
-        self.simulator.set_parameters(executor, initial)
-        words = self.simulator.call(executor, "reset", timeout_s=60.0)
-        self.log.info(f"simulator at {initial['initial_speed_mps']:.2f} m/s: {words}")
+    def _finish(self, executor: Executor, stop: StopFlag, present: bool) -> None:
+        self.simulator.settle(executor, 2.0)
+        self._deliver(self.publishers)
+        if present and not stop:
+            self.stage.end_record(executor)
 
     def _play(self, executor: Executor, stop: StopFlag) -> None:
         while not stop:

@@ -24,6 +24,8 @@ SPECS: tuple[Spec, ...] = (
     Spec("prepare_simulator", True, "Put the simulator into the recording's state at the start:"
          " pause, set `initial_*`, reset, resume."),
     Spec("simulator", "simulator", "Name of the simulator node."),
+    Spec("record_path", "", "Bag for the simulator to write of the replay, from its first instant"
+         " to its last; empty: none."),
     Spec("seek_to_s", 0.0, "Where `~/seek` goes, from the beginning of the recording.", "s",
          0, 1e7, live=True),
 )  # fmt: skip

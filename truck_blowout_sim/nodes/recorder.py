@@ -13,6 +13,7 @@ from typing import Any
 from truck_blowout_sim.errors import InputError, StorageError
 from truck_blowout_sim.nodes.clock import NS
 from truck_blowout_sim.recordings.bag_writer import BagWriter
+from truck_blowout_sim.recordings.recording import INPUTS_KEY
 
 
 class Recorder:
@@ -25,7 +26,7 @@ class Recorder:
 
     def __init__(self, report: Callable[[str, str], None], metadata: Mapping[str, str]) -> None:
         self._report = report
-        self._metadata = dict(metadata)
+        self._metadata = {INPUTS_KEY: "held until the next message", "noise": "none", **metadata}
         self._qos: dict[str, Mapping[str, Any]] = {}
         self._bag: BagWriter | None = None
         self._failed = ""

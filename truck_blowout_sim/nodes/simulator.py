@@ -107,12 +107,12 @@ class Simulator:
         return 0
 
     def begin(self) -> None:
-        """It is known what time it is: record, if asked to, and show the initial state."""
-        if self.values["record_path"]:
-            self.record(True)
+        """It is known what time it is: show the initial state, and record if asked to."""
         if self.clock:
             self.clock.publish(self.plant.now_ns, always=True)
         self.outputs.publish(everything=True)
+        if self.values["record_path"]:
+            self.record(True)
 
     def tick(self) -> None:
         """Advance by one tick and publish what is due."""
@@ -191,8 +191,10 @@ class Simulator:
             return self.recorder.stop()
         if isinstance(self.pace, FollowPace) and self.pace.target_ns is None:
             return False, "nobody has said on /clock what time it is"
+        running = self.recorder.active
         reply = self.recorder.start(self.values["record_path"])
-        if self.recorder.active:
+        if self.recorder.active and not running:
+            self.outputs.record()
             for topic, value in zip(self.commands, self.plant.applied, strict=True):
                 topic.record(value)
         return reply

@@ -12,7 +12,7 @@ from rclpy.client import Client
 from rclpy.executors import Executor
 from rclpy.node import Node
 from rclpy.task import Future
-from std_srvs.srv import Trigger
+from std_srvs.srv import SetBool, Trigger
 
 from truck_blowout_sim.errors import InputError
 
@@ -33,7 +33,7 @@ class SimulatorClient:
         self._parameters: Client[Any, Any] = node.create_client(
             SetParameters, f"{name}/set_parameters"
         )
-        self.replies: list[str] = []
+        self._record: Client[Any, Any] = node.create_client(SetBool, "record")
         self.pending = 0
 
     def wait(self, executor: Executor, timeout_s: float) -> bool:
@@ -47,31 +47,26 @@ class SimulatorClient:
         Raises:
             InputError: it is not served, does not answer, or refuses.
         """
-        client = self._trigger(service)
-        end_s = monotonic() + timeout_s
-        if not self._until(executor, lambda: bool(client.service_is_ready()), end_s):
-            raise InputError(f"nobody serves {client.srv_name}", expected="a running simulator")
-        response = self._answer(executor, client, Trigger.Request(), end_s)
-        if not response.success:
-            raise InputError(f"{client.srv_name} refused: {response.message}")
-        return str(response.message)
+        return self._sentence(executor, self._trigger(service), Trigger.Request(), timeout_s)
+
+    def record(self, executor: Executor, wanted: bool, *, timeout_s: float = 30.0) -> str:
+        """Start or stop the simulator's bag and return its sentence.
+
+        Raises:
+            InputError: as `call`.
+        """
+        return self._sentence(executor, self._record, SetBool.Request(data=wanted), timeout_s)
 
     def set_parameters(
-        self, executor: Executor, values: Mapping[str, float], *, timeout_s: float = 10.0
+        self, executor: Executor, values: Mapping[str, float | str], *, timeout_s: float = 10.0
     ) -> None:
-        """Set number parameters of the simulator.
+        """Set parameters of the simulator, numbers or texts.
 
         Raises:
             InputError: it does not answer, or refuses one.
         """
         request = SetParameters.Request(
-            parameters=[
-                Parameter(
-                    name=name,
-                    value=ParameterValue(type=ParameterType.PARAMETER_DOUBLE, double_value=value),
-                )
-                for name, value in values.items()
-            ]
+            parameters=[Parameter(name=name, value=_value(v)) for name, v in values.items()]
         )
         end_s = monotonic() + timeout_s
         response = self._answer(executor, self._parameters, request, end_s)
@@ -120,6 +115,17 @@ class SimulatorClient:
             self._triggers[service] = self._node.create_client(Trigger, service)
         return self._triggers[service]
 
+    def _sentence(
+        self, executor: Executor, client: Client[Any, Any], request: object, timeout_s: float
+    ) -> str:
+        end_s = monotonic() + timeout_s
+        if not self._until(executor, lambda: bool(client.service_is_ready()), end_s):
+            raise InputError(f"nobody serves {client.srv_name}", expected="a running simulator")
+        response = self._answer(executor, client, request, end_s)
+        if not response.success:
+            raise InputError(f"{client.srv_name} refused: {response.message}")
+        return str(response.message)
+
     def _answer(
         self, executor: Executor, client: Client[Any, Any], request: object, end_s: float
     ) -> Any:  # noqa: ANN401  # the type of the service's response
@@ -135,3 +141,9 @@ class SimulatorClient:
                 return False
             executor.spin_once(timeout_sec=0.02)
         return True
+
+
+def _value(value: float | str) -> ParameterValue:
+    if isinstance(value, str):
+        return ParameterValue(type=ParameterType.PARAMETER_STRING, string_value=value)
+    return ParameterValue(type=ParameterType.PARAMETER_DOUBLE, double_value=value)

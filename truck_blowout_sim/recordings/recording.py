@@ -20,6 +20,10 @@ from truck_blowout_sim.recordings.channels import INPUT_NAMES
 FloatArray = NDArray[np.float64]
 
 _GAP_FACTOR = 2.5
+INPUTS_KEY = "inputs"
+"""Metadata key that says what an input is between two samples."""
+# Times are sums of steps: a sample at the very instant counts.
+_SAME_INSTANT_S = 1e-7
 
 
 @dataclass(frozen=True, eq=False)
@@ -162,7 +166,8 @@ class Recording:
     def inputs_at(self, times_s: ArrayLike) -> FloatArray:
         """The five inputs at given instants.
 
-        Linear between samples, held before the first and after the last one.
+        Linear between samples; of commands to a simulator, which holds each until the next one
+        (metadata ``inputs: held``), the last one. Held before the first and after the last one.
 
         Returns:
             Shape (n, 5) in the order of ``INPUT_NAMES``; a column of NaN where an input was not
@@ -170,10 +175,11 @@ class Recording:
         """
         times = np.atleast_1d(np.asarray(times_s, dtype=np.float64))
         out = np.full((times.size, len(INPUT_NAMES)), np.nan)
+        held = self.metadata.get(INPUTS_KEY, "").startswith("held")
         for column, name in enumerate(INPUT_NAMES):
             series = self.channels.get(name)
             if series is not None and len(series):
-                out[:, column] = np.interp(times, series.time_s, series.value)
+                out[:, column] = _held(times, series) if held else _linear(times, series)
         return out
 
     def gaps(
@@ -215,6 +221,15 @@ class Recording:
     def _edges(self, index: int) -> list[float]:
         edges = [float(s.time_s[index]) for s in self.channels.values() if len(s)]
         return edges + [blowout.time_s for blowout in self.blowouts]
+
+
+def _linear(times_s: FloatArray, series: Series) -> FloatArray:
+    return np.interp(times_s, series.time_s, series.value)
+
+
+def _held(times_s: FloatArray, series: Series) -> FloatArray:
+    last = np.searchsorted(series.time_s, times_s + _SAME_INSTANT_S, side="right") - 1
+    return series.value[np.maximum(last, 0)]
 
 
 def _frozen(values: ArrayLike) -> FloatArray:

@@ -40,11 +40,14 @@ def start_time_s(recording: Recording) -> float:
 
 
 def _value(recording: Recording, name: str, start_s: float) -> float:
-    """Value at ``start_s`` of a straight line through the first second, 0 if not recorded."""
+    """Value at ``start_s`` of a straight line through the first second, 0 if not recorded.
+
+    Where there is no noise to average (metadata ``noise: none``), the first sample.
+    """
     if name not in recording:
         return 0.0
     series = recording[name].between(start_s, start_s + _WINDOW_S)
-    if len(series) < 3:
+    if len(series) < 3 or recording.metadata.get("noise") == "none":
         return float(series.value[0]) if len(series) else 0.0
     return float(np.polyval(np.polyfit(series.time_s - start_s, series.value, 1), 0.0))
 

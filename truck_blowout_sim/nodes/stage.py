@@ -1,0 +1,72 @@
+"""Sets the simulator for a replay: into the state a recording begins with, its bag running."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+from rclpy.executors import Executor
+
+from truck_blowout_sim.nodes.simulator_client import SimulatorClient
+from truck_blowout_sim.recordings.recording import Recording
+from truck_blowout_sim.simulation.start import initial_state
+
+_INITIAL = (
+    "speed_mps",
+    "lateral_speed_mps",
+    "yaw_rate_radps",
+    "x_m",
+    "y_m",
+    "yaw_rad",
+    "articulation_rad",
+)
+
+
+class Stage:
+    """What the player does to the simulator before and after the recording.
+
+    Args:
+        simulator: its services and parameters.
+        record_path: bag for the simulator to write; empty: none.
+        say: takes a sentence for the log.
+    """
+
+    def __init__(
+        self, simulator: SimulatorClient, record_path: str, say: Callable[[str], object]
+    ) -> None:
+        self._simulator = simulator
+        # The simulator may have been started in another folder.
+        self._bag = str(Path(record_path).absolute()) if record_path else ""
+        self._say = say
+
+    def set(self, executor: Executor, recording: Recording) -> None:
+        """Pause the simulator and put it where the recording begins.
+
+        Raises:
+            InputError: it does not answer, or refuses.
+        """
+        self._simulator.call(executor, "pause")
+        state = initial_state(recording)
+        initial = {f"initial_{name}": float(getattr(state, name)) for name in _INITIAL}
+        self._simulator.set_parameters(executor, initial)
+        words = self._simulator.call(executor, "reset", timeout_s=60.0)
+        self._say(f"simulator at {state.speed_mps:.2f} m/s: {words}")
+
+    def record(self, executor: Executor) -> None:
+        """Begin the bag, if one is wanted: after the reset, so that no jump is in it.
+
+        Raises:
+            InputError: the simulator cannot record.
+        """
+        if self._bag:
+            self._simulator.set_parameters(executor, {"record_path": self._bag})
+            self._say(f"simulator: {self._simulator.record(executor, True)}")
+
+    def end_record(self, executor: Executor) -> None:
+        """End the bag with the recording: what follows is nobody's experiment.
+
+        Raises:
+            InputError: the bag could not be written.
+        """
+        if self._bag:
+            self._say(f"simulator: {self._simulator.record(executor, False)}")
