@@ -30,7 +30,7 @@ def test_a_case_from_truth_to_table(tmp_path: Path) -> None:
     subprocess.run([sys.executable, "-m", "proving_ground", "generate", "-o", str(made), "--case",
                     str(tmp_path / "short.yaml"), "--cores", "1"], check=True)
     out = tmp_path / "out"
-    words = [*PROVE, "--cases", str(made), "-o", str(out), "--workers", "1", "--step-s", "0.004"]
+    words = [*PROVE, "--cases", str(made), "-o", str(out), "--workers", "1"]
     subprocess.run(words, check=True)
     figures = json.loads((out / "proof.json").read_text())
     assert figures["seals"]["holds"] == ["short"]

@@ -64,7 +64,7 @@ def test_proportions(figures: dict[str, Any], name: str, expected: tuple[int, in
 
 def test_solved_is_verdict_and_name_by_group(figures: dict[str, Any]) -> None:
     assert {group: (p["hits"], p["trials"]) for group, p in figures["solved"].items()} == {
-        "null": (1, 2), "single": (2, 3), "sensor": (1, 1), "unknown": (1, 1)}
+        "null": (1, 2), "single": (2, 4), "sensor": (1, 1), "unknown": (1, 1)}
 
 
 def test_power_by_visibility(figures: dict[str, Any]) -> None:

@@ -33,8 +33,8 @@ def score_run(cases: Sequence[Case], lines: Mapping[str, Mapping[str, Any]], out
     answered = [case for case in truths if lines[case]["answer"]]
     floor = null_floor(lines, [case for case in answered if truths[case].group == "null"])
     scores = [score_case(lines[case], truths[case], floor) for case in answered]
-    figures = summarize(scores, {case: lines[case]["error"] for case in truths
-                                 if case not in answered})
+    failed = {case: lines[case]["error"] for case in truths if case not in answered}
+    figures = summarize(scores, failed, [truths[case].group for case in failed])
     figures["seals"] = asdict(seals)
     figures["optimizer_of_sparse_regression"] = optimizer_name()
     figures["code"] = sorted({str(lines[case].get("code")) for case in truths})

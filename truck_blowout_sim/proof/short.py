@@ -44,7 +44,7 @@ def _head(figures: Mapping[str, Any]) -> str:
     seals, failed = figures["seals"], len(figures["failed"])
     text = f"{figures['cases'] + failed} cases" + (f" (`{seals['set']}`)" if seals["set"] else "")
     text += f", {len(seals['holds'])} under a seal that holds"
-    return text + (f"; {failed} broke down and count nowhere below." if failed else ".")
+    return text + (f"; {failed} broke down and are not counted below." if failed else ".")
 
 
 def put_between(text: str, inside: str) -> str:

@@ -41,10 +41,11 @@ def confusion(scores: Sequence[CaseScore]) -> dict[str, Counter[str]]:
     return table
 
 
-def solved(scores: Sequence[CaseScore]) -> dict[str, Proportion]:
-    """By group: verdict right, and every listed effect in an alias set."""
-    groups = dict.fromkeys(score.group for score in scores)
-    return {group: proportion(s.solved for s in scores if s.group == group) for group in groups}
+def solved(scores: Sequence[CaseScore], failed_groups: Sequence[str]) -> dict[str, Proportion]:
+    """By group: verdict right, and every listed effect in an alias set; breaking down is wrong."""
+    known = [(s.group, s.solved) for s in scores] + [(group, False) for group in failed_groups]
+    groups = dict.fromkeys(group for group, _ in known)
+    return {group: proportion(ok for g, ok in known if g == group) for group in groups}
 
 
 def naming(scores: Sequence[CaseScore]) -> dict[str, Proportion]:
@@ -156,8 +157,9 @@ def null_p_values(scores: Sequence[CaseScore]) -> list[float]:
     return sorted(s.p_value for s in scores if s.group == "null" and s.p_value is not None)
 
 
-def summarize(scores: Sequence[CaseScore], failed: Mapping[str, str]) -> Figures:
-    """All figures as plain objects."""
+def summarize(scores: Sequence[CaseScore], failed: Mapping[str, str],
+              failed_groups: Sequence[str] = ()) -> Figures:
+    """All figures as plain objects; ``failed``: why, by case, and of which groups these are."""
     causes = [c for s in scores for c in s.causes]
     sizes = [c.alias_size for s in scores if s.group == "single" for c in s.causes
              if c.alias_size is not None]
@@ -165,7 +167,7 @@ def summarize(scores: Sequence[CaseScore], failed: Mapping[str, str]) -> Figures
     return {
         "cases": len(scores), "failed": dict(failed),
         "confusion": {group: dict(counts) for group, counts in confusion(scores).items()},
-        "solved": {group: p.as_json() for group, p in solved(scores).items()},
+        "solved": {group: p.as_json() for group, p in solved(scores, failed_groups).items()},
         "proportions": {name: p.as_json() for name, p in rows.items()},
         "mean_alias_set_size": float(np.mean(sizes)) if sizes else None,
         "onset": onsets(causes),

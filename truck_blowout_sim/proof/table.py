@@ -88,7 +88,7 @@ def _numbers(figures: Mapping[str, Any]) -> list[str]:
 
 def _confusion(figures: Mapping[str, Any]) -> list[str]:
     rows = ["| concealed | " + " | ".join(v.replace("_", " ") for v in VERDICTS)
-            + " | verdict and names right |", "|---" * (len(VERDICTS) + 2) + "|"]
+            + " | solved |", "|---" * (len(VERDICTS) + 2) + "|"]
     return rows + [f"| {group} | " + " | ".join(str(counts.get(v, 0)) for v in VERDICTS)
                    + f" | {_count(figures['solved'][group])} |"
                    for group, counts in figures["confusion"].items()]
@@ -150,5 +150,5 @@ def _place(where: Mapping[str, str | None]) -> str:
 
 def _failed(figures: Mapping[str, Any]) -> list[str]:
     failed = figures["failed"]
-    return ["", "Failed, counted nowhere above:", "",
+    return ["", "Broke down, wrong in the table of verdicts, counted nowhere else:", "",
             *(f"- {case}: {why}" for case, why in failed.items())] if failed else []

@@ -12,8 +12,8 @@ from truck_blowout_sim.proof.cases import ROLES, Case
 def diagnose_case(case: Case, *, step_s: float, with_baselines: bool) -> dict[str, Any]:
     """The line of a case; never reads the answer.
 
-    A case on which the diagnosis fails is a result too: ``error`` says how, and it counts as
-    wrong.
+    A case on which the diagnosis fails is a result too: ``error`` says how, and it is not
+    solved.
     """
     from truck_blowout_sim.diagnosis import diagnose
     from truck_blowout_sim.proof.baselines.compare import baseline_errors
