@@ -13,6 +13,7 @@ import pytest
 from truck_blowout_sim.diagnosis.attribute import Ranked
 from truck_blowout_sim.diagnosis.effects import LIBRARY
 from truck_blowout_sim.diagnosis.hypothesis import Hypothesis
+from truck_blowout_sim.diagnosis.intervals import Timing
 from truck_blowout_sim.diagnosis.law import Law
 from truck_blowout_sim.diagnosis.locate import Wrenches
 from truck_blowout_sim.diagnosis.outcome import (
@@ -81,13 +82,16 @@ def test_verdicts_follow_what_was_found(calm: Study, truck: Packed) -> None:
     assert decide(material(calm, (drag,), unnamed=1e5)) == "unknown"
 
 
-def test_a_sheet_number_far_off_is_a_miscalibration_and_named(calm: Study) -> None:
-    calm.amounts = {"trailer_mass": 4.5, "drive_cornering": -0.5}
-    one = material(calm)
+def test_a_sheet_number_far_off_is_a_miscalibration_and_named(
+    study_of: Studies, truck: Packed
+) -> None:
+    heavy = study_of({"unit.trailer.mass_kg": 1.14 * truck["unit.trailer.mass_kg"]})
+    heavy.settings = replace(heavy.settings, expected_level=1.0, unknown_level=2.0)
+    one = material(heavy)
     assert decide(one) == "miscalibrated"
-    (name, amount), = pulled(one)
+    name, amount = pulled(one)[0]
     assert name == "trailer_mass"
-    assert amount == pytest.approx(4.5, abs=1.5)
+    assert amount == pytest.approx(7.0, rel=0.3)
 
 
 def test_chance_falls_with_evidence_and_stays_a_probability(calm: Study, truck: Packed) -> None:
@@ -110,7 +114,14 @@ def test_an_effect_is_reported_in_its_own_unit_with_a_90_percent_interval(
     assert "50 percent" in effect.sentence
     gust = physics_effect(material(calm), ranked(truck, "crosswind", 12.0, start_s=2.5))
     assert gust.onset_s == 2.5
-    assert gust.parameters["duration_s in run 1"].value == pytest.approx(2.0)
+    length = gust.parameters["duration_s in run 1"]
+    assert length.value == pytest.approx(2.0)
+    assert length.ci90 == (-np.inf, np.inf)
+    timed = replace(material(calm), timings={
+        ("crosswind", "tractor"): {"run 1": Timing((2.4, 2.6), (1.8, 2.2))}})
+    known = physics_effect(timed, ranked(truck, "crosswind", 12.0, start_s=2.5))
+    assert known.onset_ci90_s == (2.4, 2.6)
+    assert known.parameters["duration_s in run 1"].ci90 == (1.8, 2.2)
     assert "2.50 s" in gust.sentence
 
 

@@ -11,9 +11,10 @@ import pytest
 from truck_blowout_sim.diagnosis.attribute import Ranked
 from truck_blowout_sim.diagnosis.candidates import failed_tires
 from truck_blowout_sim.diagnosis.effects import LIBRARY
+from truck_blowout_sim.diagnosis.intervals import time_intervals
 from truck_blowout_sim.diagnosis.refit import refit
 from truck_blowout_sim.diagnosis.study import Study
-from truck_blowout_sim.diagnosis.timed import onset_interval, refine_times, scan
+from truck_blowout_sim.diagnosis.timed import refine_times, scan
 from truck_blowout_sim.recordings import Series
 from truck_blowout_sim.vehicle import Packed
 
@@ -53,7 +54,7 @@ def test_a_shifting_load_is_found_with_its_instant(study_of: Studies, truck: Pac
     _, fine = located(study, "payload_shift")
     assert fine.hypothesis.times["run 1"][0] == pytest.approx(3.17, abs=0.15)
     assert fine.hypothesis.amount == pytest.approx(-0.4, abs=0.1)
-    low, high = onset_interval(study, fine, "run 1")
+    low, high = time_intervals(study, fine)["run 1"].onset_s
     assert low < fine.hypothesis.times["run 1"][0] < high
     assert high - low < 1.0
 

@@ -43,3 +43,10 @@ def test_it_stands_without_creeping(truck: Packed) -> None:
     run = Truck(truck, initial=InitialState())
     run.advance(Inputs(), 10_000)
     assert abs(run.outputs()["tractor_x_m"]) < 1e-3
+
+
+def test_a_retarder_holds_back_while_the_throttle_is_closed(truck: Packed) -> None:
+    held = truck.with_values({"driveline.retarder_n": 3000.0})
+    assert net_force_n(held.params, 0.0, 0.0, 20.0) == pytest.approx(-4500.0)
+    cruising = net_force_n(truck.params, 0.0, 0.2, 20.0)
+    assert net_force_n(held.params, 0.0, 0.2, 20.0) == pytest.approx(cruising)

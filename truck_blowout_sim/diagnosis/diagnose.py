@@ -11,17 +11,17 @@ from numpy.typing import NDArray
 
 from truck_blowout_sim.diagnosis.fingerprints import case_parts
 from truck_blowout_sim.diagnosis.hypothesis import Hypothesis
+from truck_blowout_sim.diagnosis.intervals import Timing, time_intervals
 from truck_blowout_sim.diagnosis.law import plainest_law
 from truck_blowout_sim.diagnosis.locate import Wrenches, missing_wrench
-from truck_blowout_sim.diagnosis.outcome import Material, answer, decide, joint_amounts
-from truck_blowout_sim.diagnosis.result import Diagnosis, Role
+from truck_blowout_sim.diagnosis.outcome import Material, answer, joint_amounts
+from truck_blowout_sim.diagnosis.result import Diagnosis, Role, Verdict
 from truck_blowout_sim.diagnosis.resume import Kept
 from truck_blowout_sim.diagnosis.runs import Run, prepare_run
 from truck_blowout_sim.diagnosis.search import Found, search
 from truck_blowout_sim.diagnosis.sensors import correct, sensor_gate, vehicle_geometry
 from truck_blowout_sim.diagnosis.settings import load_settings
 from truck_blowout_sim.diagnosis.study import FURTHEST, Progress, Study, calibrate, row_ranges
-from truck_blowout_sim.diagnosis.timed import onset_interval
 from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.recordings import Recording
 from truck_blowout_sim.vehicle import Packed, Vehicle, load_vehicle, pack, write_vehicle
@@ -85,8 +85,9 @@ def diagnose(recordings: Sequence[Recording], *, baseline: Sequence[Recording] =
     worst = max(after, key=lambda w: w.delta)
     law = plainest_law(worst, next(r for r in study.runs
                                    if r.recording.name == worst.history.recording))
-    material = Material(study, found, gate, before, after, law, _onsets(study, found), loaded.name)
-    return answer(material), diagnosed_values(material, packed)
+    material = Material(study, found, gate, before, after, law, _timings(study, found), loaded.name)
+    told = answer(material)
+    return told, diagnosed_values(material, packed, told.verdict)
 
 
 def _wrenches(study: Study, models: Sequence[Floats], named: Sequence[Hypothesis],
@@ -99,25 +100,22 @@ def _wrenches(study: Study, models: Sequence[Floats], named: Sequence[Hypothesis
                  for body in study.packed.vehicle.units)
 
 
-def _onsets(study: Study, found: Found) -> dict[tuple[str, str], tuple[float, float]]:
-    """Interval of the earliest onset of each timed effect."""
-    result = {}
-    for k, ranked in enumerate(found.named):
-        if ranked.hypothesis.times:
-            run = min(ranked.hypothesis.times, key=lambda r: ranked.hypothesis.times[r][0])
-            others = [r.hypothesis for j, r in enumerate(found.named) if j != k]
-            result[ranked.hypothesis.key] = onset_interval(study, ranked, run, others)
-    return result
+def _timings(study: Study, found: Found) -> dict[tuple[str, str], Mapping[str, Timing]]:
+    """Intervals of onset and duration of each timed effect, by run."""
+    named = [r.hypothesis for r in found.named]
+    return {r.hypothesis.key: time_intervals(study, r, [h for h in named if h is not r.hypothesis])
+            for r in found.named if r.hypothesis.times}
 
 
-def diagnosed_values(material: Material, given: Packed) -> Mapping[str, float]:
+def diagnosed_values(material: Material, given: Packed, verdict: Verdict) -> Mapping[str, float]:
     """Packed parameters of the diagnosed truck that differ from the given one's."""
     study, named = material.study, [r.hypothesis for r in material.found.named]
     truck, joint = study.packed, joint_amounts(material)
     for nuisance in study.settings.nuisances:
-        amount = float(np.clip(joint.get(nuisance.name, 0.0), -FURTHEST, FURTHEST)) * nuisance.sigma
-        truck = truck.with_values(nuisance.values(truck, amount))
-    if decide(material) == "unknown":
+        here, usual = study.amounts.get(nuisance.name, 0.0), study.expected(nuisance.name)
+        total = float(np.clip(joint.get(nuisance.name, here), usual - FURTHEST, usual + FURTHEST))
+        truck = truck.with_values(nuisance.values(truck, nuisance.between(here, total)))
+    if verdict == "unknown":
         truck = truck.with_values(material.law.values)
     for effect in named:
         truck = effect.apply(truck, next(iter(effect.times), ""))

@@ -120,7 +120,7 @@ def calibrated(study: Study, joint: Mapping[str, float]) -> tuple[Calibrated, ..
     sigma = dict(zip(study.names, spread.tolist(), strict=True))
     result = []
     for n in study.settings.nuisances:
-        value = study.amounts.get(n.name, 0.0) + joint.get(n.name, 0.0)
+        value = joint.get(n.name, 0.0)
         result.append(Calibrated(n.name, "1" if n.kind == "scale" else "SI", 0.0, n.sigma,
                                  value * n.sigma, sigma.get(n.name, 1.0) * n.sigma))
     return tuple(result)

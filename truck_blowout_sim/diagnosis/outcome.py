@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from truck_blowout_sim.diagnosis import evidence, words
 from truck_blowout_sim.diagnosis.attribute import Ranked
+from truck_blowout_sim.diagnosis.intervals import Timing
 from truck_blowout_sim.diagnosis.law import Law
 from truck_blowout_sim.diagnosis.locate import Wrenches
 from truck_blowout_sim.diagnosis.result import (
@@ -31,6 +32,7 @@ from truck_blowout_sim.diagnosis.study import Study
 
 Floats = NDArray[np.float64]
 _NINETY = 1.645
+_OPEN = (-np.inf, np.inf)
 _PULLED = 2.9  # prior sigmas beyond which a sheet number is reported
 _UNKNOWN_DELTA = 900.0  # what an unnamed wrench must buy to be called a missing effect
 
@@ -42,7 +44,7 @@ class Material:
     Attributes:
         wrenches: missing on each body before anything was named; ``unnamed``: after.
         law: plainest law of what is left unnamed.
-        onsets: 90 % interval of each timed effect's onset, by key.
+        timings: intervals of each timed effect's onset and duration, by key and run.
         vehicle: name of the model's vehicle.
     """
 
@@ -52,7 +54,7 @@ class Material:
     wrenches: tuple[Wrenches, ...]
     unnamed: tuple[Wrenches, ...]
     law: Law
-    onsets: dict[tuple[str, str], tuple[float, float]]
+    timings: Mapping[tuple[str, str], Mapping[str, Timing]]
     vehicle: str
 
 
@@ -73,7 +75,7 @@ def answer(material: Material) -> Diagnosis:
         effects=tuple(effects), alias_sets=tuple(aliases), location=locate(material),
         train=fit(material, "train"), holdout=fit(material, "holdout"),
         null_p_value=null_p_value(material), next_test=next_test,
-        evidence=gather(material))
+        evidence=gather(material, verdict))
 
 
 def decide(material: Material) -> Verdict:
@@ -104,13 +106,12 @@ def pulled(material: Material) -> list[tuple[str, float]]:
     """Sheet numbers beyond three prior sigmas, with their pull, strongest first."""
     study = material.study
     own = joint_amounts(material)
-    total = {n.name: study.amounts.get(n.name, 0.0) + own.get(n.name, 0.0)
-             for n in study.settings.nuisances}
+    total = {n.name: own.get(n.name, 0.0) for n in study.settings.nuisances}
     return sorted(((n, a) for n, a in total.items() if abs(a) > _PULLED), key=lambda p: -abs(p[1]))
 
 
 def joint_amounts(material: Material) -> dict[str, float]:
-    """What the joint fit adds to each nuisance, in prior sigmas, the named effects in force."""
+    """Each nuisance in the joint fit, in prior sigmas, the named effects in force."""
     study, named = material.study, [r.hypothesis for r in material.found.named]
     amounts = study.projector(named).amounts(study.residual())
     return {study.names[k]: float(a) for k, a in zip(study.kept(named), amounts, strict=True)}
@@ -123,14 +124,15 @@ def physics_effect(material: Material, ranked: Ranked) -> Effect:
     wide = _NINETY * ranked.sigma
     value = amount.report(h.amount)
     ends = sorted((amount.report(h.amount - wide), amount.report(h.amount + wide)))
-    onset = min((start for start, _ in h.times.values()), default=None)
-    interval = material.onsets.get(h.key)
+    first = min(h.times, key=lambda run: h.times[run][0], default="")
+    onset = h.times[first][0] if first else None
+    timings = material.timings.get(h.key, {})
+    interval = timings[first].onset_s if first in timings else None
     parameters = {amount.name: Parameter(value, amount.unit, (ends[0], ends[1]))}
     for run, (start, end) in h.times.items():
         if np.isfinite(end):
-            length = end - start
-            parameters[f"duration_s in {run}"] = Parameter(length, "s", (length, length),
-                                                           "from a grid, no interval")
+            known = timings[run].duration_s if run in timings else None
+            parameters[f"duration_s in {run}"] = Parameter(end - start, "s", known or _OPEN)
     sentence, equation = words.fill(h, value, onset)
     return Effect(name=h.effect.name, kind=h.effect.kind, where=h.place, parameters=parameters,
                   equation=equation, sentence=sentence, onset_s=onset, onset_ci90_s=interval)
@@ -191,17 +193,22 @@ def fit(material: Material, role: str) -> Fit:
 
 
 def null_p_value(material: Material) -> float:
-    """Chance of the best evidence if nothing were missing, from the calibrated exponential tail."""
-    best = max((r.delta for r, _ in material.found.tried), default=0.0)
-    scale = material.study.settings.accept_delta / np.log(100.0)
-    return float(np.clip(np.exp(-max(best, 0.0) / scale), 1e-12, 1.0))
+    """Chance of the best evidence if nothing were missing, from the calibrated exponential tail.
+
+    Evidence counts in units of what an effect of its name needs, which nulls reach once in a
+    hundred.
+    """
+    rules = material.study.settings
+    best = max((r.evidence / rules.needed(r.hypothesis.effect.name)
+                for r, _ in material.found.tried), default=0.0)
+    return float(np.clip(0.01 ** max(best, 0.0), 1e-12, 1.0))
 
 
-def gather(material: Material) -> Evidence:
+def gather(material: Material, verdict: Verdict) -> Evidence:
     """What stands behind the answer."""
     study, found = material.study, material.found
     rows = study.columns.shape[0]
-    law = (material.law.equation,) if decide(material) == "unknown" else ()
+    law = (material.law.equation,) if verdict == "unknown" else ()
     return Evidence(
         vehicle=material.vehicle,
         recordings=tuple((r.recording.name, r.role) for r in (*study.runs, *study.holdout)),

@@ -80,7 +80,8 @@ def _strayed(study: Study, hypothesis: Hypothesis, named: Sequence[Hypothesis],
     if not places:
         return 0.0
     residual = study.residual()
-    amount = float(np.clip(plain.amounts(residual)[places[0]], -_SHEET, _SHEET))
+    usual = study.expected(meaning)
+    amount = float(np.clip(plain.amounts(residual)[places[0]], usual - _SHEET, usual + _SHEET))
     column = study.columns[:, kept[places[0]]]
     held = study.projector([*named, hypothesis]).chi2(residual - amount * column) + amount**2
     return max(held - chi2_null, 0.0)

@@ -82,6 +82,11 @@ class Run:
             run_drive(truck, self.drive))
         return replace(self, correction=np.where(np.isfinite(change), change, 0.0))
 
+    def shifted(self, whitened: Floats) -> Run:
+        """This run, its model lowered by a whitened vector [n * m]."""
+        lower = np.nan_to_num(whitened.reshape(self.sigma.shape) * self.sigma)
+        return replace(self, correction=self.correction - lower)
+
     def bins_of(self, out: Floats) -> Floats:
         """[n, m] bin means of a model output [rows, outputs]."""
         rows = self._rows(out.shape[0])

@@ -194,8 +194,9 @@ def _weak(study: Study, one: Ranked, strongest: float) -> str:
     amount = one.hypothesis.effect.amount
     if not one.refitted:
         return "not refitted: others explain more"
-    if one.evidence < study.settings.accept_delta:
-        return f"buys only {one.evidence:.0f} of {study.settings.accept_delta:.0f}"
+    needed = study.settings.needed(one.hypothesis.effect.name)
+    if one.evidence < needed:
+        return f"buys only {one.evidence:.0f} of {needed:.0f}"
     away = one.hypothesis.amount - one.hypothesis.effect.neutral(study.packed)
     if abs(away) < amount.material:
         return (f"{one.hypothesis.amount:.3g} {amount.unit} is within what trucks of one kind "
@@ -203,7 +204,7 @@ def _weak(study: Study, one: Ranked, strongest: float) -> str:
     if min(one.hypothesis.amount - amount.low, amount.high - one.hypothesis.amount) < _AT_BOUND * (
             amount.high - amount.low):
         return "its amount runs to the bound of what is physical"
-    if one.hypothesis.times and one.evidence < _TIMED_FACTOR * study.settings.accept_delta:
+    if one.hypothesis.times and one.evidence < _TIMED_FACTOR * needed:
         return f"buys {one.evidence:.0f}, too little for an event whose instant was searched"
     if one.evidence < _NEXT_SHARE * strongest:
         return f"buys {one.evidence:.0f}, which the stronger effect's own inexactness may leave"

@@ -5,7 +5,7 @@ from __future__ import annotations
 import fnmatch
 import math
 from collections.abc import Collection, Mapping
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, field, fields
 from pathlib import Path
 from typing import Any
 
@@ -41,6 +41,13 @@ class Nuisance:
     targets: tuple[tuple[str, float], ...]
     only: str = ""
 
+    def between(self, here: float, there: float) -> float:
+        """Amount that takes a truck from one number of prior sigmas to another."""
+        if self.kind == "scale":
+            least = max(1.0 + here * self.sigma, _LEAST_SCALE)
+            return (1.0 + there * self.sigma) / least - 1.0
+        return (there - here) * self.sigma
+
     def values(self, packed: Packed, amount: float) -> Mapping[str, float]:
         """Packed parameters at an amount, starting from ``packed``."""
         if self.kind == "scale":
@@ -69,6 +76,7 @@ class Settings:
         trial_step_s: integration step of everything that is tried.
         bin_s, skip_s, correlation_s: averaging time, start left out, duration of a difference.
         accept_delta: fall of the sum of squares that a named effect must buy.
+        harder: by effect, for those that what is left between good models imitates.
         keep_within: share of the evidence within which explanations count as aliases.
         expected_level, unknown_level: sum of squares a row when nothing is missing, and from which
             on something must be.
@@ -84,6 +92,11 @@ class Settings:
     keep_within: float
     expected_level: float
     unknown_level: float
+    harder: Mapping[str, float] = field(default_factory=dict)
+
+    def needed(self, effect: str) -> float:
+        """Evidence that an effect of this name must have."""
+        return self.harder.get(effect, self.accept_delta)
 
     def rule(self, channel: str) -> ChannelRule | None:
         """The rule of a channel, None for channels the diagnosis does not use."""
@@ -105,10 +118,11 @@ def load_settings(packed: Packed, name: str = "default") -> Settings:
         tree = yaml.safe_load(path.read_text(encoding="utf-8"))
     except (yaml.YAMLError, UnicodeDecodeError) as error:
         raise InputError(f"not YAML: {error}", file=path) from None
-    _check(path, "", tree, _TOP_KEYS, _TOP_KEYS)
+    _check(path, "", tree, {*_TOP_KEYS, "harder"}, _TOP_KEYS)
     for part in ("nuisances", "channels"):
         _check(path, part, tree[part], set(tree[part] or ()))
-    method_keys = {f.name for f in fields(Settings)} - {"nuisances", "channels"}
+    method_keys = {f.name for f in fields(Settings)} - {
+        "nuisances", "channels", "harder"}
     _check(path, "method", tree["method"], method_keys, method_keys)
     nuisances = [_nuisance(path, key, entry, packed) for key, entry in tree["nuisances"].items()]
     nuisances += _brake_gains(packed, _number(path, "brake_gain_sigma", tree["brake_gain_sigma"],
@@ -116,7 +130,9 @@ def load_settings(packed: Packed, name: str = "default") -> Settings:
     method = {key: _number(path, f"method.{key}", entry, "value")
               for key, entry in tree["method"].items()}
     channels = {key: _rule(path, key, entry) for key, entry in tree["channels"].items()}
-    return Settings(tuple(n for n in nuisances if n.targets), channels, **method)
+    harder = {key: _number(path, f"harder.{key}", entry, "delta")
+              for key, entry in tree.get("harder", {}).items()}
+    return Settings(tuple(n for n in nuisances if n.targets), channels, harder=harder, **method)
 
 
 def _nuisance(path: Path, name: str, entry: Mapping[str, Any], packed: Packed) -> Nuisance:

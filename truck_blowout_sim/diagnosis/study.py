@@ -39,7 +39,7 @@ class Study:
         columns: [rows, k] nuisance columns over ``runs``, scaled by prior sigma.
         holdout_models, holdout_columns: the same, run by run, for holdout.
         names: of the nuisances, in the order of the columns.
-        amounts: calibrated amount of each sheet nuisance, in prior sigmas.
+        amounts: of each sheet nuisance at the reference, in prior sigmas from the sheet.
         simulations: how many were asked for; ``simulated`` gives the bin means of one.
     """
 
@@ -67,6 +67,10 @@ class Study:
     def baseline(self) -> tuple[int, ...]:
         """Positions of the baseline runs in ``runs``."""
         return tuple(i for i, run in enumerate(self.runs) if run.role == "baseline")
+
+    def expected(self, name: str) -> float:
+        """Amount of a nuisance that the baseline runs show; without such runs that of the sheet."""
+        return self.amounts.get(name, 0.0) if self.baseline else 0.0
 
     def projector(self, hypotheses: Sequence[Hypothesis] = ()) -> Projector:
         """Projector without the nuisances that mean the same as one of the hypotheses."""
@@ -183,31 +187,44 @@ def instrument_columns(study: Study, run: Run) -> list[Floats]:
 def calibrate(study: Study, rounds: int = 2, progress: Progress | None = None) -> None:
     """Move the reference to the sheet numbers that the baseline runs ask for.
 
-    Without baseline runs, training runs serve, with the same priors; what they ask for is then
-    shared between calibration and effects by the joint fit that follows.
+    Without baseline runs, training runs serve, if that explains them better. Only the point moves
+    at which the model is linear: every run is corrected so that amounts and their priors go on
+    counting from the sheet, and what the runs ask for stays open to effects.
     """
     warm_up(study)
     study.update_models()
     study.holdout_models = study.simulate([(run, study.packed) for run in study.holdout])
     build_columns(study, progress)
-    chosen = study.baseline
-    if not chosen:
-        return
-    sheet = study.settings.nuisances
-    total = np.zeros(len(sheet))
-    start = study.packed
-    rows = row_ranges(study)
+    rows, sheet = row_ranges(study), study.settings.nuisances
+    chosen = study.baseline or study.train
     columns = np.concatenate([study.columns[rows[i]] for i in chosen])
     projector = Projector.of(columns)
+    least = projector.chi2(_residual_of(study, chosen))
+    total, kept = np.zeros(len(sheet)), np.zeros(len(sheet))
+    given = study.packed
     for _ in range(rounds):
-        residual = np.concatenate([study.runs[i].residual(study.models[i]) for i in chosen])
-        # columns explain measured - model as + J amount; keep the prior centred on the sheet
-        residual = residual + columns[:, :len(sheet)] @ total
+        # columns explain measured - model as + J amount
+        residual = _residual_of(study, chosen) + columns[:, :len(sheet)] @ total
         total = np.clip(projector.amounts(residual)[:len(sheet)], -FURTHEST, FURTHEST)
-        study.packed = apply_amounts(start, sheet, total)
+        study.packed = apply_amounts(given, sheet, total)
         study.update_models()
+        left = projector.chi2(_residual_of(study, chosen) + columns[:, :len(sheet)] @ total)
+        if left < least:
+            least, kept = left, total
+    study.packed = apply_amounts(given, sheet, kept)
+    study.amounts = dict(zip((n.name for n in sheet), kept.tolist(), strict=True))
+    n_sheet = len(sheet)
+    study.runs = tuple(run.shifted(study.columns[part, :n_sheet] @ kept)
+                       for run, part in zip(study.runs, rows, strict=True))
+    study.holdout = tuple(run.shifted(part[:, :n_sheet] @ kept)
+                          for run, part in zip(study.holdout, study.holdout_columns, strict=True))
+    study.update_models()
     study.holdout_models = study.simulate([(run, study.packed) for run in study.holdout])
-    study.amounts = dict(zip((n.name for n in sheet), total.tolist(), strict=True))
+
+
+def _residual_of(study: Study, chosen: Sequence[int]) -> Floats:
+    """Whitened residual of some runs at the present models."""
+    return np.concatenate([study.runs[i].residual(study.models[i]) for i in chosen])
 
 
 def warm_up(study: Study) -> None:

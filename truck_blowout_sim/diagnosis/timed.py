@@ -27,7 +27,7 @@ Times = Mapping[str, tuple[float, float]]
 _GRID_S = 1.0
 _MOST_INSTANTS = 20
 _MARGIN_S = 0.5
-_REFINE_S = (0.5, 0.25, 0.12, 0.06, 0.03)
+REFINE_S = (0.5, 0.25, 0.12, 0.06, 0.03)
 
 
 def grid_of(run: Run) -> Floats:
@@ -124,7 +124,7 @@ def refine_times(study: Study, start: Ranked, chi2_null: float,
     best = start.hypothesis
     models = models_at(study, [best], named)[0]
     fall = chi2_null - chi2_of(study, projector, models)
-    for width in _REFINE_S:
+    for width in REFINE_S:
         for i in study.train:
             name = study.runs[i].recording.name
             if name not in best.times:
@@ -149,18 +149,3 @@ def _moved(hypothesis: Hypothesis, run: str, width: float, pulse: bool) -> list[
         spans += [(start, end - width), (start, end + width)]
     return [replace(hypothesis, times={**hypothesis.times, run: span})
             for span in spans if span[1] > span[0] + 0.05]
-
-
-def onset_interval(study: Study, found: Ranked, run: str,
-                   named: Sequence[Hypothesis] = ()) -> tuple[float, float]:
-    """90 % interval of a run's onset from the curvature of the sum of squares."""
-    projector = study.projector([*named, found.hypothesis])
-    start, end = found.hypothesis.times[run]
-    width = 0.05
-    trials = [replace(found.hypothesis, times={**found.hypothesis.times, run: (start + d, end)})
-              for d in (-width, 0.0, width)]
-    left, middle, right = (chi2_of(study, projector, m)
-                           for m in models_at(study, trials, named))
-    curvature = max((left - 2.0 * middle + right) / width**2, 1e-6)
-    spread = 1.645 * float(np.sqrt(2.0 / curvature))
-    return start - spread, start + spread

@@ -29,4 +29,6 @@ def net_force_n(p: Floats, time_s: float, throttle: float, speed_mps: float) -> 
     pull = min(pull, p[DRIVE_AT + DRIVE.max_force_n])
     drag = (p[DRIVE_AT + DRIVE.drag_n] + p[DRIVE_AT + DRIVE.drag_extra_n]
             + p[DRIVE_AT + DRIVE.drag_extra_nspm] * abs(speed_mps))
-    return pull - drag * (1.0 - throttle) * fade
+    closed = max(1.0 - throttle / p[DRIVE_AT + DRIVE.retarder_throttle], 0.0)
+    drag = drag * (1.0 - throttle) + p[DRIVE_AT + DRIVE.retarder_n] * closed
+    return pull - drag * fade

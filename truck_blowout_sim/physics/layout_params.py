@@ -85,6 +85,8 @@ class DrivelineParams(NamedTuple):
     drag_n: int  # net engine drag at zero throttle
     drag_extra_n: int  # 0; what a diagnosis adds, scaled like drag_n
     drag_extra_nspm: int  # same, per speed
+    retarder_n: int  # 0; holds back only while the throttle is as good as closed
+    retarder_throttle: int  # at which it lets go
     creep_speed_mps: int  # below this speed drag fades to zero, force is held
     clutch_open_time_s: int  # inf: closed throughout
     clutch_open_drag_n: int

@@ -55,7 +55,8 @@ _MODULES = (
     steering_angle_offset,
 )
 LIBRARY: tuple[Effect, ...] = (*(module.EFFECT for module in _MODULES),
-                               road_grade.FROM_AN_INSTANT, road_bank.FROM_AN_INSTANT)
+                               driveline_drag.RETARDER, road_grade.FROM_AN_INSTANT,
+                               road_bank.FROM_AN_INSTANT)
 """Every candidate, physics first."""
 
 __all__ = ["LIBRARY", "Amount", "Effect"]

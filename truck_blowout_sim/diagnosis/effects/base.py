@@ -56,8 +56,8 @@ class Effect:
         equation: its law in plain symbols.
         splits: what observation tells it from look-alikes.
         kind: of what it is.
-        variant: whether another effect has this name without an onset; this one is tried where that
-            one explains something.
+        variant: another form of an effect of the same name. One with an onset is tried where the
+            steady form explains something.
         neutral: amount at which a vehicle is as given; 0 unless it lacks the part altogether.
         absorbs: calibration number that means the same as this amount; ``{hub}`` and ``{circuit}``
             are filled in.

@@ -9,10 +9,12 @@ from truck_blowout_sim.diagnosis.effects.base import (
     whole_truck,
 )
 
+_AMOUNT = Amount("extra_drag_n", "N", step=800.0, low=-1500.0, high=40000.0, material=600.0,
+                 grid=(3000.0, 9000.0))
+
 EFFECT = Effect(
     name="driveline_drag",
-    amount=Amount("extra_drag_n", "N", step=800.0, low=-1500.0, high=40000.0, material=600.0,
-                  grid=(3000.0, 9000.0)),
+    amount=_AMOUNT,
     places=whole_truck,
     values=lambda packed, place, a: added(packed, "driveline.drag_extra_n", a),
     sentence="Off the throttle the driveline holds the drive wheels back with {value} N more than "
@@ -20,4 +22,15 @@ EFFECT = Effect(
     equation="F_x,drive = -(F_drag + {value} N) (1 - throttle)",
     splits="the slip of the drive hubs when the throttle goes",
     absorbs="driveline_loss",
+)
+
+RETARDER = Effect(
+    name="driveline_drag",
+    amount=_AMOUNT,
+    places=whole_truck,
+    values=lambda packed, place, a: added(packed, "driveline.retarder_n", a),
+    variant=True,
+    sentence="With the throttle closed a retarder holds the drive wheels back with {value} N.",
+    equation="F_x,drive = -{value} N while the throttle is closed",
+    splits="the slip of the drive hubs when the throttle goes",
 )

@@ -34,13 +34,13 @@ _GRAVITY_MPS2 = 9.81
 _GYRO_SCALE, _ACCELEROMETER_SCALE, _SPEED_SCALE = 0.002, 0.005, 0.001
 # Where the angle was not recorded, gravity enters in proportion to the acceleration itself.
 _UNKNOWN_TILT_SCALE = 0.3
+# A roll reckoned from gyros misses what the frame twists: part of that is left.
+_RECKONED_TILT_SCALE = 0.02
 _DELAY_S = 0.003  # a good part of a sample, and unequal filters
 _POSITION_M, _HITCH_M = 0.02, 0.03
 # Bodies that twist move like instruments half a metre higher or lower.
 _HEIGHT_M = 0.5
 _HUB_DELAY_S = 0.02  # wheels follow the road with the tire's own lag
-# Where the angle was not recorded, gravity enters in proportion to the acceleration itself.
-_UNKNOWN_TILT_SCALE = 0.3
 _ROLL_LEAK = 0.02
 _RADIUS_KNOWN, _RADIUS_UNKNOWN = 0.0015, 0.05
 _UNITS = ("tractor", "trailer")
@@ -109,8 +109,9 @@ def _unit_imperfections(unit: str, present: set[str], *, gravity_read: bool) -> 
 
     def tilted(angle: str) -> float:
         reckoned = ROLL in present and n["vy"] not in present and unit == "trailer"
-        known = angle in present or not gravity_read or (reckoned and angle == n["roll"])
-        return _ACCELEROMETER_SCALE if known else _UNKNOWN_TILT_SCALE
+        if angle in present or not gravity_read:
+            return _ACCELEROMETER_SCALE
+        return _RECKONED_TILT_SCALE if reckoned and angle == n["roll"] else _UNKNOWN_TILT_SCALE
 
     found = [Imperfection(bias("yaw_rate_bias" if key == "r" else "gyro_bias", key, "rad/s"),
                           (k * _GYRO_RADPS,)) for key in ("p", "q", "r")]  # fmt: skip

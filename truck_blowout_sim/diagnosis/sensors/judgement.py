@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from scipy.stats import chi2 as chi2_law
 
 from truck_blowout_sim.diagnosis.sensors.case import Case, Hypothesis
-from truck_blowout_sim.diagnosis.sensors.distortions import Delay, Scale
+from truck_blowout_sim.diagnosis.sensors.distortions import Delay, LeverArm, Scale
 
 # A rival within this of the best sum of squares cannot be told from it (odds of about 90 to 1).
 ALIAS_CHI2 = 9.0
@@ -18,6 +18,7 @@ _PER_PARAMETER = 2.0  # what a parameter must earn when hypotheses of different 
 _NEVER_ALONE = ("_x_m", "_y_m", "_vx_mps", "_vy_mps", "_roll_rad", "_pitch_rad")
 _ODD = 6.0
 _WILDEST_SCALE = 0.45
+_NEAREST_M, _FARTHEST_M = 0.18, 3.0  # a tape measure errs less; the body ends before
 
 
 def family_p(delta_chi2: float, parameters: int, tests: int) -> float:
@@ -27,13 +28,16 @@ def family_p(delta_chi2: float, parameters: int, tests: int) -> float:
 
 
 def admissible(hypothesis: Hypothesis, amounts: Sequence[float]) -> bool:
-    """Whether the amounts make sense: nothing arrives early, no gain is off by half."""
+    """Whether the amounts make sense.
+
+    Nothing arrives early, no gain is off by half, nothing sits beside the truck.
+    """
     kind = hypothesis.distortion
-    return (
-        amounts[0] > 0.0
-        if isinstance(kind, Delay)
-        else (not isinstance(kind, Scale) or abs(amounts[0]) < _WILDEST_SCALE)
-    )
+    if isinstance(kind, Delay):
+        return amounts[0] > 0.0
+    if isinstance(kind, LeverArm):
+        return _NEAREST_M < max(abs(a) for a in amounts) < _FARTHEST_M
+    return not isinstance(kind, Scale) or abs(amounts[0]) < _WILDEST_SCALE
 
 
 def handicap(case: Case, hypothesis: Hypothesis) -> float:

@@ -26,7 +26,8 @@ NEUTRAL: dict[type[Any], dict[str, float]] = {
     },
     layout.SteeringParams: {"stiffness_gain": 1.0, "lash_extra_rad": 0.0},
     layout.CouplingParams: {},
-    layout.DrivelineParams: {"drag_extra_n": 0.0, "drag_extra_nspm": 0.0, "push_n": 0.0},
+    layout.DrivelineParams: {"drag_extra_n": 0.0, "drag_extra_nspm": 0.0, "push_n": 0.0,
+                            "retarder_n": 0.0, "retarder_throttle": 0.05},
     layout.AbsParams: {},
     layout.CircuitParams: {"delay_extra_s": 0.0, "lag_extra_s": 0.0},
     layout.UnitParams: {

@@ -1,0 +1,87 @@
+"""Intervals of onset and duration: they hold the truth, widen with doubt, and may be open."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+
+import numpy as np
+import pytest
+
+from truck_blowout_sim.diagnosis.attribute import Ranked
+from truck_blowout_sim.diagnosis.effects import LIBRARY
+from truck_blowout_sim.diagnosis.hypothesis import Hypothesis
+from truck_blowout_sim.diagnosis.intervals import Timing, time_intervals
+from truck_blowout_sim.diagnosis.study import Study
+from truck_blowout_sim.vehicle import Packed
+
+Studies = Callable[..., Study]
+START_S, END_S = 2.33, 4.21
+
+
+def event(truck: Packed, name: str, amount: float, start_s: float, end_s: float) -> Ranked:
+    """The effect on the trailer during an interval, as found."""
+    effect = next(e for e in LIBRARY if e.name == name)
+    place = next(p for p in effect.places(truck.vehicle) if p.body == "trailer")
+    return Ranked(Hypothesis(effect, place, amount, {"run 1": (start_s, end_s)}), 500.0, 0.1)
+
+
+def timing(study: Study, found: Ranked) -> Timing:
+    found_in: Mapping[str, Timing] = time_intervals(study, found)
+    assert list(found_in) == ["run 1"]
+    return found_in["run 1"]
+
+
+def width(interval: tuple[float, float]) -> float:
+    return interval[1] - interval[0]
+
+
+def test_a_weaker_gust_is_known_less_well(study_of: Studies, truck: Packed) -> None:
+    study = study_of()
+    strong, weak = (timing(study, event(truck, "crosswind", wind_mps, START_S, END_S))
+                    for wind_mps in (18.0, 8.0))
+    assert strong.duration_s is not None
+    assert weak.duration_s is not None
+    assert np.mean(strong.onset_s) == pytest.approx(START_S)
+    assert np.mean(strong.duration_s) == pytest.approx(END_S - START_S)
+    assert 0.05 < width(strong.onset_s) < width(weak.onset_s) < 1.5
+    assert 0.05 < width(strong.duration_s) < width(weak.duration_s)
+
+
+def test_an_end_that_no_recording_shows_is_open(study_of: Studies, truck: Packed) -> None:
+    found = timing(study_of(), event(truck, "crosswind", 18.0, 5.0, 30.0))
+    assert found.duration_s is not None
+    assert not np.isfinite(found.duration_s[1])
+    assert np.isfinite(found.onset_s).all()
+
+
+def test_what_stays_has_an_onset_and_no_duration(study_of: Studies, truck: Packed) -> None:
+    found = timing(study_of(), event(truck, "payload_shift", -0.4, 3.17, np.inf))
+    assert found.duration_s is None
+    assert width(found.onset_s) < 1.0
+
+
+def test_the_sum_of_squares_rises_by_what_an_interval_says(
+    study_of: Studies, truck: Packed
+) -> None:
+    """Onset and amount moved together along the valley: the parabola is the real one."""
+    found = event(truck, "payload_shift", -0.4, 3.17, np.inf)
+    effect, place = found.hypothesis.effect, found.hypothesis.place
+    assert effect.timed is not None
+    study = study_of({**effect.values(truck, place, -0.4), **effect.timed(truck, place, 3.17, 9e9)})
+    low, high = timing(study, found).onset_s
+    projector, run = study.projector([found.hypothesis]), study.runs[0]
+
+    def least(start_s: float) -> float:
+        """Sum of squares at this onset, the amount refitted."""
+        trials = np.array([-0.43, -0.4, -0.37])
+        sums = [projector.chi2(study.residual({0: study.simulate([(run, event(
+            truck, "payload_shift", a, start_s, np.inf).hypothesis.apply(
+                study.packed, "run 1"))])[0]})) for a in trials]
+        a, b, c = np.polyfit(trials, sums, 2)
+        return float(c - b * b / (4.0 * a))
+
+    # the interval also holds what the search leaves between two instants it tries
+    sigma = np.sqrt((0.5 * (high - low) / 1.645) ** 2 - 0.03**2 / 3.0)
+    away = 0.1
+    rise = 0.5 * (least(3.17 - away) + least(3.17 + away)) - least(3.17)
+    assert rise == pytest.approx((away / sigma) ** 2, rel=0.15)
