@@ -109,7 +109,8 @@ def test_an_effect_is_reported_in_its_own_unit_with_a_90_percent_interval(
     effect = physics_effect(material(calm), ranked(truck, "brake_imbalance", -0.5, sigma=0.1))
     ratio = effect.parameters["torque_ratio"]
     assert ratio.value == pytest.approx(0.5)
-    assert ratio.ci90 == pytest.approx((0.5 - 0.1645, 0.5 + 0.1645))
+    wide = 1.645 * np.hypot(0.1, 0.5 * calm.settings.form_share)
+    assert ratio.ci90 == pytest.approx((0.5 - wide, 0.5 + wide), rel=1e-6)
     assert effect.onset_s is None
     assert "50 percent" in effect.sentence
     gust = physics_effect(material(calm), ranked(truck, "crosswind", 12.0, start_s=2.5))

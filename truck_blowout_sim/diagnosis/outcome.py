@@ -121,9 +121,12 @@ def physics_effect(material: Material, ranked: Ranked) -> Effect:
     """An accepted hypothesis as the answer gives it."""
     h = ranked.hypothesis
     amount = h.effect.amount
-    wide = _NINETY * ranked.sigma
+    # noise alone would give an interval far too narrow: the truth has another law than the model
+    form = material.study.settings.form_share * (h.amount - h.effect.neutral(material.study.packed))
+    wide = _NINETY * float(np.hypot(ranked.sigma, form))
     value = amount.report(h.amount)
-    ends = sorted((amount.report(h.amount - wide), amount.report(h.amount + wide)))
+    ends = sorted(amount.report(float(np.clip(end, amount.low, amount.high)))
+                  for end in (h.amount - wide, h.amount + wide))
     first = min(h.times, key=lambda run: h.times[run][0], default="")
     onset = h.times[first][0] if first else None
     timings = material.timings.get(h.key, {})
