@@ -154,7 +154,7 @@ def test_with_values_makes_a_copy(packed: Packed) -> None:
 
 
 def test_with_values_refuses_an_unknown_name(packed: Packed) -> None:
-    with pytest.raises(KeyError, match="did you mean 'hub.trailer_2_left.brake_gain'"):
+    with pytest.raises(KeyError, match=r"did you mean 'hub\.trailer_2_left\.brake_gain'"):
         packed.with_values({"hub.trailer_2_left.brake_gian": 0.35})
 
 

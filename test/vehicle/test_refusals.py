@@ -68,7 +68,11 @@ WRONG = {
         "no parameter 'hub.trailer_2_lef.brake_gain'",
         "did you mean 'hub.trailer_2_left.brake_gain'?",
     ),
-    "unknown effect": ("effects: {hub.steer_left.brake_gian: 1}", "brake_gian", "'hub.steer_left.brake_gain'"),
+    "unknown effect": (
+        "effects: {hub.steer_left.brake_gian: 1}",
+        "brake_gian",
+        "'hub.steer_left.brake_gain'",
+    ),
     "effect that is no number": ("effects: {world.wind_x_mps: hard}", "'hard'", "a number"),
     "effect without bounds": ("effects: {hub.steer_left.toe_rad: .inf}", "inf is out", "finite"),
     "negative effect": ("effects: {unit.trailer.mass_kg: -1}", "-1 is out", "above 0"),

@@ -22,6 +22,7 @@ from truck_blowout_sim.physics.layout import (
     AXLE,
     AXLE_S,
     AXLE_SIZE,
+    GLOBAL_S,
     HUB,
     HUB_S,
     HUB_SIZE,
