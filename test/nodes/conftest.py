@@ -19,6 +19,7 @@ import pytest
 pytest.importorskip("rclpy", reason="rclpy is not installed")
 
 import rclpy
+from rcl_interfaces.srv import GetParameters
 from rclpy.context import Context
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
@@ -26,6 +27,7 @@ from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from truck_blowout_sim.nodes.runtime import new_executor
 
 REPOSITORY = Path(__file__).resolve().parents[2]
+SIMULATOR = "/truck/simulator"
 LATCHED = QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 DEEP = QoSProfile(depth=5000, reliability=ReliabilityPolicy.RELIABLE)
 
@@ -174,6 +176,7 @@ class Client:
         self.node = Node("test_client", context=self.context)
         self.executor = new_executor(self.context)
         self.executor.add_node(self.node)
+        self._heard: list[str] = []
 
     def close(self) -> None:
         self.executor.shutdown()
@@ -194,8 +197,20 @@ class Client:
     def listen(self, kind: type, topic: str, qos: QoSProfile = DEEP) -> list[Any]:
         """A list that messages are appended to."""
         heard: list[Any] = []
+        self._heard.append(topic)
         self.node.create_subscription(kind, topic, heard.append, qos)
         return heard
+
+    def meet(self, node: str) -> None:
+        """Wait until a node and this client know all of each other's topics.
+
+        Discovery tells endpoints in the order in which they were made: who answers a service
+        knows the readers and writers that were made before that service's client.
+        """
+        self.until(lambda: self.node.count_services(f"{node}/get_parameters"), what=node)
+        for topic in self._heard:
+            self.until(lambda topic=topic: self.node.count_publishers(topic), what=topic)
+        self.call(GetParameters, f"{node}/get_parameters")
 
     def first(self, kind: type, topic: str, qos: QoSProfile = DEEP) -> Any:  # noqa: ANN401
         """The next message of a topic."""
@@ -214,11 +229,13 @@ class Client:
         self.node.destroy_client(client)
         return future.result()
 
-    def talk(self, kind: type, topic: str, qos: QoSProfile | int = 10) -> Any:  # noqa: ANN401
-        """A publisher that has been matched."""
+    def talk(
+        self, kind: type, topic: str, qos: QoSProfile | int = 10, node: str = SIMULATOR
+    ) -> Any:  # noqa: ANN401
+        """A publisher that a node has found."""
         publisher = self.node.create_publisher(kind, topic, qos)
         self.until(lambda: publisher.get_subscription_count() > 0, what=f"a reader of {topic}")
-        self.spin(0.3)  # the reader may find its writer a little later
+        self.call(GetParameters, f"{node}/get_parameters")
         return publisher
 
 

@@ -9,6 +9,7 @@ import time
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 from nav_msgs.msg import Odometry
 from rcl_interfaces.msg import Parameter, ParameterType, ParameterValue
@@ -29,6 +30,10 @@ def double(value: float) -> ParameterValue:
     return ParameterValue(type=ParameterType.PARAMETER_DOUBLE, double_value=value)
 
 
+def stamp_s(message: Any) -> float:
+    return message.header.stamp.sec + message.header.stamp.nanosec * 1e-9
+
+
 def test_yaml_gives_parameters_whole_numbers_too(start: Any, client: Any, tmp_path: Path) -> None:
     path = tmp_path / "parameters.yaml"
     path.write_text(
@@ -39,8 +44,9 @@ def test_yaml_gives_parameters_whole_numbers_too(start: Any, client: Any, tmp_pa
     node.wait_for("ready")
     odometry = client.listen(Odometry, "/truck/tractor/odometry")
     pressure = client.listen(FluidPressure, "/truck/tires/steer_left/pressure")
-    client.until(lambda: len(pressure) > 10, what="pressures")
-    assert 4.5 < len(odometry) / len(pressure) < 5.6
+    client.until(lambda: len(pressure) > 10 and len(odometry) > 10, what="messages")
+    assert np.diff([stamp_s(one) for one in odometry]).max() == pytest.approx(0.02, abs=1e-9)
+    assert np.diff([stamp_s(one) for one in pressure]).max() == pytest.approx(0.1, abs=1e-9)
     assert odometry[0].twist.twist.linear.x == pytest.approx(15.0, abs=1.0)
     assert node.stop() == 0
 

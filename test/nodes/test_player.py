@@ -48,7 +48,7 @@ def play(start: Any, client: Any, topic: str, *words: object) -> Any:
     """A player that begins once the test hears it."""
     player = start("player", *words, "--start-paused", *ALONE)
     client.until(lambda: client.node.count_publishers(topic), what=topic)
-    client.spin(1.0)
+    client.meet("/truck/player")
     client.call(Trigger, "/truck/player/resume")
     return player
 
@@ -101,8 +101,7 @@ def test_play_next_seek_and_toggle(start: Any, client: Any, log: Path) -> None:
     player = start("player", log, "--start-paused", *ALONE)
     player.wait_for("blowout of steer_left")
     wheel = client.listen(Float64, "/truck/steering_wheel_angle")
-    client.until(lambda: client.node.count_publishers("/truck/steering_wheel_angle"), what="it")
-    client.spin(0.5)
+    client.meet("/truck/player")
     assert client.call(Trigger, "/truck/player/is_paused").success
     for expected in ("played 0.000 s", "played 0.010 s"):
         assert client.call(Trigger, "/truck/player/play_next").message == expected

@@ -47,12 +47,14 @@ def test_paced_by_the_wall_at_any_factor(start: Any, client: Any, factor: float)
     node = start("simulator", "--real-time-factor", factor)
     node.wait_for("ready")
     reports = client.listen(DiagnosticArray, "/diagnostics")
-    got = simulated_per_second(client, "/truck/tractor/odometry", 3.0)
-    assert got < 1.1 * factor  # messages under way at either end count as time
-    # A machine that is busy with other things loses time, and then the node says so.
-    client.until(lambda: reports, what="diagnostics")
-    said = any("cannot keep pace" in pace_of(report)["message"] for report in reports)
-    assert got > 0.9 * factor or said
+    # messages under way at either end count as time
+    assert simulated_per_second(client, "/truck/tractor/odometry", 3.0) < 1.3 * factor
+    client.until(lambda: len(reports) >= 4, what="diagnostics")
+    for pace in map(pace_of, reports[1:]):
+        got = float(pace["real_time_factor"])
+        assert got < 1.05 * factor
+        # A machine that is busy with other things loses time, and then the node says so.
+        assert got > 0.9 * factor or "cannot keep pace" in pace["message"]
     assert node.stop() == 0
 
 
@@ -62,7 +64,7 @@ def test_as_fast_as_possible_is_far_faster_and_says_how_fast(start: Any, client:
     reports = client.listen(DiagnosticArray, "/diagnostics")
     client.until(lambda: len(reports) >= 3, what="diagnostics")
     factor = float(pace_of(reports[-1])["real_time_factor"])
-    assert factor > 5.0
+    assert factor > 2.0  # on an idle machine 50; this one may be busy
     assert node.stop() == 0
 
 
@@ -85,7 +87,9 @@ def test_the_factor_can_be_changed_while_running(start: Any, client: Any) -> Non
     request = SetParameters.Request(parameters=[Parameter(name="real_time_factor", value=value)])
     client.call(SetParameters, "/truck/simulator/set_parameters", request)
     # ten times as much is asked for; a busy machine gives some of it
-    assert simulated_per_second(client, "/truck/tractor/odometry", 2.0) > 0.3
+    client.until(
+        lambda: simulated_per_second(client, "/truck/tractor/odometry", 2.0) > 0.3, what="speed"
+    )
     assert node.stop() == 0
 
 
@@ -99,19 +103,23 @@ class Followed:
         self.pressure: list[FluidPressure] = client.listen(
             FluidPressure, "/truck/tires/steer_left/pressure"
         )
-        client.until(
-            lambda: client.node.count_publishers("/truck/tractor/odometry") > 0, what="odometry"
-        )
-        client.spin(0.3)
+        client.meet("/truck/simulator")
 
     def run(self, start_s: float, end_s: float, step_s: float = 0.02) -> None:
+        """Publish a clock, and never be far ahead of the simulator."""
         for now_s in np.arange(start_s, end_s + step_s / 2, step_s):
-            self.clock.publish(clock_at(float(now_s)))
-            self.client.spin(0.004)
-        self.client.until(
-            lambda: self.heard and abs(stamp_s(self.heard[-1]) - end_s) < 0.005,
-            what=f"odometry of {end_s}",
-        )
+            # at a jump nothing is published: that costs the whole patience
+            for _ in range(50):
+                self.clock.publish(clock_at(float(now_s)))
+                self.client.spin(0.004)
+                if self.at(float(now_s)):
+                    break
+        self.client.until(lambda: self.at(end_s), what=f"odometry of {end_s}")
+
+    def at(self, time_s: float) -> bool:
+        """Whether the simulator is there, and all of it has been heard."""
+        ends = (self.heard, self.pressure)
+        return all(one and abs(stamp_s(one[-1]) - time_s) < 0.005 for one in ends)
 
     @property
     def times_s(self) -> list[float]:
@@ -167,7 +175,7 @@ def test_a_jump_ahead_carries_the_truck_over(followed: Any) -> None:
     assert not [t for t in followed.times_s if 50.6 < t < 79.9]
     moved_m = after.pose.pose.position.x - before.pose.pose.position.x
     assert 0.0 < moved_m < 5.0
-    assert "jumped ahead from 50.5" in followed.node.output
+    followed.node.wait_for("jumped ahead from 50.5")
 
 
 def test_a_jump_back_resets_and_says_so(followed: Any, client: Any) -> None:
@@ -176,6 +184,6 @@ def test_a_jump_back_resets_and_says_so(followed: Any, client: Any) -> None:
     followed.run(51.02, 52.0)
     assert followed.pressure[-1].fluid_pressure < 300e3
     followed.run(20.0, 20.2)
-    assert "jumped back from 52.000 to 20.000" in followed.node.output
+    followed.node.wait_for("jumped back from 52.000 to 20.000")
     assert followed.pressure[-1].fluid_pressure > 800e3
     assert followed.heard[-1].pose.pose.position.x == pytest.approx(4.0, abs=0.5)

@@ -51,6 +51,13 @@ def simulator(start: Any) -> Any:
     return node
 
 
+@pytest.fixture
+def fresh(simulator: Any, client: Any) -> Any:
+    """The client, with the truck at its initial speed: it coasts meanwhile."""
+    client.call(Trigger, "/truck/reset")
+    return client
+
+
 def stamp_s(message: Any) -> float:
     return message.header.stamp.sec + message.header.stamp.nanosec * 1e-9
 
@@ -75,10 +82,8 @@ def test_nothing_undocumented_is_published_below_the_namespace(simulator: Any, c
 
 
 @pytest.mark.parametrize("unit", UNITS)
-def test_odometry_gives_pose_in_map_and_twist_in_the_unit(
-    simulator: Any, client: Any, unit: str
-) -> None:
-    message = client.first(Odometry, f"/truck/{unit}/odometry")
+def test_odometry_gives_pose_in_map_and_twist_in_the_unit(fresh: Any, unit: str) -> None:
+    message = fresh.first(Odometry, f"/truck/{unit}/odometry")
     assert (message.header.frame_id, message.child_frame_id) == ("map", f"{unit}/base_link")
     assert message.twist.twist.linear.x == pytest.approx(SPEED_MPS, abs=2.0)
     turn = message.pose.pose.orientation
@@ -102,8 +107,8 @@ def test_yaw_rate_equals_the_imus(simulator: Any, client: Any) -> None:
     assert abs(rate) < 0.01
 
 
-def test_joint_states_name_spin_steer_and_articulation(simulator: Any, client: Any) -> None:
-    message = client.first(JointState, "/truck/joint_states")
+def test_joint_states_name_spin_steer_and_articulation(fresh: Any) -> None:
+    message = fresh.first(JointState, "/truck/joint_states")
     wanted = {f"{hub}_spin" for hub in VEHICLE.hubs}
     wanted |= {"steer_left_steer", "steer_right_steer", "articulation"}
     assert wanted <= set(message.name)

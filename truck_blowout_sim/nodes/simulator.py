@@ -101,8 +101,9 @@ class Simulator:
                 self._serve_at_s = wall_s + _SERVE_EVERY_S
             else:
                 self._serve(executor, wall_s)
-                self.meter.tick(self.pace.ticked(wall_s))
-                self.tick()
+                if not self.paused:  # by what was served just now
+                    self.meter.tick(self.pace.ticked(wall_s))
+                    self.tick()
         self.log.info(f"{stop.reason}: ended at {self.plant.now_ns / NS:.3f} s of simulation time")
         return 0
 
