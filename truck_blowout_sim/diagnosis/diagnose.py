@@ -14,6 +14,7 @@ from truck_blowout_sim.diagnosis.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.intervals import Timing, time_intervals
 from truck_blowout_sim.diagnosis.law import plainest_law
 from truck_blowout_sim.diagnosis.locate import Wrenches, missing_wrench
+from truck_blowout_sim.diagnosis.next_test import Separation, best_test
 from truck_blowout_sim.diagnosis.outcome import Material, answer, joint_amounts
 from truck_blowout_sim.diagnosis.result import Diagnosis, Role, Verdict
 from truck_blowout_sim.diagnosis.resume import Kept
@@ -85,7 +86,8 @@ def diagnose(recordings: Sequence[Recording], *, baseline: Sequence[Recording] =
     worst = max(after, key=lambda w: w.delta)
     law = plainest_law(worst, next(r for r in study.runs
                                    if r.recording.name == worst.history.recording))
-    material = Material(study, found, gate, before, after, law, _timings(study, found), loaded.name)
+    material = Material(study, found, gate, before, after, law, _timings(study, found), loaded.name,
+                        _separation(study, found, progress))
     told = answer(material)
     return told, diagnosed_values(material, packed, told.verdict)
 
@@ -105,6 +107,15 @@ def _timings(study: Study, found: Found) -> dict[tuple[str, str], Mapping[str, T
     named = [r.hypothesis for r in found.named]
     return {r.hypothesis.key: time_intervals(study, r, [h for h in named if h is not r.hypothesis])
             for r in found.named if r.hypothesis.times}
+
+
+def _separation(study: Study, found: Found, progress: Progress | None) -> Separation | None:
+    """The run that would best tell apart what these cannot; None where nothing is in doubt."""
+    named = [r.hypothesis for r in found.named]
+    if progress and any(len(rivals) > 1 for rivals in found.rivals):
+        progress("next test", 0.0)
+    tried = (best_test(study, rivals, named) for rivals in found.rivals)
+    return next((best for best in tried if best is not None), None)
 
 
 def diagnosed_values(material: Material, given: Packed, verdict: Verdict) -> Mapping[str, float]:

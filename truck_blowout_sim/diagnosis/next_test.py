@@ -30,7 +30,7 @@ from truck_blowout_sim.diagnosis.study import Study, instrument_columns
 
 Floats = NDArray[np.float64]
 Pair = tuple[Hypothesis, Hypothesis]
-_MOST_PROJECTED = 2  # manoeuvres in which nuisances are varied: nearly all of the time
+_MOST_PROJECTED = 3  # manoeuvres in which nuisances are varied: nearly all of the time
 _CLEAR_SIGMA = 3.0
 
 

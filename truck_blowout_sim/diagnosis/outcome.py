@@ -13,6 +13,7 @@ from truck_blowout_sim.diagnosis.attribute import Ranked
 from truck_blowout_sim.diagnosis.intervals import Timing
 from truck_blowout_sim.diagnosis.law import Law
 from truck_blowout_sim.diagnosis.locate import Wrenches
+from truck_blowout_sim.diagnosis.next_test import Separation
 from truck_blowout_sim.diagnosis.result import (
     AliasSet,
     ChannelSigma,
@@ -46,6 +47,7 @@ class Material:
         law: plainest law of what is left unnamed.
         timings: intervals of each timed effect's onset and duration, by key and run.
         vehicle: name of the model's vehicle.
+        separation: the run that would best tell apart what these cannot, if any could.
     """
 
     study: Study
@@ -56,6 +58,7 @@ class Material:
     law: Law
     timings: Mapping[tuple[str, str], Mapping[str, Timing]]
     vehicle: str
+    separation: Separation | None = None
 
 
 def answer(material: Material) -> Diagnosis:
@@ -68,7 +71,7 @@ def answer(material: Material) -> Diagnosis:
     effects += [physics_effect(material, ranked) for ranked, _ in named]
     aliases = [AliasSet(f.aliases or (f.name,), splits=f.next_test) for f in gate.findings]
     aliases += [alias_set(rivals) for _, rivals in named]
-    next_test = words.next_test(found, gate)
+    next_test = words.next_test(found, gate, material.separation)
     return Diagnosis(
         verdict=verdict, sentence=words.verdict_sentence(
             verdict, effects, pulled(material), material.law),

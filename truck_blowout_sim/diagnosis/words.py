@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 from truck_blowout_sim.diagnosis.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.law import Law
+from truck_blowout_sim.diagnosis.next_test import Separation
 from truck_blowout_sim.diagnosis.result import Effect, Verdict
 from truck_blowout_sim.diagnosis.search import Found
 from truck_blowout_sim.diagnosis.sensors import GateResult
@@ -48,17 +49,27 @@ def verdict_sentence(verdict: Verdict, effects: Sequence[Effect],
     return " ".join(effect.sentence for effect in effects)
 
 
-def next_test(found: Found, gate: GateResult) -> str:
-    """The run or channel that would decide, or confirm."""
+def next_test(found: Found, gate: GateResult, best: Separation | None = None) -> str:
+    """The run or channel that would decide, or confirm; ``best``: what simulation found."""
+    if best is not None:
+        return f"To tell {_names(best.pair)}: {best.pair[0].effect.splits}. {best}"
     for rivals in found.rivals:
-        if len({r.hypothesis.effect.name for r in rivals}) > 1:
-            pair = [r.hypothesis.effect for r in rivals[:2]]
-            return f"To tell {pair[0].name} from {pair[1].name}: {pair[0].splits}."
+        pair = [r.hypothesis for r in rivals[:2]]
+        if len(pair) > 1:
+            return f"To tell {_names(pair)}: {pair[0].effect.splits}."
     for finding in gate.findings:
         return finding.next_test
     if found.named:
         return f"To confirm: {found.named[0].hypothesis.effect.splits}."
     return "None is needed for these manoeuvres; a harder one would test more of the model."
+
+
+def _names(pair: Sequence[Hypothesis]) -> str:
+    """Two explanations; with their places where the names are the same."""
+    names = [h.effect.name for h in pair]
+    if len(set(names)) == 1:
+        names = [f"{h.effect.name} at {h.place}" for h in pair]
+    return " from ".join(names)
 
 
 def assumptions(study: Study) -> tuple[str, ...]:
