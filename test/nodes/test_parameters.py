@@ -105,6 +105,9 @@ def test_parameters_describe_themselves_and_keep_their_ranges(start: Any, client
         assert spec.text in descriptor.description
         assert spec.unit in descriptor.description
         assert descriptor.read_only is not spec.live
+        for bounds in descriptor.floating_point_range:
+            assert max(spec.low, -1e300) == max(bounds.from_value, -1e300)
+            assert min(spec.high, 1e300) == min(bounds.to_value, 1e300)
     refused = client.call(
         SetParameters, "/truck/simulator/set_parameters",
         SetParameters.Request(parameters=[

@@ -79,7 +79,9 @@ class Spec:
         if math.isfinite(self.low) or math.isfinite(self.high):
             out.additional_constraints = self.expected()
             low, high = max(self.low, -sys.float_info.max), min(self.high, sys.float_info.max)
-            out.floating_point_range = [FloatingPointRange(from_value=low, to_value=high)]
+            # a whole number here would go out as garbage: messages do not check their fields
+            bounds = FloatingPointRange(from_value=float(low), to_value=float(high))
+            out.floating_point_range = [bounds]
         return out
 
 
