@@ -94,8 +94,8 @@ def test_pressure_drops_within_two_periods_of_the_call(running: Any) -> None:
     blown_s = said_s(running.call(Trigger, "/truck/blowout/steer_left").message)
     running.until(lambda: heard[-1].fluid_pressure < 0.9 * full_pa, what="a drop")
     dropped_s = next(stamp_s(m) for m in heard if m.fluid_pressure < full_pa - 1000.0)
-    assert blown_s >= before_s
-    assert dropped_s - blown_s <= 2 * PERIOD_S
+    assert blown_s >= before_s - 1e-6
+    assert dropped_s - blown_s <= 2 * PERIOD_S + 1e-6
 
 
 def test_pause_stops_time_and_resume_continues_it(running: Any) -> None:
