@@ -39,15 +39,10 @@ TRANSPORT = {
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
-    """Discovery and scheduling are the machine's: twice more before a failure counts.
-
-    pytest lists what was run again as RERUN. Three failures in a row are a fault.
-    """
-    if not config.pluginmanager.hasplugin("rerunfailures"):
-        return  # a ROS build farm has plain pytest
+    """Discovery and scheduling are the machine's: twice more (RERUN) before a failure counts."""
     here = Path(__file__).parent
-    for item in items:
-        if here in item.path.parents:
+    if config.pluginmanager.hasplugin("rerunfailures"):  # a ROS build farm has plain pytest
+        for item in (one for one in items if here in one.path.parents):
             item.add_marker(pytest.mark.flaky(reruns=2, reruns_delay=2))
 
 

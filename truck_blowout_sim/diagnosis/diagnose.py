@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from truck_blowout_sim.diagnosis.calibration import calibrate
 from truck_blowout_sim.diagnosis.fingerprints import case_parts
 from truck_blowout_sim.diagnosis.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.intervals import Timing, time_intervals
@@ -22,7 +23,7 @@ from truck_blowout_sim.diagnosis.runs import Run, prepare_run
 from truck_blowout_sim.diagnosis.search import Found, search
 from truck_blowout_sim.diagnosis.sensors import correct, sensor_gate, vehicle_geometry
 from truck_blowout_sim.diagnosis.settings import load_settings
-from truck_blowout_sim.diagnosis.study import FURTHEST, Progress, Study, calibrate, row_ranges
+from truck_blowout_sim.diagnosis.study import FURTHEST, Progress, Study, row_ranges
 from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.recordings import Recording
 from truck_blowout_sim.vehicle import Packed, Vehicle, load_vehicle, pack, write_vehicle

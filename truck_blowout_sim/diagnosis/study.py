@@ -7,7 +7,6 @@ shared by all runs of the case; an effect acts in training only.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -16,8 +15,7 @@ from numpy.typing import NDArray
 from truck_blowout_sim.diagnosis.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.linear import Projector
 from truck_blowout_sim.diagnosis.runs import Run, simulate_bins
-from truck_blowout_sim.diagnosis.settings import Nuisance, Settings
-from truck_blowout_sim.simulation.equilibrium import initial_vector
+from truck_blowout_sim.diagnosis.settings import Settings
 from truck_blowout_sim.vehicle import Packed
 
 Floats = NDArray[np.float64]
@@ -184,73 +182,8 @@ def instrument_columns(study: Study, run: Run) -> list[Floats]:
     return columns
 
 
-def calibrate(study: Study, rounds: int = 2, progress: Progress | None = None) -> None:
-    """Move the reference to the sheet numbers that the baseline runs ask for.
-
-    Without baseline runs, training runs serve, if that explains them better. Only the point moves
-    at which the model is linear: every run is corrected so that amounts and their priors go on
-    counting from the sheet, and what the runs ask for stays open to effects.
-    """
-    warm_up(study)
-    study.update_models()
-    study.holdout_models = study.simulate([(run, study.packed) for run in study.holdout])
-    build_columns(study, progress)
-    rows, sheet = row_ranges(study), study.settings.nuisances
-    chosen = study.baseline or study.train
-    columns = np.concatenate([study.columns[rows[i]] for i in chosen])
-    projector = Projector.of(columns)
-    least = projector.chi2(_residual_of(study, chosen))
-    total, kept = np.zeros(len(sheet)), np.zeros(len(sheet))
-    given = study.packed
-    for _ in range(rounds):
-        # columns explain measured - model as + J amount
-        residual = _residual_of(study, chosen) + columns[:, :len(sheet)] @ total
-        total = np.clip(projector.amounts(residual)[:len(sheet)], -FURTHEST, FURTHEST)
-        study.packed = apply_amounts(given, sheet, total)
-        study.update_models()
-        left = projector.chi2(_residual_of(study, chosen) + columns[:, :len(sheet)] @ total)
-        if left < least:
-            least, kept = left, total
-    study.packed = apply_amounts(given, sheet, kept)
-    study.amounts = dict(zip((n.name for n in sheet), kept.tolist(), strict=True))
-    n_sheet = len(sheet)
-    study.runs = tuple(run.shifted(study.columns[part, :n_sheet] @ kept)
-                       for run, part in zip(study.runs, rows, strict=True))
-    study.holdout = tuple(run.shifted(part[:, :n_sheet] @ kept)
-                          for run, part in zip(study.holdout, study.holdout_columns, strict=True))
-    study.update_models()
-    study.holdout_models = study.simulate([(run, study.packed) for run in study.holdout])
-
-
-def _residual_of(study: Study, chosen: Sequence[int]) -> Floats:
-    """Whitened residual of some runs at the present models."""
-    return np.concatenate([study.runs[i].residual(study.models[i]) for i in chosen])
-
-
-def warm_up(study: Study) -> None:
-    """Settle the reference truck once for each run, so that its variants settle quickly.
-
-    Learns, too, what the fine step changes there.
-    """
-    def warmed(run: Run) -> Run:
-        state = initial_vector(study.packed, run.drive.initial, run.drive.step_s)
-        warm = replace(run, drive=replace(run.drive, warm=state),
-                       fine=replace(run.fine, warm=state))
-        return warm.corrected(study.packed)
-    with ThreadPoolExecutor(study.workers) as pool:
-        study.runs = tuple(pool.map(warmed, study.runs))
-        study.holdout = tuple(pool.map(warmed, study.holdout))
-
-
 def row_ranges(study: Study) -> list[slice]:
     """Rows of each run in the stack."""
     ends = np.cumsum([run.measured.size for run in study.runs])
     return [slice(int(end - run.measured.size), int(end))
             for end, run in zip(ends, study.runs, strict=True)]
-
-
-def apply_amounts(packed: Packed, sheet: Sequence[Nuisance], amounts: Floats) -> Packed:
-    """The truck with nuisances at the given amounts [prior sigmas], one after another."""
-    for nuisance, amount in zip(sheet, amounts, strict=True):
-        packed = packed.with_values(nuisance.values(packed, float(amount) * nuisance.sigma))
-    return packed

@@ -1,0 +1,60 @@
+"""The reference moves to what the runs ask for; amounts go on counting from the sheet."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+
+import numpy as np
+import pytest
+
+from truck_blowout_sim.diagnosis.study import Study
+from truck_blowout_sim.vehicle import Packed
+
+Studies = Callable[..., Study]
+HEAVY = 1.06
+
+
+def heavy(truck: Packed) -> Mapping[str, float]:
+    return {"unit.trailer.mass_kg": HEAVY * truck["unit.trailer.mass_kg"]}
+
+
+def posterior(study: Study) -> dict[str, float]:
+    amounts = study.projector().amounts(study.residual())
+    return {study.names[k]: float(a) for k, a in zip(study.kept(), amounts, strict=True)}
+
+
+def test_a_heavy_trailer_is_found_and_counts_from_the_sheet(
+    study_of: Studies, truck: Packed
+) -> None:
+    study = study_of(heavy(truck))
+    sigma = next(n.sigma for n in study.settings.nuisances if n.name == "trailer_mass")
+    wanted = (HEAVY - 1.0) / sigma
+    assert posterior(study)["trailer_mass"] == pytest.approx(wanted, rel=0.25)
+    moved = study.packed["unit.trailer.mass_kg"] / truck["unit.trailer.mass_kg"]
+    assert moved == pytest.approx(1.0 + study.amounts["trailer_mass"] * sigma)
+
+
+def test_moving_the_reference_explains_no_worse_than_the_columns(
+    study_of: Studies, truck: Packed
+) -> None:
+    study = study_of(heavy(truck))
+    per_row = study.projector().chi2(study.residual()) / study.columns.shape[0]
+    assert per_row < 1.1
+    clean = study.residual() - study.columns @ np.array([posterior(study)[n] for n in study.names])
+    assert np.sqrt(np.mean(clean**2)) < 1.1
+
+
+def test_only_baseline_runs_say_what_is_usual(study_of: Studies, truck: Packed) -> None:
+    assert study_of(heavy(truck)).expected("trailer_mass") == 0.0
+    with_baseline = study_of(baseline=True)
+    assert with_baseline.expected("trailer_mass") == with_baseline.amounts["trailer_mass"]
+    assert abs(with_baseline.expected("trailer_mass")) < 1.0
+
+
+def test_a_shift_lowers_the_model_by_so_many_sigmas(study_of: Studies) -> None:
+    study = study_of()
+    run = study.runs[0]
+    lower = run.shifted(np.full(run.measured.size, 2.0))
+    before, after = (one.residual(one.simulated(study.packed)) for one in (run, lower))
+    known = np.isfinite(run.measured).ravel()
+    np.testing.assert_allclose((after - before)[known], 2.0, rtol=1e-9)
