@@ -141,6 +141,8 @@ def test_a_path_that_cannot_be_written_is_said_and_the_truck_drives_on(
 
 def test_a_second_bag_gets_a_number(start: Any, client: Any, tmp_path: Path) -> None:
     node = running(start, tmp_path / "bag")
+    clock = client.listen(Clock, "/clock")
+    client.until(lambda: len(clock) > 10, what="0.1 s")
     assert client.call(SetBool, "/truck/record", SetBool.Request(data=False)).success
     again = client.call(SetBool, "/truck/record", SetBool.Request(data=True))
     assert again.message.endswith("bag_2")
