@@ -86,7 +86,7 @@ def test_names_can_be_remapped(start: Any, client: Any) -> None:
     )  # fmt: skip
     node.wait_for("ready")
     client.first(Odometry, "/other/tractor/odometry")
-    client.talk(Float64, "/hand_wheel")
+    client.talk(Float64, "/hand_wheel", node="/other/sim")
     assert client.call(Trigger, "/other/bang").success
     assert client.call(GetParameters, "/other/sim/get_parameters") is not None
     assert client.node.count_publishers("/clock") == 0
