@@ -163,9 +163,11 @@ def tangential(v: Views, truck: Truck, state: State, sw: Switches, dt: float, hu
         rub = 1.0 - math.exp(-state.flat_distance[tire] / 4.0)
         loss += sw.flat_drag * rim * rub * (0.75 + 0.25 * math.tanh(vx / 12.0)) * (
             load / 25.0e3) ** 0.2
-    # the drag on the road is this moment over the height of the hub, so that it is loss times load
-    v.qfrc[truck.wheel_dof[hub]] -= loss * load * (truck.radius_m - deflection) * math.tanh(
-        spin / 0.5)
+    v.qfrc[truck.wheel_dof[hub]] -= loss * load * rolling * math.tanh(spin / 0.5)
+    # A belt passes on power without loss: its lever is the rolling radius, not the hub's height.
+    twist = state.tire_fx[tire] * (rolling - (truck.radius_m - deflection))
+    for i in range(3):
+        v.xfrc[truck.wheel[hub], 3 + i] -= twist * v.xmat[truck.carrier[hub], 3 * i + 1]
     swell = 1.0 + 0.55 * soft * (1.0 - rim) - 0.5 * rim
     return truck.radius_m * load / 27.0e3 * (0.102 - 0.026 * load / 27.0e3) * swell * trail
 
