@@ -139,3 +139,12 @@ def test_two_threads_give_the_bits_of_one(run: Run, truck: Packed) -> None:
     assert all(np.array_equal(a, b) for a, b in zip(alone, together, strict=True))
     assert np.array_equal(alone[0], alone[2])
     assert not np.array_equal(alone[0], alone[1])
+
+
+def test_a_step_that_does_not_divide_the_samples_corrects_as_well(
+    truck: Packed, few: Settings, drive_it: Drives
+) -> None:
+    odd, fine = (prepare_run(drive_it(), "train", truck, few, step_s=step_s).corrected(truck)
+                 for step_s in (0.004, 0.001))
+    z = fine.residual(fine.simulated(truck)) - odd.residual(odd.simulated(truck))
+    assert np.sqrt(np.mean(z**2)) < 0.3

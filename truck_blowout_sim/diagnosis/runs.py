@@ -78,7 +78,7 @@ class Run:
         """This run, corrected for the coarse step at a reference truck."""
         if self.fine.step_s == self.drive.step_s:
             return self
-        change = self.bins_of(run_drive(truck, self.fine)) - self.bins_of(
+        change = self.bins_of(run_drive(truck, self.fine), self.fine) - self.bins_of(
             run_drive(truck, self.drive))
         return replace(self, correction=np.where(np.isfinite(change), change, 0.0))
 
@@ -87,19 +87,19 @@ class Run:
         lower = np.nan_to_num(whitened.reshape(self.sigma.shape) * self.sigma)
         return replace(self, correction=self.correction - lower)
 
-    def bins_of(self, out: Floats) -> Floats:
-        """[n, m] bin means of a model output [rows, outputs]."""
-        rows = self._rows(out.shape[0])
+    def bins_of(self, out: Floats, drive: Drive | None = None) -> Floats:
+        """[n, m] bin means of a model output [rows, outputs] of ``drive``, else of the own."""
+        rows = self._rows(out.shape[0], drive or self.drive)
         sums = np.add.reduceat(out[:, self.columns], rows[:-1], axis=0)[:len(rows) - 1]
         counts = np.diff(np.append(rows[:-1], rows[-1]))[:, None]
         last = out[rows[-2]:rows[-1], self.columns].sum(axis=0)
         sums[-1] = last
         return sums / counts
 
-    def _rows(self, n_rows: int) -> NDArray[np.int64]:
+    def _rows(self, n_rows: int, drive: Drive) -> NDArray[np.int64]:
         """Output row at which each bin begins, and where the last one ends."""
-        period = self.drive.every * self.drive.step_s
-        rows = np.round((self.edges_s - self.drive.initial.time_s) / period).astype(np.int64)
+        period = drive.every * drive.step_s
+        rows = np.round((self.edges_s - drive.initial.time_s) / period).astype(np.int64)
         return np.minimum(rows, n_rows)
 
     def residual(self, model: Floats) -> Floats:
