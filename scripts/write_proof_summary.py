@@ -13,8 +13,8 @@ from pathlib import Path
 from truck_blowout_sim.proof.short import put_between, short_table
 
 ROOT = Path(__file__).resolve().parents[1]
-PICTURE = "docs/proof_effects.png"
-CAPTION = "Share of concealed effects that were found, by effect and visibility"
+PICTURE = "docs/proof_power.png"
+CAPTION = "Share of concealed effects that were noticed and named, by visibility"
 
 
 def main(words: list[str]) -> int:
@@ -23,7 +23,7 @@ def main(words: list[str]) -> int:
         return 2
     proof, readme = Path(words[0]), ROOT / "README.md"
     figures = json.loads((proof / "proof.json").read_text(encoding="utf-8"))
-    shutil.copy(proof / "effects.png", ROOT / PICTURE)
+    shutil.copy(proof / "power.png", ROOT / PICTURE)
     inside = f"{short_table(figures)}\n\n![{CAPTION}]({PICTURE})"
     readme.write_text(put_between(readme.read_text(encoding="utf-8"), inside), encoding="utf-8")
     return 0

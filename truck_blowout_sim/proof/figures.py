@@ -41,7 +41,7 @@ def draw_power(rows: Sequence[Mapping[str, Any]]) -> Picture:
                       color=CYCLE[k], label=words)
     axes.set_xticks(place, [_span(row) for row in filled])
     axes.set_ylim(-0.03, 1.03)
-    axes.legend(loc="lower right")
+    axes.legend(loc="upper left")
     return Picture("power", "Power", "Bars: 95 % Wilson intervals.", figure)
 
 
