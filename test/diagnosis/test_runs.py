@@ -161,3 +161,13 @@ def test_from_a_braked_flat_tire_on_less_is_believed(
     middles = 0.5 * (plain.edges_s[1:] + plain.edges_s[:-1])
     assert share[middles < 4.5] == pytest.approx(1.0)
     assert (share[middles > 5.5] > 1.5).all()
+
+
+def test_where_the_coarse_step_is_no_use_the_fine_one_is_taken(
+    truck: Packed, few: Settings, drive_it: Drives
+) -> None:
+    run = prepare_run(drive_it(), "train", truck, few, step_s=0.001)
+    assert run.corrected(truck).drive.step_s == few.trial_step_s
+    stiff = truck.with_values({name: 3e7 for name in truck.index
+                               if name.endswith("stiffness_npm") and name.startswith("tire.")})
+    assert run.corrected(stiff).drive.step_s == 0.001

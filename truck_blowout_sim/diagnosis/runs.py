@@ -25,6 +25,7 @@ from truck_blowout_sim.vehicle import Packed
 Floats = NDArray[np.float64]
 BRAKES_ON_PA = 20_000.0
 _BEST_INSTRUMENT = 0.1  # smallest noise believed, in units of the model's floor
+_COARSE_ENOUGH = 0.4  # rms sigmas that the coarse step may have to be corrected by; 0.1 is usual
 _LOST = 1e4  # sigmas assigned to a simulation that broke down
 
 
@@ -75,11 +76,17 @@ class Run:
         return self.bins_of(run_drive(truck, self.drive)) + self.correction
 
     def corrected(self, truck: Packed) -> Run:
-        """This run, corrected for the coarse step at a reference truck."""
+        """This run, corrected for the coarse step at a reference truck.
+
+        Where that would have to correct much, the coarse step is no use for this truck (a stiff
+        rim, datasets that are swapped): everything is then simulated on the fine one.
+        """
         if self.fine.step_s == self.drive.step_s:
             return self
         change = self.bins_of(run_drive(truck, self.fine), self.fine) - self.bins_of(
             run_drive(truck, self.drive))
+        if not np.sqrt(np.nanmean((change / self.sigma) ** 2)) < _COARSE_ENOUGH:
+            return replace(self, drive=self.fine)
         return replace(self, correction=np.where(np.isfinite(change), change, 0.0))
 
     def shifted(self, whitened: Floats) -> Run:
