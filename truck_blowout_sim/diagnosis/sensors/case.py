@@ -18,7 +18,7 @@ from truck_blowout_sim.diagnosis.sensors.identities import (
     body_identities,
     hitch_identities,
 )
-from truck_blowout_sim.diagnosis.sensors.noise import Noise, channel_noise
+from truck_blowout_sim.diagnosis.sensors.noise import Noise, believable, channel_noise
 from truck_blowout_sim.diagnosis.sensors.signals import Signals, read_signals
 from truck_blowout_sim.diagnosis.sensors.towed import hitch_force, with_reckoned
 from truck_blowout_sim.recordings import Recording
@@ -108,7 +108,7 @@ def make_case(
         signals=signals,
         is_baseline=(False,) * len(recordings) + (True,) * len(baseline),
         noise=tuple(
-            channel_noise(r.only_channels(list(s.values)))
+            believable(channel_noise(r.only_channels(list(s.values))))
             for r, s in zip(everything, signals, strict=True)
         ),
         geometry=lengths,

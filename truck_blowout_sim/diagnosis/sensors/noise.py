@@ -14,7 +14,7 @@ Validated with: test/diagnosis/test_sensors_noise.py (stated sigmas of sample re
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -30,6 +30,11 @@ _MAD_TO_SIGMA = 1.4826
 _STRETCH_S = 0.5
 _LOCAL_CUBIC = 31  # samples of the local cubic whose residual shows coloured noise
 _MIN_SAMPLES = 40
+_COMPUTED = 0.02  # of a good instrument's noise: no instrument is that good
+# Single samples of the proving ground's tractor instruments (docs/proving_ground.md).
+_GOOD_INSTRUMENT = {"_vx_mps": 0.012, "_vy_mps": 0.012, "_mps2": 0.03, "_rate_radps": 3.5e-4,
+                    "_yaw_rad": 7e-4, "_roll_rad": 3.5e-4, "_pitch_rad": 3.5e-4,
+                    "_x_m": 0.015, "_y_m": 0.015}  # fmt: skip
 _CLEAR_COLOUR = 1.5  # times the white sigma, before colour is believed
 
 
@@ -76,6 +81,21 @@ def channel_noise(recording: Recording) -> Mapping[str, Noise]:
         for name, series in recording.channels.items()
         if len(series) >= _MIN_SAMPLES
     }
+
+
+def believable(noise: Mapping[str, Noise]) -> Mapping[str, Noise]:
+    """The same noise, computed channels (as good as none) with that of a good instrument.
+
+    Identities hold to what rigid bodies on a level path are worth, not to the last bit.
+    """
+    return {name: _believed(name, one) for name, one in noise.items()}
+
+
+def _believed(name: str, one: Noise) -> Noise:
+    usual = next((sigma for end, sigma in _GOOD_INSTRUMENT.items() if name.endswith(end)), 0.0)
+    if one.sigma > _COMPUTED * usual:
+        return one
+    return replace(one, sigma=usual, floor=usual, relative=0.0)
 
 
 def series_noise(series: Series) -> Noise:
