@@ -21,7 +21,7 @@ def fitted(study: Study, name: str, hub: str | None = None) -> tuple[Ranked, Ran
     """Linear and nonlinear answer to one effect at its first place, or at a hub."""
     effect = next(e for e in LIBRARY if e.name == name)
     place = next(p for p in effect.places(study.packed.vehicle) if p.hub == hub)
-    linear, = rank_steady(study, study.projector(), [Hypothesis(effect, place)])
+    linear, = rank_steady(study, [Hypothesis(effect, place)])
     return linear, refit(study, linear, study.projector().chi2(study.residual()))
 
 

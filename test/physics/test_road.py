@@ -63,7 +63,7 @@ def truck_mass(truck: Packed) -> float:
 
 
 def test_a_slope_that_begins_eases_in(truck: Packed) -> None:
-    p = truck.with_values({"world.slope_change_grade_rad": 0.02, "world.slope_change_time_s": 3.0,
+    p = truck.with_values({"world.grade_change_rad": 0.02, "world.grade_change_time_s": 3.0,
                            "world.slope_change_ramp_s": 2.0}).params
     before, half, after = (road.gravity(p, time_s)[0] for time_s in (3.0, 4.0, 9.0))
     assert before == pytest.approx(0.0, abs=1e-12)

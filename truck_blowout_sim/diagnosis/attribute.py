@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from truck_blowout_sim.diagnosis.hypothesis import Hypothesis
-from truck_blowout_sim.diagnosis.linear import Projector, score
+from truck_blowout_sim.diagnosis.linear import score
 from truck_blowout_sim.diagnosis.study import Progress, Study
 from truck_blowout_sim.vehicle import Packed
 
@@ -26,6 +26,7 @@ class Ranked:
         refitted: whether the amount comes from the nonlinear refit.
         evidence: fall against a truck whose own number of this meaning stays within two prior
             sigmas; equals ``delta`` where calibration has no such number.
+        promise: linear fall with that number held, by which candidates are ranked before a refit.
     """
 
     hypothesis: Hypothesis
@@ -33,6 +34,7 @@ class Ranked:
     sigma: float
     refitted: bool = False
     evidence: float = 0.0
+    promise: float = 0.0
 
 
 def with_effects(packed: Packed, effects: Sequence[Hypothesis], run: str) -> Packed:
@@ -50,10 +52,14 @@ def column_of(study: Study, hypothesis: Hypothesis, named: Sequence[Hypothesis],
         study.runs[i].recording.name, hypothesis.amount + step)) for i in study.train]
 
 
-def rank_steady(study: Study, projector: Projector, candidates: Sequence[Hypothesis],
+def rank_steady(study: Study, candidates: Sequence[Hypothesis],
                 named: Sequence[Hypothesis] = (), progress: Progress | None = None
                 ) -> tuple[Ranked, ...]:
-    """Linear scores of candidates without an onset, best first."""
+    """Linear scores of candidates without an onset, the most promising first.
+
+    A candidate that a nuisance imitates is promising for what it buys with that nuisance held;
+    its evidence is what it buys against a truck whose nuisance may move.
+    """
     jobs = [job for c in candidates for job in column_of(study, c, named, c.effect.amount.step)]
     results: list[Floats] = []
     portion = 24
@@ -63,8 +69,9 @@ def rank_steady(study: Study, projector: Projector, candidates: Sequence[Hypothe
         if progress:
             progress("candidates", len(results) / len(jobs))
     residual = study.residual()
-    removed = projector.remove(residual)
-    ranked, k = [], 0
+    free = study.projector(named).chi2(residual)
+    ranked: list[Ranked] = []
+    k = 0
     for candidate in candidates:
         parts = {}
         for i in study.train:
@@ -73,7 +80,10 @@ def rank_steady(study: Study, projector: Projector, candidates: Sequence[Hypothe
         amount = candidate.effect.amount
         column = study.stack(parts) / amount.step
         at = candidate.amount
+        projector = study.projector([*named, candidate])
+        removed = projector.remove(residual)
         found = score(projector, residual, removed, column, amount.low - at, amount.high - at)
-        ranked.append(Ranked(candidate.at(at + found.amount), found.delta, found.sigma,
-                             evidence=found.delta))
-    return tuple(sorted(ranked, key=lambda r: (-r.delta, r.hypothesis.key)))
+        fall = max(found.delta - (float(residual @ removed) - free), 0.0)
+        ranked.append(Ranked(candidate.at(at + found.amount), fall, found.sigma, evidence=fall,
+                             promise=found.delta))
+    return tuple(sorted(ranked, key=lambda r: (-r.promise, r.hypothesis.key)))

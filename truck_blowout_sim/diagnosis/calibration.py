@@ -28,6 +28,7 @@ from truck_blowout_sim.simulation.equilibrium import initial_vector
 from truck_blowout_sim.vehicle import Packed
 
 Floats = NDArray[np.float64]
+_KNOWN = 0.5  # prior sigmas to which baseline runs must hold a number to count as known
 
 
 def calibrate(study: Study, rounds: int = 2, progress: Progress | None = None) -> None:
@@ -47,6 +48,9 @@ def calibrate(study: Study, rounds: int = 2, progress: Progress | None = None) -
     projector = Projector.of(columns)
     least = projector.chi2(_residual_of(study, chosen))
     total, kept = np.zeros(len(sheet)), np.zeros(len(sheet))
+    if study.baseline:
+        spread = np.sqrt(np.diag(projector.covariance()))
+        study.known = frozenset(n.name for n, s in zip(sheet, spread, strict=False) if s < _KNOWN)
     given = study.packed
     for _ in range(rounds):
         # columns explain measured - model as + J amount

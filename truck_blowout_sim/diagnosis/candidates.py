@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from truck_blowout_sim.diagnosis.effects import LIBRARY, Effect
+from truck_blowout_sim.diagnosis.effects import LIBRARY, Effect, secondary_blowout
 from truck_blowout_sim.diagnosis.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.result_parts import Place
 from truck_blowout_sim.diagnosis.study import Study
@@ -65,3 +65,19 @@ def failed_tires(study: Study, runs: Sequence[int]) -> Mapping[str, Mapping[str,
                 at = series.time_s[first[-1] if first.size else 0]
                 found.setdefault(tire, {})[run.recording.name] = float(at)
     return found
+
+
+def unwatched_tires(study: Study) -> tuple[Place, ...]:
+    """One tire a hub that could fail unseen: its pressure is not recorded, it is not blown anyway.
+
+    Twins on one hub leave nearly the same trace; the outer stands for both.
+    """
+    vehicle = study.packed.vehicle
+    runs = [study.runs[i].recording for i in study.train]
+    told = {tire for run in runs for event in run.blowouts for tire in event.tires}
+    found: dict[str, Place] = {}
+    for place in secondary_blowout.EFFECT.places(vehicle):
+        seen = all(f"tire_pressure_{place.tire}_pa" in run for run in runs)
+        if place.hub and not seen and place.tire not in told:
+            found.setdefault(place.hub, place)
+    return tuple(found.values())

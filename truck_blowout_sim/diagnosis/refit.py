@@ -75,7 +75,7 @@ def _strayed(study: Study, hypothesis: Hypothesis, named: Sequence[Hypothesis],
     A calibration number far beyond its prior is the effect under another name, not the truck.
     """
     plain, kept = study.projector(named), study.kept(named)
-    meaning = hypothesis.meaning(study.packed.vehicle)
+    meaning = study.meaning(hypothesis)
     places = [k for k, j in enumerate(kept) if study.names[j] == meaning]
     if not places:
         return 0.0

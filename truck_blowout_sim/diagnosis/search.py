@@ -6,34 +6,25 @@ matter, is far from zero for its standard error, and predicts the holdout runs b
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from collections.abc import Sequence
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
 
-from truck_blowout_sim.diagnosis.attribute import Ranked, rank_steady, with_effects
-from truck_blowout_sim.diagnosis.candidates import failed_tires, steady_candidates, timed_effects
-from truck_blowout_sim.diagnosis.effects import secondary_blowout
+from truck_blowout_sim.diagnosis.attribute import Ranked, with_effects
 from truck_blowout_sim.diagnosis.holdout import Prediction, predict
 from truck_blowout_sim.diagnosis.hypothesis import Hypothesis
-from truck_blowout_sim.diagnosis.linear import Projector
-from truck_blowout_sim.diagnosis.refit import refit
+from truck_blowout_sim.diagnosis.shortlist import shortlist
 from truck_blowout_sim.diagnosis.study import Progress, Study
-from truck_blowout_sim.diagnosis.timed import refine_times, scan
 
 Floats = NDArray[np.float64]
 _MOST_EFFECTS = 3
-_REFIT_STEADY = 6
-_REFIT_TIMED = 2
-_TIMED_COST = 8.0  # evidence that choosing an instant in a run costs
-_TIMED_SHARE = 0.15  # and the share that freedom of shape costs: steady causes come first
 _FAR_FROM_ZERO = 3.0
 _AT_BOUND = 0.002  # of the range
 _TIMED_FACTOR = 2.0
 _EVENT_WORTH = 0.8
 _NEXT_SHARE = 0.12
-_WORTH_REFITTING = 0.25  # of the threshold
 
 
 @dataclass(eq=False)
@@ -68,7 +59,7 @@ def search(study: Study, progress: Progress | None = None, most: int = _MOST_EFF
     found.before = found.after = predict(study, residual, ())
     for turn in range(most):
         named = [r.hypothesis for r in found.named]
-        ranked = candidates(study, named, progress)
+        ranked = shortlist(study, named, progress)
         if turn == 0:
             found.tried = [(r, "") for r in ranked]
         best = _accept(study, found, ranked, named)
@@ -76,71 +67,6 @@ def search(study: Study, progress: Progress | None = None, most: int = _MOST_EFF
             break
         found.rivals.append(_rivals(study, best, ranked, named))
     return found
-
-
-def candidates(study: Study, named: Sequence[Hypothesis],
-               progress: Progress | None) -> list[Ranked]:
-    """All hypotheses not yet named, the promising ones refitted, best first."""
-    projector, taken = study.projector(named), {h.key for h in named}
-    chi2 = projector.chi2(study.residual())
-    steady = [h for h in steady_candidates(study) if h.key not in taken]
-    ranked = list(rank_steady(study, projector, steady, named, progress))
-    worth = _WORTH_REFITTING * study.settings.accept_delta
-    done: list[Ranked] = []
-    for k, one in enumerate(ranked):
-        if k < _REFIT_STEADY and one.delta > worth:
-            done.append(refit(study, one, chi2, named))
-            if progress:
-                progress("refitting", (k + 1) / _REFIT_STEADY)
-        else:
-            done.append(one)
-    best = max((r.delta for r in done if r.refitted), default=0.0)
-    promising = {r.hypothesis.effect.name for r in done if r.delta > worth}
-    done += _timed(study, projector, named, chi2, max(worth, 0.5 * best), taken, promising,
-                   progress)
-    best_of: dict[tuple[str, str], Ranked] = {}
-    for one in sorted(done, key=lambda r: (-r.delta, r.hypothesis.key)):
-        best_of.setdefault(one.hypothesis.key, one)
-    return list(best_of.values())
-
-
-def _timed(study: Study, projector: Projector, named: Sequence[Hypothesis], chi2: float,
-           worth: float, taken: set[tuple[str, str]], promising: set[str],
-           progress: Progress | None) -> list[Ranked]:
-    """Events: tires that lost pressure by themselves, and everything scanned over time."""
-    found: list[Ranked] = []
-    for tire, times in failed_tires(study, study.train).items():
-        found += [_failed(study, named, chi2, tire, times)]
-    scanned = []
-    for effect in timed_effects():
-        if effect.name == "secondary_blowout" or (
-                effect.variant and effect.name not in promising):
-            continue
-        for place in effect.places(study.packed.vehicle):
-            if (effect.name, str(place)) not in taken:
-                scanned.append(scan(study, projector, effect, place, named))
-                if progress:
-                    progress("events", len(scanned) / 5)
-    scanned.sort(key=lambda r: -r.delta)
-    for k, one in enumerate(scanned):
-        cost = _TIMED_COST * len(one.hypothesis.times) + _TIMED_SHARE * one.delta
-        if k < _REFIT_TIMED and one.delta - cost > worth:
-            one = refine_times(study, one, chi2, named)
-            one = refit(study, one, chi2, named)
-            one = refine_times(study, one, chi2, named)
-        found.append(replace(one, delta=one.delta - cost, evidence=one.evidence - cost))
-    return [r for r in found if r.hypothesis.key not in taken]
-
-
-def _failed(study: Study, named: Sequence[Hypothesis], chi2: float, tire: str,
-            times: Mapping[str, float]) -> Ranked:
-    """A tire seen to lose its pressure: the hypothesis at those instants, refitted."""
-    effect = secondary_blowout.EFFECT
-    place = next(p for p in effect.places(study.packed.vehicle) if p.tire == tire)
-    spans = {run: (t, np.inf) for run, t in times.items()}
-    start = Ranked(Hypothesis(effect, place, 1.0, spans), 0.0, 1.0)
-    one = refit(study, start, chi2, named)
-    return refine_times(study, one, chi2, named)
 
 
 def _accept(study: Study, found: Found, ranked: Sequence[Ranked],
@@ -198,9 +124,11 @@ def _weak(study: Study, one: Ranked, strongest: float) -> str:
     if one.evidence < needed:
         return f"buys only {one.evidence:.0f} of {needed:.0f}"
     away = one.hypothesis.amount - one.hypothesis.effect.neutral(study.packed)
-    if abs(away) < amount.material:
+    # runs of the same truck show what this one is; without them it may be another of its kind
+    least = amount.material * (study.settings.same_truck if study.baseline else 1.0)
+    if abs(away) < least:
         return (f"{one.hypothesis.amount:.3g} {amount.unit} is within what trucks of one kind "
-                f"differ ({amount.material:.3g})")
+                f"differ ({least:.3g})")
     if min(one.hypothesis.amount - amount.low, amount.high - one.hypothesis.amount) < _AT_BOUND * (
             amount.high - amount.low):
         return "its amount runs to the bound of what is physical"

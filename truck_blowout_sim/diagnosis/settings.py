@@ -78,6 +78,8 @@ class Settings:
         accept_delta: fall of the sum of squares that a named effect must buy.
         form_share: 1 sigma of what another form of law does to an amount, as a share of it.
         flat_braked: how much wider the difference between models is once a flat tire was braked.
+        same_truck: share of what trucks of one kind differ by that is worth naming where baseline
+            runs show this truck.
         harder: by effect, for those that what is left between good models imitates.
         keep_within: share of the evidence within which explanations count as aliases.
         expected_level, unknown_level: sum of squares a row when nothing is missing, and from which
@@ -96,6 +98,7 @@ class Settings:
     unknown_level: float
     form_share: float
     flat_braked: float
+    same_truck: float
     harder: Mapping[str, float] = field(default_factory=dict)
 
     def needed(self, effect: str) -> float:

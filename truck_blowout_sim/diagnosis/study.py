@@ -38,6 +38,8 @@ class Study:
         holdout_models, holdout_columns: the same, run by run, for holdout.
         names: of the nuisances, in the order of the columns.
         amounts: of each sheet nuisance at the reference, in prior sigmas from the sheet.
+        known: sheet nuisances that the baseline runs determine: what differs from them in training
+            is an effect, and both can be fitted together.
         simulations: how many were asked for; ``simulated`` gives the bin means of one.
     """
 
@@ -52,6 +54,7 @@ class Study:
     holdout_columns: list[Floats] = field(default_factory=list)
     names: tuple[str, ...] = ()
     amounts: dict[str, float] = field(default_factory=dict)
+    known: frozenset[str] = frozenset()
     simulations: int = 0
     simulated: Callable[[Run, Packed], Floats] = Run.simulated
     _projectors: dict[frozenset[str], tuple[Projector, list[int]]] = field(default_factory=dict)
@@ -70,9 +73,14 @@ class Study:
         """Amount of a nuisance that the baseline runs show; without such runs that of the sheet."""
         return self.amounts.get(name, 0.0) if self.baseline else 0.0
 
+    def meaning(self, hypothesis: Hypothesis) -> str:
+        """Nuisance that would swallow the hypothesis; empty if none or if baseline runs hold it."""
+        name = hypothesis.meaning(self.packed.vehicle)
+        return "" if name in self.known else name
+
     def projector(self, hypotheses: Sequence[Hypothesis] = ()) -> Projector:
         """Projector without the nuisances that mean the same as one of the hypotheses."""
-        drop = frozenset(h.meaning(self.packed.vehicle) for h in hypotheses)
+        drop = frozenset(self.meaning(h) for h in hypotheses)
         if drop not in self._projectors:
             keep = [k for k, name in enumerate(self.names) if name not in drop]
             self._projectors[drop] = (Projector.of(self.columns[:, keep]), keep)
@@ -81,7 +89,7 @@ class Study:
     def kept(self, hypotheses: Sequence[Hypothesis] = ()) -> list[int]:
         """Positions of the nuisances that :meth:`projector` keeps."""
         self.projector(hypotheses)
-        drop = frozenset(h.meaning(self.packed.vehicle) for h in hypotheses)
+        drop = frozenset(self.meaning(h) for h in hypotheses)
         return self._projectors[drop][1]
 
     def simulate(self, jobs: Sequence[tuple[Run, Packed]]) -> list[Floats]:

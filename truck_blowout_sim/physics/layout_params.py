@@ -23,10 +23,11 @@ class WorldParams(NamedTuple):
     wind_y_mps: int
     road_grade_rad: int  # uphill along +x of map is positive
     road_bank_rad: int  # left side (+y) high is positive
-    slope_change_grade_rad: int  # added from the time below on
-    slope_change_bank_rad: int
-    slope_change_time_s: int  # inf: never
-    slope_change_ramp_s: int  # over which the change eases in
+    grade_change_rad: int  # added from its time on
+    grade_change_time_s: int  # inf: never
+    bank_change_rad: int
+    bank_change_time_s: int
+    slope_change_ramp_s: int  # over which either change eases in
     road_roughness_m: int  # rms unevenness
     road_roughness_seed: int
     friction_scale: int  # whole road, all tires

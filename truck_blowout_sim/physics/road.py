@@ -4,7 +4,7 @@ The map's x-y plane is the road's mean plane; grade and bank tilt gravity agains
 
 References: roughness as a sum of eight sines, an ISO 8608-like slope of the spectrum (amplitude
 proportional to wavelength).
-Known limits: grade and bank change once, at an instant; one friction patch.
+Known limits: grade and bank each change once, at an instant; one friction patch.
 Validated with: test/physics/test_road.py (rms height, force balance on a grade).
 """
 
@@ -59,15 +59,23 @@ def friction(p: Floats, time_s: float, x_m: float, y_m: float) -> float:
 
 
 @core
+def _eased(since_s: float, ramp_s: float) -> float:
+    """Share of a change that has come about after a time, 0 before it begins."""
+    if since_s <= 0.0:
+        return 0.0
+    return min(since_s / max(ramp_s, 1e-3), 1.0)
+
+
+@core
 def gravity(p: Floats, time_s: float) -> tuple[float, float, float]:
     """Gravity [m/s^2] in map axes of a road with grade (uphill along x) and bank (left high)."""
     g = p[WORLD_AT + WORLD.gravity_mps2]
     grade, bank = p[WORLD_AT + WORLD.road_grade_rad], p[WORLD_AT + WORLD.road_bank_rad]
-    since_s = time_s - p[WORLD_AT + WORLD.slope_change_time_s]
-    if since_s > 0.0:
-        share = min(since_s / max(p[WORLD_AT + WORLD.slope_change_ramp_s], 1e-3), 1.0)
-        grade += share * p[WORLD_AT + WORLD.slope_change_grade_rad]
-        bank += share * p[WORLD_AT + WORLD.slope_change_bank_rad]
+    ramp_s = p[WORLD_AT + WORLD.slope_change_ramp_s]
+    grade += p[WORLD_AT + WORLD.grade_change_rad] * _eased(
+        time_s - p[WORLD_AT + WORLD.grade_change_time_s], ramp_s)
+    bank += p[WORLD_AT + WORLD.bank_change_rad] * _eased(
+        time_s - p[WORLD_AT + WORLD.bank_change_time_s], ramp_s)
     cos_grade, sin_grade = turned(grade)
     cos_bank, sin_bank = turned(bank)
     return -g * sin_grade, -g * sin_bank * cos_grade, -g * cos_grade * cos_bank

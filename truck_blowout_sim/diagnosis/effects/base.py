@@ -124,6 +124,13 @@ def each_circuit(vehicle: Vehicle) -> Sequence[Place]:
                  for group in groups)
 
 
+def axles_at(vehicle: Vehicle, place: Place) -> tuple[str, ...]:
+    """Axles that a place names: one, or all that brake on the circuit of that name."""
+    if place.axle and place.axle in vehicle.spec.axles:
+        return (place.axle,)
+    return tuple(a for a in vehicle.axles if vehicle.spec.axles[a].circuit == place.axle)
+
+
 def added(packed: Packed, name: str, amount: float) -> Values:
     """The named parameter plus ``amount``."""
     return {name: packed[name] + amount}

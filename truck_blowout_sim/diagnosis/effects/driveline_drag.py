@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from truck_blowout_sim.diagnosis.effects.base import (
     Amount,
     Effect,
@@ -24,13 +26,11 @@ EFFECT = Effect(
     absorbs="driveline_loss",
 )
 
-RETARDER = Effect(
-    name="driveline_drag",
-    amount=_AMOUNT,
-    places=whole_truck,
+RETARDER = replace(
+    EFFECT,
     values=lambda packed, place, a: added(packed, "driveline.retarder_n", a),
     variant=True,
     sentence="With the throttle closed a retarder holds the drive wheels back with {value} N.",
     equation="F_x,drive = -{value} N while the throttle is closed",
-    splits="the slip of the drive hubs when the throttle goes",
+    absorbs="",
 )

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from truck_blowout_sim.diagnosis.effects.base import (
     Amount,
     Effect,
@@ -22,15 +24,13 @@ EFFECT = Effect(
     absorbs="road_crossfall",
 )
 
-FROM_AN_INSTANT = Effect(
-    name="road_bank",
-    amount=_AMOUNT,
-    places=whole_truck,
-    values=lambda packed, place, a: {"world.slope_change_bank_rad": a},
+FROM_AN_INSTANT = replace(
+    EFFECT,
+    values=lambda packed, place, a: {"world.bank_change_rad": a},
     timing="step",
-    timed=lambda packed, place, start, end: {"world.slope_change_time_s": start},
+    timed=lambda packed, place, start, end: {"world.bank_change_time_s": start},
     variant=True,
     sentence="From {onset} on the road is banked by {percent} percent (positive: left side high).",
     equation="F_y = -m g sin({value} rad) from t = {onset}",
-    splits="the lateral accelerometer against yaw rate times speed",
+    absorbs="",
 )

@@ -7,25 +7,37 @@ from collections.abc import Sequence
 from truck_blowout_sim.diagnosis.effects.base import (
     Amount,
     Effect,
+    Values,
+    axles_at,
     each_axle,
+    each_circuit,
     scaled,
 )
 from truck_blowout_sim.diagnosis.effects.tire_saturation_linear import is_linear
 from truck_blowout_sim.diagnosis.result_parts import Place
-from truck_blowout_sim.vehicle import Vehicle
+from truck_blowout_sim.vehicle import Packed, Vehicle
 
 
 def _formula_axles(vehicle: Vehicle) -> Sequence[Place]:
-    """Axles whose tires level off in the model already."""
-    return tuple(p for p in each_axle(vehicle) if p.axle and not is_linear(vehicle, p.axle))
+    """Axles whose tires level off in the model already, alone and in groups of one tire type."""
+    single = [p for p in each_axle(vehicle) if p.axle and not is_linear(vehicle, p.axle)]
+    groups = [p for p in each_circuit(vehicle) if len(axles_at(vehicle, p)) > 1
+              and not any(is_linear(vehicle, axle) for axle in axles_at(vehicle, p))]
+    return (*single, *groups)
+
+
+def _less_peak(packed: Packed, place: Place, amount: float) -> Values:
+    """The lateral peak of all axles of the place, scaled."""
+    names = [f"axle.{axle}.peak_scale" for axle in axles_at(packed.vehicle, place)]
+    return scaled(packed, names, amount)
 
 
 EFFECT = Effect(
     name="tire_saturation",
-    amount=Amount("peak_factor", "1", step=-0.1, low=-0.8, high=0.5, material=0.08,
+    amount=Amount("peak_factor", "1", step=-0.1, low=-0.8, high=0.0, material=0.08,
                   report=lambda a: 1.0 + a, grid=(-0.2, -0.4)),
     places=_formula_axles,
-    values=lambda packed, place, a: scaled(packed, [f"axle.{place.axle}.peak_scale"], a),
+    values=_less_peak,
     sentence="The tires of axle {where} give out earlier: their lateral force levels off at "
              "{value} times the modelled peak.",
     equation="F_y = D' sin(C atan(B alpha)),  D' = {value} * D, B C D' unchanged",

@@ -16,9 +16,10 @@ from truck_blowout_sim.physics import layout
 # Fields that no file sets: off, or 1 where they scale. A vehicle file reaches them by `effects:`.
 NEUTRAL: dict[type[Any], dict[str, float]] = {
     layout.WorldParams: {
-        "slope_change_grade_rad": 0.0,
-        "slope_change_bank_rad": 0.0,
-        "slope_change_time_s": inf,
+        "grade_change_rad": 0.0,
+        "grade_change_time_s": inf,
+        "bank_change_rad": 0.0,
+        "bank_change_time_s": inf,
         "slope_change_ramp_s": 2.0,
         "friction_change_scale": 1.0,
         "friction_change_x_m": inf,

@@ -1,0 +1,106 @@
+"""One round of the search: every hypothesis ranked, the promising ones refitted."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from truck_blowout_sim.diagnosis.attribute import Ranked, rank_steady
+from truck_blowout_sim.diagnosis.candidates import (
+    failed_tires,
+    steady_candidates,
+    timed_effects,
+    unwatched_tires,
+)
+from truck_blowout_sim.diagnosis.effects import Effect, secondary_blowout
+from truck_blowout_sim.diagnosis.hypothesis import Hypothesis
+from truck_blowout_sim.diagnosis.refit import refit
+from truck_blowout_sim.diagnosis.result_parts import Place
+from truck_blowout_sim.diagnosis.study import Progress, Study
+from truck_blowout_sim.diagnosis.timed import refine_times, scan
+
+_REFIT_STEADY = 6
+_REFIT_TIMED = 2
+_TIMED_COST = 8.0  # evidence that choosing an instant in a run costs
+_TIMED_SHARE = 0.15  # and the share that freedom of shape costs: steady causes come first
+_WORTH_REFITTING = 0.25  # of the threshold
+_HIDES_A_TIRE = 3.0  # thresholds of mismatch, below which no lost tire is looked for unseen
+
+
+def shortlist(study: Study, named: Sequence[Hypothesis], progress: Progress | None
+              ) -> list[Ranked]:
+    """All hypotheses not yet named, the promising ones refitted, best first."""
+    taken = {h.key for h in named}
+    chi2 = study.projector(named).chi2(study.residual())
+    steady = [h for h in steady_candidates(study) if h.key not in taken]
+    ranked = rank_steady(study, steady, named, progress)
+    worth = _WORTH_REFITTING * study.settings.accept_delta
+    done: list[Ranked] = []
+    for k, one in enumerate(ranked):
+        if k < _REFIT_STEADY and one.promise > worth:
+            done.append(refit(study, one, chi2, named))
+            if progress:
+                progress("refitting", (k + 1) / _REFIT_STEADY)
+        else:
+            done.append(one)
+    best = max((r.delta for r in done if r.refitted), default=0.0)
+    done += _events(study, named, chi2, max(worth, 0.5 * best), ranked, progress)
+    best_of: dict[tuple[str, str], Ranked] = {}
+    for one in sorted(done, key=lambda r: (-r.delta, r.hypothesis.key)):
+        if one.hypothesis.key not in taken:
+            best_of.setdefault(one.hypothesis.key, one)
+    return list(best_of.values())
+
+
+def _events(study: Study, named: Sequence[Hypothesis], chi2: float, worth: float,
+            steady: Sequence[Ranked], progress: Progress | None) -> list[Ranked]:
+    """Tires that lost pressure by themselves, and everything scanned over time."""
+    found = [_failed(study, named, chi2, tire, times)
+             for tire, times in failed_tires(study, study.train).items()]
+    projector, tried = study.projector(named), _event_places(study, named, steady)
+    scanned = []
+    for k, (effect, place) in enumerate(tried):
+        scanned.append(scan(study, projector, effect, place, named))
+        if progress:
+            progress("events", (k + 1) / len(tried))
+    scanned.sort(key=lambda r: -r.delta)
+    for k, one in enumerate(scanned):
+        cost = _TIMED_COST * len(one.hypothesis.times) + _TIMED_SHARE * one.delta
+        if k < _REFIT_TIMED and one.delta - cost > worth:
+            one = refine_times(study, one, chi2, named)
+            one = refit(study, one, chi2, named)
+            one = refine_times(study, one, chi2, named)
+        found.append(replace(one, delta=one.delta - cost, evidence=one.evidence - cost))
+    return found
+
+
+def _event_places(study: Study, named: Sequence[Hypothesis], steady: Sequence[Ranked]
+                  ) -> list[tuple[Effect, Place]]:
+    """Where each event is looked for: another form only where the steady one explains something."""
+    settings, taken = study.settings, {h.key for h in named}
+    promising = {r.hypothesis.effect.name for r in steady
+                 if r.promise > _WORTH_REFITTING * settings.accept_delta}
+    mismatch = max((r.promise for r in steady), default=0.0)
+    tried: list[tuple[Effect, Place]] = []
+    for effect in timed_effects():
+        places = effect.places(study.packed.vehicle)
+        if effect.name == secondary_blowout.EFFECT.name:
+            places = unwatched_tires(study) if (
+                mismatch > _HIDES_A_TIRE * settings.accept_delta) else ()
+        elif effect.variant and effect.name not in promising:
+            continue
+        tried += [(effect, p) for p in places if (effect.name, str(p)) not in taken]
+    return tried
+
+
+def _failed(study: Study, named: Sequence[Hypothesis], chi2: float, tire: str,
+            times: Mapping[str, float]) -> Ranked:
+    """A tire seen to lose its pressure: the hypothesis at those instants, refitted."""
+    effect = secondary_blowout.EFFECT
+    place = next(p for p in effect.places(study.packed.vehicle) if p.tire == tire)
+    spans = {run: (t, np.inf) for run, t in times.items()}
+    start = Ranked(Hypothesis(effect, place, 1.0, spans), 0.0, 1.0)
+    one = refit(study, start, chi2, named)
+    return refine_times(study, one, chi2, named)
