@@ -12,6 +12,9 @@ from numpy.typing import NDArray
 
 FloatArray = NDArray[np.float64]
 NEVER_S = 1.0e9
+# Part of its cornering slope that a tire flat on its rim keeps: with it the recorded blowout of
+# another simulator's truck is answered alike (validate --recordings).
+FLAT_KEEPS = 0.08
 
 
 class Switches(NamedTuple):
@@ -72,7 +75,7 @@ class Switches(NamedTuple):
 def neutral() -> Switches:
     """Nothing missing."""
     return Switches(
-        flat_drag=0.0, flat_cornering=0.25, hole_scale=1.0, hole_growth_s=0.0,
+        flat_drag=0.0, flat_cornering=FLAT_KEEPS, hole_scale=1.0, hole_growth_s=0.0,
         second_tire=-1, second_time_s=NEVER_S, second_hole_m2=0.0,
         linkage_soft=0.0, linkage_harden=0.0, lash_half_rad=0.0, lash_friction=0.0,
         roll_steer=np.zeros(5), relaxation=0.0, saturation=np.zeros(5),

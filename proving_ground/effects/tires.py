@@ -13,6 +13,7 @@ from proving_ground.effects.base import (
     at_tire,
     tire_index,
 )
+from proving_ground.switches import FLAT_KEEPS
 
 STEER_TIRES = (at_tire("steer_left"), at_tire("steer_right"))
 LATER_TIRES = tuple(at_tire(name) for name in (
@@ -29,9 +30,8 @@ def _drag(s: float, place: Place, sign: float, when: float) -> Active:
 
 
 def _cornering(s: float, place: Place, sign: float, when: float) -> Active:
-    """The flat keeps another part of its slope, and of its peak with it."""
-    kept = 0.25 + s * (0.65 if sign > 0.0 else -0.23)
-    kept = float(np.clip(kept, 0.02, 1.0))
+    """The flat keeps more of its slope, and of its peak with it; it has hardly any to lose."""
+    kept = min(FLAT_KEEPS + 0.80 * s, 1.0)
     return Active({"flat_cornering": kept}, Strength("cornering kept by the flat", kept, "1"),
                   when)
 
@@ -72,7 +72,7 @@ def _friction(s: float, place: Place, sign: float, when: float) -> Active:
 
 TIRES_EFFECTS = (
     EffectKind("blown_tire_drag", _drag, STEER_TIRES, "blowout", signed=True, guess=100.0),
-    EffectKind("blown_tire_cornering", _cornering, STEER_TIRES, "blowout", signed=True,
+    EffectKind("blown_tire_cornering", _cornering, STEER_TIRES, "blowout",
                guess=9.0),
     EffectKind("slow_deflation", _slow, STEER_TIRES, "blowout", lowest=0.004, guess=3200.0),
     EffectKind("secondary_blowout", _second, LATER_TIRES, "any", event=True,
