@@ -125,7 +125,8 @@ def _weak(study: Study, one: Ranked, strongest: float) -> str:
         return f"buys only {one.evidence:.0f} of {needed:.0f}"
     away = one.hypothesis.amount - one.hypothesis.effect.neutral(study.packed)
     # runs of the same truck show what this one is; without them it may be another of its kind
-    least = amount.material * (study.settings.same_truck if study.baseline else 1.0)
+    lasting = study.baseline and not one.hypothesis.effect.timed
+    least = amount.material * (study.settings.same_truck if lasting else 1.0)
     if abs(away) < least:
         return (f"{one.hypothesis.amount:.3g} {amount.unit} is within what trucks of one kind "
                 f"differ ({least:.3g})")

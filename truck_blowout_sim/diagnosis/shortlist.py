@@ -15,6 +15,7 @@ from truck_blowout_sim.diagnosis.candidates import (
     unwatched_tires,
 )
 from truck_blowout_sim.diagnosis.effects import Effect, secondary_blowout
+from truck_blowout_sim.diagnosis.event_fit import fit_event
 from truck_blowout_sim.diagnosis.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.refit import refit
 from truck_blowout_sim.diagnosis.result_parts import Place
@@ -71,7 +72,7 @@ def _events(study: Study, named: Sequence[Hypothesis], chi2: float, worth: float
         if k < _REFIT_TIMED and one.delta - cost > worth:
             one = refine_times(study, one, chi2, named)
             one = refit(study, one, chi2, named)
-            one = refine_times(study, one, chi2, named)
+            one = fit_event(study, refine_times(study, one, chi2, named), chi2, named)
         found.append(replace(one, delta=one.delta - cost, evidence=one.evidence - cost))
     return found
 
@@ -103,4 +104,4 @@ def _failed(study: Study, named: Sequence[Hypothesis], chi2: float, tire: str,
     spans = {run: (t, np.inf) for run, t in times.items()}
     start = Ranked(Hypothesis(effect, place, 1.0, spans), 0.0, 1.0)
     one = refit(study, start, chi2, named)
-    return refine_times(study, one, chi2, named)
+    return fit_event(study, refine_times(study, one, chi2, named), chi2, named)
