@@ -52,7 +52,8 @@ def time_intervals(study: Study, found: Ranked, others: Sequence[Hypothesis] = (
     runs = runs_with(study, event)
     edges = edges_of(event)
     matrix, priors = event_columns(study, event, others)
-    covariance: Floats = np.linalg.inv(event_information(study, event, others, matrix, priors))
+    covariance = np.asarray(
+        np.linalg.inv(event_information(study, event, others, matrix, priors)), dtype=np.float64)
     return {study.runs[i].recording.name: _timing(
         study.runs[i], event, covariance[np.ix_(at, at)])
         for k, i in enumerate(runs) for at in [1 + edges * k + np.arange(edges)]}
