@@ -58,3 +58,10 @@ def test_a_shift_lowers_the_model_by_so_many_sigmas(study_of: Studies) -> None:
     before, after = (one.residual(one.simulated(study.packed)) for one in (run, lower))
     known = np.isfinite(run.measured).ravel()
     np.testing.assert_allclose((after - before)[known], 2.0, rtol=1e-9)
+
+
+def test_a_number_is_known_where_baseline_runs_show_it(study_of: Studies) -> None:
+    assert study_of().known == frozenset()
+    known = study_of(baseline=True).known
+    assert "steering_zero" in known
+    assert known <= {n.name for n in study_of().settings.nuisances}

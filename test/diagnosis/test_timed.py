@@ -9,8 +9,10 @@ import numpy as np
 import pytest
 
 from truck_blowout_sim.diagnosis.attribute import Ranked
-from truck_blowout_sim.diagnosis.candidates import failed_tires
+from truck_blowout_sim.diagnosis.candidates import failed_tires, unwatched_tires
 from truck_blowout_sim.diagnosis.effects import LIBRARY
+from truck_blowout_sim.diagnosis.event_fit import fit_event
+from truck_blowout_sim.diagnosis.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.intervals import time_intervals
 from truck_blowout_sim.diagnosis.refit import refit
 from truck_blowout_sim.diagnosis.study import Study
@@ -57,6 +59,35 @@ def test_a_shifting_load_is_found_with_its_instant(study_of: Studies, truck: Pac
     low, high = time_intervals(study, fine)["run 1"].onset_s
     assert low < fine.hypothesis.times["run 1"][0] < high
     assert high - low < 1.0
+
+
+def test_numbers_of_an_event_settle_together(study_of: Studies, truck: Packed) -> None:
+    effect = next(e for e in LIBRARY if e.name == "crosswind")
+    place = next(p for p in effect.places(truck.vehicle) if p.body == "trailer")
+    assert effect.timed is not None
+    study = study_of({**effect.values(truck, place, 18.0),
+                      **effect.timed(truck, place, 2.33, 4.21)})
+    chi2 = study.projector().chi2(study.residual())
+    away = Ranked(Hypothesis(effect, place, 14.0, {"run 1": (2.5, 4.0)}), 0.0, 1.0)
+    found = fit_event(study, away, chi2)
+    start, end = found.hypothesis.times["run 1"]
+    assert start == pytest.approx(2.33, abs=0.06)
+    assert end == pytest.approx(4.21, abs=0.06)
+    assert found.hypothesis.amount == pytest.approx(18.0, abs=4.0 * found.sigma)
+    assert found.delta > 0.0
+
+
+def test_a_tire_is_unwatched_where_its_pressure_is_not_recorded(study_of: Studies) -> None:
+    study = study_of()
+    run = study.runs[0]
+    everywhere = unwatched_tires(study)
+    assert [p.hub for p in everywhere] == list(study.packed.vehicle.hubs)
+    t = run.drive.times_s
+    watched = replace(run.recording, channels={
+        **run.recording.channels, "tire_pressure_steer_left_pa": Series(t, np.full(t.size, 7e5))})
+    study.runs = (replace(run, recording=watched),)
+    assert "steer_left" not in {p.tire for p in unwatched_tires(study)}
+    assert len(unwatched_tires(study)) == len(everywhere) - 1
 
 
 def test_no_event_is_worth_nothing(study_of: Studies) -> None:

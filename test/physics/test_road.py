@@ -69,3 +69,13 @@ def test_a_slope_that_begins_eases_in(truck: Packed) -> None:
     assert before == pytest.approx(0.0, abs=1e-12)
     assert half == pytest.approx(-9.80665 * math.sin(0.01), rel=1e-3)
     assert after == pytest.approx(-9.80665 * math.sin(0.02), rel=1e-3)
+
+
+def test_grade_and_bank_begin_each_at_its_own_instant(truck: Packed) -> None:
+    p = truck.with_values({"world.grade_change_rad": 0.02, "world.grade_change_time_s": 3.0,
+                           "world.bank_change_rad": 0.01, "world.bank_change_time_s": 9.0,
+                           "world.slope_change_ramp_s": 1.0}).params
+    along, across, _ = road.gravity(p, 6.0)
+    assert along == pytest.approx(-9.80665 * math.sin(0.02), rel=1e-3)
+    assert across == pytest.approx(0.0, abs=1e-12)
+    assert road.gravity(p, 11.0)[1] == pytest.approx(-9.80665 * math.sin(0.01), rel=1e-3)

@@ -10,7 +10,7 @@ from truck_blowout_sim.diagnosis.effects.base import (
 
 EFFECT = Effect(
     name="crosswind",
-    amount=Amount("wind_speed_mps", "m/s", step=3.0, low=-40.0, high=40.0, material=3.5),
+    amount=Amount("wind_speed_mps", "m/s", step=3.0, low=-40.0, high=40.0, material=4.5),
     places=each_unit,
     values=lambda packed, place, a: {f"unit.{place.body}.gust_mps": a},
     timing="pulse",
