@@ -96,9 +96,9 @@ def test_a_sheet_number_far_off_is_a_miscalibration_and_named(
 
 def test_chance_falls_with_evidence_and_stays_a_probability(calm: Study, truck: Packed) -> None:
     chances = [null_p_value(material(calm, (ranked(truck, "road_bank", 0.03, delta),)))
-               for delta in (0.0, 10.0, calm.settings.accept_delta, 1e9)]
+               for delta in (0.0, 10.0, calm.settings.needed("road_bank"), 1e9)]
     assert chances[0] == 1.0
-    assert chances[2] == pytest.approx(0.01)
+    assert chances[2] == pytest.approx(calm.settings.null_tail)
     assert chances == sorted(chances, reverse=True)
     assert 0.0 < chances[-1] < 1e-9
 

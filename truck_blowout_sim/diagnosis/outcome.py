@@ -199,15 +199,14 @@ def fit(material: Material, role: str) -> Fit:
 
 
 def null_p_value(material: Material) -> float:
-    """Chance of the best evidence if nothing were missing, from the calibrated exponential tail.
+    """Chance of the best evidence if nothing were missing, as calibrated on such cases.
 
-    Evidence counts in units of what an effect of its name needs, which nulls reach once in a
-    hundred.
+    Evidence counts in units of what an effect of its name needs.
     """
     rules = material.study.settings
-    best = max((r.evidence / rules.needed(r.hypothesis.effect.name)
-                for r, _ in material.found.tried), default=0.0)
-    return float(np.clip(0.01 ** max(best, 0.0), 1e-12, 1.0))
+    return rules.null_p_value(max(
+        (r.evidence / rules.needed(r.hypothesis.effect.name, bool(r.hypothesis.times))
+         for r, _ in material.found.tried), default=0.0))
 
 
 def gather(material: Material, verdict: Verdict) -> Evidence:

@@ -22,7 +22,6 @@ Floats = NDArray[np.float64]
 _MOST_EFFECTS = 3
 _FAR_FROM_ZERO = 3.0
 _AT_BOUND = 0.002  # of the range
-_TIMED_FACTOR = 2.0
 _EVENT_WORTH = 0.8
 _NEXT_SHARE = 0.12
 
@@ -120,21 +119,21 @@ def _weak(study: Study, one: Ranked, strongest: float) -> str:
     amount = one.hypothesis.effect.amount
     if not one.refitted:
         return "not refitted: others explain more"
-    needed = study.settings.needed(one.hypothesis.effect.name)
+    event = bool(one.hypothesis.times)
+    needed = study.settings.needed(one.hypothesis.effect.name, event)
     if one.evidence < needed:
-        return f"buys only {one.evidence:.0f} of {needed:.0f}"
+        return f"buys only {one.evidence:.0f} of {needed:.0f}" + (
+            ", an event whose instant was searched" if event else "")
     away = one.hypothesis.amount - one.hypothesis.effect.neutral(study.packed)
     # runs of the same truck show what this one is; without them it may be another of its kind
-    lasting = study.baseline and not one.hypothesis.effect.timed
-    least = amount.material * (study.settings.same_truck if lasting else 1.0)
+    shown = bool(study.baseline) and not one.hypothesis.effect.met
+    least = amount.material * (study.settings.same_truck if shown else 1.0)
     if abs(away) < least:
         return (f"{one.hypothesis.amount:.3g} {amount.unit} is within what trucks of one kind "
                 f"differ ({least:.3g})")
     if min(one.hypothesis.amount - amount.low, amount.high - one.hypothesis.amount) < _AT_BOUND * (
             amount.high - amount.low):
         return "its amount runs to the bound of what is physical"
-    if one.hypothesis.times and one.evidence < _TIMED_FACTOR * needed:
-        return f"buys {one.evidence:.0f}, too little for an event whose instant was searched"
     if one.evidence < _NEXT_SHARE * strongest:
         return f"buys {one.evidence:.0f}, which the stronger effect's own inexactness may leave"
     if abs(away) < _FAR_FROM_ZERO * one.sigma:

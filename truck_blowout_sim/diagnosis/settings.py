@@ -18,6 +18,7 @@ from truck_blowout_sim.vehicle import Packed
 _TOP_KEYS = {"nuisances", "brake_gain_sigma", "channels", "method"}
 _KINDS = ("scale", "add")
 _ONLY = ("", "blowout", "brakes")
+_EVENT_FACTOR = 2.0  # more that an event must bring, because its instant was searched
 _LEAST_SCALE = 0.1  # a number of the sheet never shrinks below this share
 _CHANNEL_KEYS = {"floor", "relative", "bias", "gain", "source"}
 _NUISANCE_KEYS = {"kind", "sigma", "step", "sign", "targets", "opposite", "only", "source"}
@@ -78,6 +79,9 @@ class Settings:
         accept_delta: fall of the sum of squares that a named effect must buy.
         form_share: 1 sigma of what another form of law does to an amount, as a share of it.
         flat_braked: how much wider the difference between models is once a flat tire was braked.
+        null_median, null_tail: best evidence where nothing is missing, as a share of what is
+            needed: half of such cases reach the one, and all of what is needed the share of the
+            other.
         same_truck: share of what trucks of one kind differ by that is worth naming where baseline
             runs show this truck.
         harder: by effect, for those that what is left between good models imitates.
@@ -99,11 +103,23 @@ class Settings:
     form_share: float
     flat_braked: float
     same_truck: float
+    null_median: float
+    null_tail: float
     harder: Mapping[str, float] = field(default_factory=dict)
 
-    def needed(self, effect: str) -> float:
-        """Evidence that an effect of this name must have."""
-        return self.harder.get(effect, self.accept_delta)
+    def needed(self, effect: str, event: bool = False) -> float:
+        """Evidence that an effect of this name must have, more if its instant was searched."""
+        return self.harder.get(effect, self.accept_delta) * (_EVENT_FACTOR if event else 1.0)
+
+    def null_p_value(self, share: float) -> float:
+        """Chance of this share of what is needed where nothing is missing.
+
+        Even up to the share that half of such cases reach, exponential from there on.
+        """
+        beyond = (share - self.null_median) / (1.0 - self.null_median)
+        if beyond <= 0.0:
+            return 1.0 - 0.5 * max(share, 0.0) / self.null_median
+        return max(0.5 * (self.null_tail / 0.5) ** beyond, 1e-12)
 
     def rule(self, channel: str) -> ChannelRule | None:
         """The rule of a channel, None for channels the diagnosis does not use."""

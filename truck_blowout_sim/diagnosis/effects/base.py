@@ -56,6 +56,8 @@ class Effect:
         equation: its law in plain symbols.
         splits: what observation tells it from look-alikes.
         kind: of what it is.
+        met: met on the way (wind, slope, grip, an event) and not a property of the truck, so that
+            runs of the same truck elsewhere say nothing about it.
         variant: another form of an effect of the same name. One with an onset is tried where the
             steady form explains something.
         neutral: amount at which a vehicle is as given; 0 unless it lacks the part altogether.
@@ -75,6 +77,7 @@ class Effect:
     applies: Literal["any", "blowout", "brakes"] = "any"
     kind: Kind = "physics"
     absorbs: str = ""
+    met: bool = False
     variant: bool = False
     neutral: Callable[[Packed], float] = lambda packed: 0.0
 

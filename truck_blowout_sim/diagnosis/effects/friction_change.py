@@ -14,6 +14,7 @@ EFFECT = Effect(
                   report=lambda a: 1.0 + a, grid=(-0.5, -0.7)),
     places=whole_truck,
     values=lambda packed, place, a: {"world.friction_change_scale": 1.0 + a},
+    met=True,
     timing="step",
     timed=lambda packed, place, start, end: {"world.friction_change_time_s": start},
     sentence="From {onset} on the road gives only {value} times the friction.",

@@ -19,6 +19,7 @@ EFFECT = Effect(
     amount=Amount("shift_left_m", "m", step=0.15, low=-1.5, high=1.5, material=0.05),
     places=_laden,
     values=lambda packed, place, a: {f"unit.{place.body}.shift_y_m": a},
+    met=True,
     timing="step",
     timed=lambda packed, place, start, end: {
         f"unit.{place.body}.shift_start_s": start, f"unit.{place.body}.shift_duration_s": 0.6},

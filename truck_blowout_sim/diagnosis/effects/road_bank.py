@@ -17,6 +17,7 @@ EFFECT = Effect(
     name="road_bank",
     amount=_AMOUNT,
     places=whole_truck,
+    met=True,
     values=lambda packed, place, a: added(packed, "world.road_bank_rad", a),
     sentence="The road is banked by {percent} percent (positive: left side high).",
     equation="F_y = -m g sin({value} rad)",

@@ -17,6 +17,7 @@ EFFECT = Effect(
     name="road_grade",
     amount=_AMOUNT,
     places=whole_truck,
+    met=True,
     values=lambda packed, place, a: added(packed, "world.road_grade_rad", a),
     sentence="The road climbs by {percent} percent along its course.",
     equation="F_x = -m g sin({value} rad)",

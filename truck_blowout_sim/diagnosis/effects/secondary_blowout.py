@@ -13,6 +13,7 @@ EFFECT = Effect(
     amount=Amount("hole_scale", "1", step=1.0, low=0.02, high=3.0, material=0.03),
     places=each_tire,
     values=lambda packed, place, a: {f"tire.{place.tire}.blow_hole_scale": max(a, 0.0)},
+    met=True,
     timing="step",
     timed=lambda packed, place, start, end: {f"tire.{place.tire}.blow_time_s": start},
     sentence="Tire {where} lost its air by itself at {onset}, without a command.",
