@@ -80,8 +80,8 @@ def test_the_sum_of_squares_rises_by_what_an_interval_says(
         a, b, c = np.polyfit(trials, sums, 2)
         return float(c - b * b / (4.0 * a))
 
-    # the interval also holds what the search leaves between two instants it tries
-    sigma = np.sqrt((0.5 * (high - low) / 1.645) ** 2 - 0.03**2 / 3.0)
+    # the interval also holds where the descent stops, and what another form of the event does
+    sigma = np.sqrt((0.5 * (high - low) / 1.645) ** 2 - 0.02**2 - effect.onset_form_s**2)
     away = 0.1
     rise = 0.5 * (least(3.17 - away) + least(3.17 + away)) - least(3.17)
     assert rise == pytest.approx((away / sigma) ** 2, rel=0.15)

@@ -3,7 +3,7 @@
 The sum of squares about its least is a parabola in the amount and in the start and end of each run,
 all together; its curvature, nuisances projected out, is the information of a Gaussian model. An
 onset alone would be taken for better known than it is: a later start and a stronger amount look
-alike.
+alike. What begins gradually, in another way than modelled, adds `onset_form_s` of its effect.
 
 Known limits: symmetric; an edge that no recording shows has an open interval.
 Validated with: test/diagnosis/test_intervals.py (coverage over noise).
@@ -29,11 +29,10 @@ from truck_blowout_sim.diagnosis.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.result_parts import Interval
 from truck_blowout_sim.diagnosis.runs import Run
 from truck_blowout_sim.diagnosis.study import Study
-from truck_blowout_sim.diagnosis.timed import REFINE_S
 
 Floats = NDArray[np.float64]
 _NINETY = 1.645
-_GRID_SIGMA_S = REFINE_S[-1] / np.sqrt(3.0)  # instants were searched no finer
+_GRID_SIGMA_S = 0.02  # the descent stops where half a unit of the sum of squares is left
 _OPEN = 0.25  # share of a run's length from which on nothing is known of an instant
 
 
@@ -62,11 +61,12 @@ def time_intervals(study: Study, found: Ranked, others: Sequence[Hypothesis] = (
 def _timing(run: Run, event: Hypothesis, covariance: Floats) -> Timing:
     """Intervals of one run from the covariance of its start (and end)."""
     start, end = event.times[run.recording.name]
-    onset = _interval(start, float(covariance[0, 0]), run)
+    form = event.effect.onset_form_s**2
+    onset = _interval(start, float(covariance[0, 0]) + form, run)
     if covariance.shape[0] == 1:
         return Timing(onset, None)
     spread = np.array([-1.0, 1.0])
-    low, high = _interval(end - start, float(spread @ covariance @ spread), run)
+    low, high = _interval(end - start, float(spread @ covariance @ spread) + form, run)
     return Timing(onset, (max(low, 0.0), high))
 
 
@@ -75,7 +75,3 @@ def _interval(value: float, variance: float, run: Run) -> Interval:
     wide = _NINETY * float(np.sqrt(variance + _GRID_SIGMA_S**2))
     wide = wide if wide < _OPEN * length_s(run) else float("inf")
     return value - wide, value + wide
-
-
-def _length_s(run: Run) -> float:
-    return float(run.edges_s[-1] - run.edges_s[0])

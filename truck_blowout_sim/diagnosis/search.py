@@ -21,6 +21,7 @@ from truck_blowout_sim.diagnosis.study import Progress, Study
 Floats = NDArray[np.float64]
 _MOST_EFFECTS = 3
 _FAR_FROM_ZERO = 3.0
+_LAW = 0.5  # of what is left, and of what was explained
 _AT_BOUND = 0.002  # of the range
 _EVENT_WORTH = 0.8
 _NEXT_SHARE = 0.12
@@ -56,6 +57,7 @@ def search(study: Study, progress: Progress | None = None, most: int = _MOST_EFF
     found.models_null = list(study.models)
     found.chi2_null = found.chi2_after = projector.chi2(residual)
     found.before = found.after = predict(study, residual, ())
+    rounds: list[list[Ranked]] = []
     for turn in range(most):
         named = [r.hypothesis for r in found.named]
         ranked = shortlist(study, named, progress)
@@ -64,7 +66,10 @@ def search(study: Study, progress: Progress | None = None, most: int = _MOST_EFF
         best = _accept(study, found, ranked, named)
         if best is None:
             break
-        found.rivals.append(_rivals(study, best, ranked, named))
+        rounds.append(ranked)
+    left = found.chi2_after - study.settings.expected_level * study.columns.shape[0]
+    found.rivals = [_rivals(best, ranked, slack(study, best, left))
+                    for best, ranked in zip(found.named, rounds, strict=True)]
     return found
 
 
@@ -104,9 +109,14 @@ def _worth(one: Ranked) -> float:
     return one.delta * (_EVENT_WORTH if one.hypothesis.times else 1.0)
 
 
-def slack(study: Study, best: Ranked) -> float:
-    """Evidence within which training does not tell explanations apart."""
-    return max(study.settings.keep_within * best.delta, 0.5 * study.settings.accept_delta)
+def slack(study: Study, best: Ranked, left: float = 0.0) -> float:
+    """Evidence within which training does not tell explanations apart.
+
+    ``left`` is what even the best explanations leave beyond the usual: laws that inexact may change
+    places by as much as half of it, though never with what explains less than half.
+    """
+    room = max(study.settings.keep_within * best.delta, 0.5 * study.settings.accept_delta)
+    return max(room, min(room + _LAW * left, _LAW * best.delta))
 
 
 def _can_judge(study: Study, hypothesis: Hypothesis) -> bool:
@@ -160,10 +170,8 @@ def _predict_with(study: Study, named: Sequence[Hypothesis]
     return models, predict(study, residual, named)
 
 
-def _rivals(study: Study, best: Ranked, ranked: Sequence[Ranked], named: Sequence[Hypothesis]
-            ) -> tuple[Ranked, ...]:
+def _rivals(best: Ranked, ranked: Sequence[Ranked], room: float) -> tuple[Ranked, ...]:
     """Hypotheses of the same round that explain nearly as much: the alias set, best first."""
-    room = slack(study, best)
     others = [r for r in ranked if r.hypothesis.key != best.hypothesis.key
               and r.delta > best.delta - room and r.refitted]
     return (best, *others)

@@ -22,12 +22,12 @@ from truck_blowout_sim.diagnosis.result_parts import Place
 from truck_blowout_sim.diagnosis.study import Progress, Study
 from truck_blowout_sim.diagnosis.timed import refine_times, scan
 
-_REFIT_STEADY = 6
+_REFIT_STEADY = 7
 _REFIT_TIMED = 2
 _TIMED_COST = 8.0  # evidence that choosing an instant in a run costs
 _TIMED_SHARE = 0.15  # and the share that freedom of shape costs: steady causes come first
 _WORTH_REFITTING = 0.25  # of the threshold
-_HIDES_A_TIRE = 3.0  # thresholds of mismatch, below which no lost tire is looked for unseen
+_LARGE = 3.0  # thresholds of mismatch, from which on a tire may have been lost unseen
 
 
 def shortlist(study: Study, named: Sequence[Hypothesis], progress: Progress | None
@@ -69,12 +69,20 @@ def _events(study: Study, named: Sequence[Hypothesis], chi2: float, worth: float
     scanned.sort(key=lambda r: -r.delta)
     for k, one in enumerate(scanned):
         cost = _TIMED_COST * len(one.hypothesis.times) + _TIMED_SHARE * one.delta
-        if k < _REFIT_TIMED and one.delta - cost > worth:
+        # what acts only near a limit shows little to a linear scan
+        curved = bool(one.hypothesis.effect.amount.grid) and _large(study, steady)
+        if one.hypothesis.times and (curved or (k < _REFIT_TIMED and one.delta - cost > worth)):
             one = refine_times(study, one, chi2, named)
-            one = refit(study, one, chi2, named)
-            one = fit_event(study, refine_times(study, one, chi2, named), chi2, named)
+            one = fit_event(study, refit(study, one, chi2, named), chi2, named)
+            cost = _TIMED_COST * len(one.hypothesis.times) + _TIMED_SHARE * max(one.delta, 0.0)
         found.append(replace(one, delta=one.delta - cost, evidence=one.evidence - cost))
     return found
+
+
+def _large(study: Study, steady: Sequence[Ranked]) -> bool:
+    """Whether the mismatch is large enough to look where it costs more."""
+    return max((r.promise for r in steady), default=0.0) > (
+        _LARGE * study.settings.accept_delta)
 
 
 def _event_places(study: Study, named: Sequence[Hypothesis], steady: Sequence[Ranked]
@@ -83,13 +91,11 @@ def _event_places(study: Study, named: Sequence[Hypothesis], steady: Sequence[Ra
     settings, taken = study.settings, {h.key for h in named}
     promising = {r.hypothesis.effect.name for r in steady
                  if r.promise > _WORTH_REFITTING * settings.accept_delta}
-    mismatch = max((r.promise for r in steady), default=0.0)
     tried: list[tuple[Effect, Place]] = []
     for effect in timed_effects():
         places = effect.places(study.packed.vehicle)
         if effect.name == secondary_blowout.EFFECT.name:
-            places = unwatched_tires(study) if (
-                mismatch > _HIDES_A_TIRE * settings.accept_delta) else ()
+            places = unwatched_tires(study) if _large(study, steady) else ()
         elif effect.variant and effect.name not in promising:
             continue
         tried += [(effect, p) for p in places if (effect.name, str(p)) not in taken]

@@ -27,7 +27,7 @@ Times = Mapping[str, tuple[float, float]]
 _GRID_S = 1.0
 _MOST_INSTANTS = 20
 _MARGIN_S = 0.5
-REFINE_S = (0.5, 0.25, 0.12, 0.06, 0.03)
+REFINE_S = (0.5, 0.25, 0.12)
 
 
 def grid_of(run: Run) -> Floats:

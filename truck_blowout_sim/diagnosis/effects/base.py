@@ -56,6 +56,7 @@ class Effect:
         equation: its law in plain symbols.
         splits: what observation tells it from look-alikes.
         kind: of what it is.
+        onset_form_s: 1 sigma by which a real onset may differ for beginning in another way.
         met: met on the way (wind, slope, grip, an event) and not a property of the truck, so that
             runs of the same truck elsewhere say nothing about it.
         variant: another form of an effect of the same name. One with an onset is tried where the
@@ -77,6 +78,7 @@ class Effect:
     applies: Literal["any", "blowout", "brakes"] = "any"
     kind: Kind = "physics"
     absorbs: str = ""
+    onset_form_s: float = 0.0
     met: bool = False
     variant: bool = False
     neutral: Callable[[Packed], float] = lambda packed: 0.0

@@ -13,6 +13,7 @@ EFFECT = Effect(
     amount=Amount("wind_speed_mps", "m/s", step=3.0, low=-40.0, high=40.0, material=4.5),
     places=each_unit,
     values=lambda packed, place, a: {f"unit.{place.body}.gust_mps": a},
+    onset_form_s=0.3,
     met=True,
     timing="pulse",
     timed=lambda packed, place, start, end: {

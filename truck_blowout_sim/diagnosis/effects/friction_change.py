@@ -10,10 +10,11 @@ from truck_blowout_sim.diagnosis.effects.base import (
 
 EFFECT = Effect(
     name="friction_change",
-    amount=Amount("friction_factor", "1", step=-0.25, low=-0.9, high=0.5, material=0.12,
+    amount=Amount("friction_factor", "1", step=-0.45, low=-0.9, high=0.5, material=0.12,
                   report=lambda a: 1.0 + a, grid=(-0.5, -0.7)),
     places=whole_truck,
     values=lambda packed, place, a: {"world.friction_change_scale": 1.0 + a},
+    onset_form_s=0.15,
     met=True,
     timing="step",
     timed=lambda packed, place, start, end: {"world.friction_change_time_s": start},

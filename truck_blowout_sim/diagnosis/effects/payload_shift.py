@@ -16,9 +16,10 @@ def _laden(vehicle: Vehicle) -> Sequence[Place]:
 
 EFFECT = Effect(
     name="payload_shift",
-    amount=Amount("shift_left_m", "m", step=0.15, low=-1.5, high=1.5, material=0.05),
+    amount=Amount("shift_left_m", "m", step=0.15, low=-1.5, high=1.5, material=0.03),
     places=_laden,
     values=lambda packed, place, a: {f"unit.{place.body}.shift_y_m": a},
+    onset_form_s=0.15,
     met=True,
     timing="step",
     timed=lambda packed, place, start, end: {

@@ -30,6 +30,7 @@ FROM_AN_INSTANT = replace(
     values=lambda packed, place, a: {"world.bank_change_rad": a},
     timing="step",
     timed=lambda packed, place, start, end: {"world.bank_change_time_s": start},
+    onset_form_s=0.5,
     variant=True,
     sentence="From {onset} on the road is banked by {percent} percent (positive: left side high).",
     equation="F_y = -m g sin({value} rad) from t = {onset}",

@@ -30,6 +30,7 @@ FROM_AN_INSTANT = replace(
     values=lambda packed, place, a: {"world.grade_change_rad": a},
     timing="step",
     timed=lambda packed, place, start, end: {"world.grade_change_time_s": start},
+    onset_form_s=0.5,
     variant=True,
     sentence="From {onset} on the road climbs by {percent} percent along its course.",
     equation="F_x = -m g sin({value} rad) from t = {onset}",
