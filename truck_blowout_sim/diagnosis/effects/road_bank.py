@@ -11,7 +11,7 @@ from truck_blowout_sim.diagnosis.effects.base import (
     whole_truck,
 )
 
-_AMOUNT = Amount("bank_rad", "rad", step=0.005, low=-0.12, high=0.12, material=0.004)
+_AMOUNT = Amount("bank_rad", "rad", step=0.005, low=-0.12, high=0.12, material=0.0025)
 
 EFFECT = Effect(
     name="road_bank",
