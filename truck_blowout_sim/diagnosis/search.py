@@ -22,7 +22,8 @@ Floats = NDArray[np.float64]
 _MOST_EFFECTS = 3
 _FAR_FROM_ZERO = 3.0
 _FLAWLESS = 0.25  # of what is usually left: no prediction is better than that
-_LAW = 0.5  # of what is left, and of what was explained
+_LAW = 0.5  # of what is left unexplained: how far inexact laws may change places
+_ALIKE = 0.4  # less evidence than the best by more than this share is no alias
 _AT_BOUND = 0.002  # of the range
 _EVENT_WORTH = 0.8
 _NEXT_SHARE = 0.12
@@ -127,10 +128,10 @@ def slack(study: Study, best: Ranked, left: float = 0.0) -> float:
     """Evidence within which training does not tell explanations apart.
 
     ``left`` is what even the best explanations leave beyond the usual: laws that inexact may change
-    places by as much as half of it, though never with what explains less than half.
+    places by half of it, though never with what explains less than three fifths.
     """
     room = max(study.settings.keep_within * best.delta, 0.5 * study.settings.accept_delta)
-    return max(room, min(room + _LAW * left, _LAW * best.delta))
+    return max(room, min(room + _LAW * left, _ALIKE * best.delta))
 
 
 def _can_judge(study: Study, hypothesis: Hypothesis) -> bool:
