@@ -28,7 +28,7 @@ from truck_blowout_sim.simulation.equilibrium import initial_vector
 from truck_blowout_sim.vehicle import Packed
 
 Floats = NDArray[np.float64]
-_KNOWN = 0.5  # prior sigmas to which baseline runs must hold a number to count as known
+_KNOWN = 0.25  # prior sigmas to which baseline runs must hold a number to count as known
 
 
 def calibrate(study: Study, rounds: int = 2, progress: Progress | None = None) -> None:

@@ -20,6 +20,7 @@ Floats = NDArray[np.float64]
 _ROUNDS = 6
 _ENOUGH = 0.02  # of a standard error: the amount has converged
 _SHEET = 2.0  # prior sigmas a truck of the kind may stray
+_SHEET_POINTS = 5  # amounts of it that are simulated
 _STEP_SHARE = 0.15  # of the amount, lower bound of the finite difference
 
 
@@ -64,27 +65,50 @@ def refit(study: Study, start: Ranked, chi2_null: float,
                                              value, found.amount, fall, model)
         if moved <= _ENOUGH * sigma:
             break
-    evidence = fall + _strayed(study, start.hypothesis, named, chi2_null)
+    beyond = _beyond_sheet(study, start.hypothesis, named, chi2_null - fall)
+    evidence = fall if beyond is None else beyond
     return Ranked(start.hypothesis.at(value), fall, sigma, refitted=True, evidence=evidence)
 
 
-def _strayed(study: Study, hypothesis: Hypothesis, named: Sequence[Hypothesis],
-             chi2_null: float) -> float:
-    """How much worse the null gets if the number this effect stands for stays within the sheet.
+def _beyond_sheet(study: Study, hypothesis: Hypothesis, named: Sequence[Hypothesis],
+                  chi2_with: float) -> float | None:
+    """What the effect buys against a truck whose own number of this meaning keeps to its sheet.
 
-    A calibration number far beyond its prior is the effect under another name, not the truck.
+    A calibration number far beyond its prior is the effect under another name, not the truck; one
+    within it is the truck. Both are simulated, because far from the reference neither is linear.
+    None where no number of that meaning is open.
     """
-    plain, kept = study.projector(named), study.kept(named)
-    meaning = study.meaning(hypothesis)
-    places = [k for k, j in enumerate(kept) if study.names[j] == meaning]
-    if not places:
-        return 0.0
-    residual = study.residual()
-    usual = study.expected(meaning)
-    amount = float(np.clip(plain.amounts(residual)[places[0]], usual - _SHEET, usual + _SHEET))
-    column = study.columns[:, kept[places[0]]]
-    held = study.projector([*named, hypothesis]).chi2(residual - amount * column) + amount**2
-    return max(held - chi2_null, 0.0)
+    name = study.meaning(hypothesis)
+    if name not in study.names or name not in study.amounts:
+        return None
+    column, here = study.columns[:, study.names.index(name)], study.amounts[name]
+    nuisance = next(n for n in study.settings.nuisances if n.name == name)
+    # usual is the sheet, and what baseline runs seem to show, though they do not determine it
+    usual = (0.0, study.expected(name))
+    amounts = np.linspace(min(usual) - _SHEET, max(usual) + _SHEET, _SHEET_POINTS)
+    trucks = [study.packed.with_values(nuisance.values(study.packed, nuisance.between(here, a)))
+              for a in amounts.tolist()]
+    runs = range(len(study.runs))
+    results = iter(study.simulate([(study.runs[i], with_effects(
+        truck, named if i in study.train else (), study.runs[i].recording.name))
+        for truck in trucks for i in runs]))
+    projector = study.projector([*named, hypothesis])
+    # the runs were shifted by what the columns say of the reference: its own number comes twice
+    sums = np.array([
+        projector.chi2(study.residual({i: next(results) for i in runs}) - here * column)
+        + amount**2 for amount in amounts.tolist()])
+    return max(_valley(sums) - chi2_with, 0.0)
+
+
+def _valley(sums: Floats) -> float:
+    """Least of a smooth function sampled evenly: of the parabola about the least sample."""
+    k = int(np.clip(np.argmin(sums), 1, sums.size - 2))
+    before, here, after = sums[k - 1:k + 2]
+    bend = 0.5 * (before + after) - here
+    if bend <= 0.0:
+        return float(sums.min())
+    at = float(np.clip(0.25 * (before - after) / bend, -1.0, 1.0))
+    return float(min(here + 0.5 * (after - before) * at + bend * at * at, sums.min()))
 
 
 def _advance(study: Study, projector: Projector, hypothesis: Hypothesis,
