@@ -10,7 +10,8 @@ SET ?= ci
 
 OUT := out
 BIN := .venv/bin
-PYTEST := -m pytest -n $(JOBS) --dist loadfile
+# The files in their order: the long ones with few tests would otherwise come last, one behind another.
+PYTEST := -m pytest -n $(JOBS) --dist loadfile --no-loadscope-reorder
 
 # The environment is complete in itself: what a sourced ROS installation, or a Python that is already
 # inside such an environment, left in the variables must not leak in.
