@@ -19,7 +19,6 @@ from numpy.typing import NDArray
 from truck_blowout_sim.diagnosis.attribute import Ranked, with_effects
 from truck_blowout_sim.diagnosis.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.refit import chi2_of, models_at
-from truck_blowout_sim.diagnosis.runs import Run
 from truck_blowout_sim.diagnosis.study import Study
 
 Floats = NDArray[np.float64]
@@ -40,11 +39,6 @@ def edges_of(event: Hypothesis) -> int:
     return 2 if event.effect.timing == "pulse" else 1
 
 
-def length_s(run: Run) -> float:
-    """Length of a run."""
-    return float(run.edges_s[-1] - run.edges_s[0])
-
-
 def event_columns(study: Study, event: Hypothesis, others: Sequence[Hypothesis] = ()
                   ) -> tuple[Floats, Floats]:
     """Whitened change per unit of the amount and per second of each instant; how far each may go.
@@ -56,7 +50,7 @@ def event_columns(study: Study, event: Hypothesis, others: Sequence[Hypothesis] 
     ranges = [event.effect.amount.high - event.effect.amount.low]
     for i in runs:
         columns += [_edge_column(study, i, event, others, edge) for edge in range(edges)]
-        ranges += [length_s(study.runs[i])] * edges
+        ranges += [study.runs[i].length_s] * edges
     return np.stack(columns, axis=1), np.array(ranges)
 
 

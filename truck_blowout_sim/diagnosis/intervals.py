@@ -22,7 +22,6 @@ from truck_blowout_sim.diagnosis.event_fit import (
     edges_of,
     event_columns,
     event_information,
-    length_s,
     runs_with,
 )
 from truck_blowout_sim.diagnosis.hypothesis import Hypothesis
@@ -73,5 +72,5 @@ def _timing(run: Run, event: Hypothesis, covariance: Floats) -> Timing:
 def _interval(value: float, variance: float, run: Run) -> Interval:
     """90 % about a value, open where the data say nothing."""
     wide = _NINETY * float(np.sqrt(variance + _GRID_SIGMA_S**2))
-    wide = wide if wide < _OPEN * length_s(run) else float("inf")
+    wide = wide if wide < _OPEN * run.length_s else float("inf")
     return value - wide, value + wide

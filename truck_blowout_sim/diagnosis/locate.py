@@ -56,7 +56,7 @@ def missing_wrench(study: Study, i: int, body: str, models: Sequence[Floats],
     """
     projector = study.projector(named)
     run, name = study.runs[i], f"unit.{body}."
-    window = max(WINDOW_S, float(run.edges_s[-1] - run.edges_s[0]) / _MOST_WINDOWS)
+    window = max(WINDOW_S, run.length_s / _MOST_WINDOWS)
     starts = np.arange(run.edges_s[0], run.edges_s[-1] - 0.5 * window, window)
     truck = with_effects(study.packed, named, run.recording.name)
     jobs = [(run, truck.with_values({

@@ -57,6 +57,11 @@ class Run:
     correction: Floats
 
     @property
+    def length_s(self) -> float:
+        """From the first bin's beginning to the last one's end."""
+        return float(self.edges_s[-1] - self.edges_s[0])
+
+    @property
     def has_blowout(self) -> bool:
         """Whether a tire is blown on command."""
         return bool(self.recording.blowouts)

@@ -80,17 +80,19 @@ class Study:
 
     def projector(self, hypotheses: Sequence[Hypothesis] = ()) -> Projector:
         """Projector without the nuisances that mean the same as one of the hypotheses."""
+        return self._projected(hypotheses)[0]
+
+    def kept(self, hypotheses: Sequence[Hypothesis] = ()) -> list[int]:
+        """Positions of the nuisances that :meth:`projector` keeps."""
+        return self._projected(hypotheses)[1]
+
+    def _projected(self, hypotheses: Sequence[Hypothesis]) -> tuple[Projector, list[int]]:
+        """Projector and the nuisances in it, made once for each set that is left out."""
         drop = frozenset(self.meaning(h) for h in hypotheses)
         if drop not in self._projectors:
             keep = [k for k, name in enumerate(self.names) if name not in drop]
             self._projectors[drop] = (Projector.of(self.columns[:, keep]), keep)
-        return self._projectors[drop][0]
-
-    def kept(self, hypotheses: Sequence[Hypothesis] = ()) -> list[int]:
-        """Positions of the nuisances that :meth:`projector` keeps."""
-        self.projector(hypotheses)
-        drop = frozenset(self.meaning(h) for h in hypotheses)
-        return self._projectors[drop][1]
+        return self._projectors[drop]
 
     def simulate(self, jobs: Sequence[tuple[Run, Packed]]) -> list[Floats]:
         """Bin means of many (run, truck) pairs."""

@@ -27,7 +27,7 @@ Times = Mapping[str, tuple[float, float]]
 _GRID_S = 1.0
 _MOST_INSTANTS = 20
 _MARGIN_S = 0.5
-REFINE_S = (0.5, 0.25, 0.12)
+_REFINE_S = (0.5, 0.25, 0.12)
 
 
 def grid_of(run: Run) -> Floats:
@@ -37,7 +37,7 @@ def grid_of(run: Run) -> Floats:
 
 def spacing_s(run: Run) -> float:
     """Distance of the instants tried in a run: a second, more in long runs."""
-    return max(_GRID_S, float(run.edges_s[-1] - run.edges_s[0]) / _MOST_INSTANTS)
+    return max(_GRID_S, run.length_s / _MOST_INSTANTS)
 
 
 def scan(study: Study, projector: Projector, effect: Effect, place: Place,
@@ -124,7 +124,7 @@ def refine_times(study: Study, start: Ranked, chi2_null: float,
     best = start.hypothesis
     models = models_at(study, [best], named)[0]
     fall = chi2_null - chi2_of(study, projector, models)
-    for width in REFINE_S:
+    for width in _REFINE_S:
         for i in study.train:
             name = study.runs[i].recording.name
             if name not in best.times:

@@ -11,12 +11,10 @@ from truck_blowout_sim.diagnosis.effects.base import (
     whole_truck,
 )
 
-_AMOUNT = Amount("extra_drag_n", "N", step=800.0, low=-1500.0, high=40000.0, material=600.0,
-                 grid=(3000.0, 9000.0))
-
 EFFECT = Effect(
     name="driveline_drag",
-    amount=_AMOUNT,
+    amount=Amount("extra_drag_n", "N", step=800.0, low=-1500.0, high=40000.0, material=600.0,
+                  grid=(3000.0, 9000.0)),
     places=whole_truck,
     values=lambda packed, place, a: added(packed, "driveline.drag_extra_n", a),
     sentence="Off the throttle the driveline holds the drive wheels back with {value} N more than "

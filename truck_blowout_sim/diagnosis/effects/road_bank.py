@@ -11,11 +11,9 @@ from truck_blowout_sim.diagnosis.effects.base import (
     whole_truck,
 )
 
-_AMOUNT = Amount("bank_rad", "rad", step=0.005, low=-0.12, high=0.12, material=0.0025)
-
 EFFECT = Effect(
     name="road_bank",
-    amount=_AMOUNT,
+    amount=Amount("bank_rad", "rad", step=0.005, low=-0.12, high=0.12, material=0.0025),
     places=whole_truck,
     met=True,
     values=lambda packed, place, a: added(packed, "world.road_bank_rad", a),

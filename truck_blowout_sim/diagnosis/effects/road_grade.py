@@ -11,11 +11,9 @@ from truck_blowout_sim.diagnosis.effects.base import (
     whole_truck,
 )
 
-_AMOUNT = Amount("grade_rad", "rad", step=0.003, low=-0.12, high=0.12, material=0.0012)
-
 EFFECT = Effect(
     name="road_grade",
-    amount=_AMOUNT,
+    amount=Amount("grade_rad", "rad", step=0.003, low=-0.12, high=0.12, material=0.0012),
     places=whole_truck,
     met=True,
     values=lambda packed, place, a: added(packed, "world.road_grade_rad", a),
