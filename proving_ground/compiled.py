@@ -51,7 +51,8 @@ def _cached(function: Function, **options: object) -> Function:
     config: Any = numba.config
     before, config.CACHE_DIR = config.CACHE_DIR, FOLDER
     try:
-        result: Function = njit(cache=True, **options, **LEAN)(function)
+        choices: dict[str, Any] = {"cache": True, **options, **LEAN}
+        result: Function = njit(**choices)(function)
     finally:
         config.CACHE_DIR = before
     return result

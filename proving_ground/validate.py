@@ -114,7 +114,7 @@ def blowing(rig: Rig) -> Iterator[Figure]:
     truth = drive(rig, run, neutral(), 1)
     s, after = truth.samples, slice(200, 320)
     peak = int(np.argmax(s[after, 12]))
-    yield Figure("peak yaw rate within 1.2 s", float(s[after, 12].max()) / DEG, "deg/s", "2-2.5")
+    yield Figure("peak yaw rate within 1.2 s", float(np.max(s[after, 12])) / DEG, "deg/s", "2-2.5")
     yield Figure("time of that peak", 0.01 * peak, "s", "0.6-1.2")
     pressure = s[200:, 42]
     empty = float(0.01 * np.argmax(pressure < 0.02 * pressure[0]))

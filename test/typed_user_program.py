@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import numpy as np
+
 from truck_blowout_sim import (
     Recording,
     Scenario,
@@ -20,7 +22,7 @@ from truck_blowout_sim import (
 
 vehicle: Vehicle = load_vehicle("international_9400i_trailmobile")
 recording: Recording = simulate(vehicle, "steer_axle_blowout")
-peak_radps: float = float(abs(recording["tractor_yaw_rate_radps"].value).max())
+peak_radps: float = float(np.max(np.abs(recording["tractor_yaw_rate_radps"].value)))
 write_recording(recording, Path("out/run"))
 again: Recording = read_recording(Path("out/run"))
 weaker = pack(vehicle).with_values({"hub.trailer_2_left.brake_gain": 0.35})

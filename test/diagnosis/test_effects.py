@@ -57,7 +57,7 @@ def test_the_neutral_amount_changes_no_parameter(effect: Effect, vehicle: str) -
 @pytest.mark.parametrize("vehicle", config_names("vehicles"))
 def test_no_axle_has_a_name_twice(vehicle: str) -> None:
     loaded = load_vehicle(vehicle)
-    keys = [(effect.name, str(place), effect.variant)
+    keys = [(effect.name, str(place), effect.sentence)
             for effect in LIBRARY for place in effect.places(loaded)]
     assert len(keys) == len(set(keys))
 

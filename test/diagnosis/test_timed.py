@@ -48,17 +48,36 @@ def test_a_gust_is_found_with_its_interval(study_of: Studies, truck: Packed) -> 
     assert fine.hypothesis.amount == pytest.approx(18.0, rel=0.15)
 
 
-def test_a_shifting_load_is_found_with_its_instant(study_of: Studies, truck: Packed) -> None:
+@pytest.mark.parametrize("moves_for_s", [0.9, 2.5])
+def test_a_shifting_load_is_found_with_its_instant_and_how_long_it_moves(
+        study_of: Studies, truck: Packed, moves_for_s: float) -> None:
     effect = next(e for e in LIBRARY if e.name == "payload_shift")
     place, = effect.places(truck.vehicle)
     assert effect.timed is not None
-    study = study_of({**effect.values(truck, place, -0.4), **effect.timed(truck, place, 3.17, 9e9)})
+    study = study_of({**effect.values(truck, place, -0.4),
+                      **effect.timed(truck, place, 3.17, 3.17 + moves_for_s)})
     _, fine = located(study, "payload_shift")
-    assert fine.hypothesis.times["run 1"][0] == pytest.approx(3.17, abs=0.15)
-    assert fine.hypothesis.amount == pytest.approx(-0.4, abs=0.1)
-    low, high = time_intervals(study, fine)["run 1"].onset_s
-    assert low < fine.hypothesis.times["run 1"][0] < high
+    found = fit_event(study, fine, study.projector().chi2(study.residual()))
+    start, end = found.hypothesis.times["run 1"]
+    assert start == pytest.approx(3.17, abs=0.15)
+    assert end - start == pytest.approx(moves_for_s, rel=0.15)
+    assert found.hypothesis.amount == pytest.approx(-0.4, abs=0.04)
+    low, high = time_intervals(study, found)["run 1"].onset_s
+    assert low < start < high
     assert high - low < 1.0
+
+
+def test_the_block_that_moved_explains_more_than_the_other(study_of: Studies, truck: Packed
+                                                           ) -> None:
+    foremost, rearmost = (e for e in LIBRARY if e.name == "payload_shift" and e.variant)
+    place, = rearmost.places(truck.vehicle)
+    assert rearmost.timed is not None
+    study = study_of({**rearmost.values(truck, place, 0.3),
+                      **rearmost.timed(truck, place, 2.5, 3.2)})
+    projector = study.projector()
+    front, rear = (scan(study, projector, e, place) for e in (foremost, rearmost))
+    assert rear.delta > 1.2 * front.delta
+    assert rear.hypothesis.times["run 1"][0] == pytest.approx(2.5, abs=0.3)
 
 
 def test_numbers_of_an_event_settle_together(study_of: Studies, truck: Packed) -> None:

@@ -104,6 +104,21 @@ def test_a_held_twist_is_moment_over_stiffness(truck: Packed, state: Floats, wor
     assert state[S + UNIT_S.twist_rear_rad] == 0.0
 
 
+def test_a_load_that_moves_pushes_its_unit_back(truck: Packed, state: Floats, work: Floats,
+                                                block: Callable[[str], int]) -> None:
+    """Nothing acts from outside: the common center of gravity stays where it is."""
+    start_s, duration_s, shift_m = -0.2, 0.8, 0.3
+    values = {"unit.trailer.shift_y_m": shift_m, "unit.trailer.shift_start_s": start_s,
+              "unit.trailer.shift_duration_s": duration_s}
+    p, a = truck.with_values(values).params, block("unit.trailer")
+    body.start_unit(state, S, p, a, work, 0, (0.0, 0.0, 0.0))
+    pulled_mps2 = (6.0 - 12.0 * 0.25) * shift_m / duration_s**2  # a quarter of the way in time
+    share = p[a + UNIT.payload_kg] / p[a + UNIT.mass_kg]
+    found = accelerations(state, work)
+    assert found[1] == pytest.approx(-share * pulled_mps2)
+    assert found[5] * p[a + UNIT.payload_x_m] < 0.0  # it turns the end that it stands on aside
+
+
 def test_a_shifted_payload_moves_the_center_of_gravity(truck: Packed, state: Floats, work: Floats,
                                                        block: Callable[[str], int]) -> None:
     """A force at the new center of gravity of the whole does not turn it."""

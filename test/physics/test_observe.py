@@ -44,6 +44,19 @@ def test_gravity_enters_through_roll_and_pitch(truck: Packed, state: Floats, wor
     assert out["tractor_az_mps2"] == pytest.approx(9.81 * math.cos(roll))
 
 
+def test_roll_and_pitch_are_against_the_true_horizontal(truck: Packed, state: Floats, work: Floats
+                                                        ) -> None:
+    """A truck that stands square on its road leans with the road."""
+    banked = truck.with_values({"world.road_bank_rad": 0.03})
+    assert read(banked, state, work)["trailer_roll_rad"] == pytest.approx(0.03)
+    uphill = truck.with_values({"world.road_grade_rad": 0.02})
+    assert read(uphill, state, work)["tractor_pitch_rad"] == pytest.approx(-0.02)
+    state[S + UNIT_S.yaw_rad] = math.pi / 2.0  # across the slope: its left side is downhill
+    turned = read(uphill, state, work)
+    assert turned["tractor_roll_rad"] == pytest.approx(-0.02)
+    assert turned["tractor_pitch_rad"] == pytest.approx(0.0, abs=1e-12)
+
+
 def test_steady_circle(truck: Packed, state: Floats, work: Floats) -> None:
     """Yaw rate and speed alone: centripetal at the instrument, velocity by the lever arm."""
     r, u = 0.2, 15.0

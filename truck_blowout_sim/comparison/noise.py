@@ -12,6 +12,7 @@ Validated with: test/comparison/test_noise.py.
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -135,4 +136,4 @@ def _amount(text: str, words: str, series: Series) -> float | None:
         if scale is None:
             return None
         parts.append(float(number) * scale)
-    return float(np.hypot.reduce(parts)) if parts else None
+    return math.hypot(*parts) if parts else None

@@ -24,7 +24,7 @@ from truck_blowout_sim.diagnosis.study import Study
 Floats = NDArray[np.float64]
 _STEP_S = 0.06  # finite difference of an instant
 _SHORTEST_S = 0.06  # an event lasts at least this long
-_ROUNDS = 4
+_ROUNDS = 8
 _SHARES = (1.0, 0.5, 0.25, 0.1)
 _ENOUGH = 0.5  # fall of the sum of squares below which a round is the last
 
@@ -34,18 +34,13 @@ def runs_with(study: Study, event: Hypothesis) -> list[int]:
     return [i for i in study.train if study.runs[i].recording.name in event.times]
 
 
-def edges_of(event: Hypothesis) -> int:
-    """How many instants of a run are free: start and end of a pulse, else the start."""
-    return 2 if event.effect.timing == "pulse" else 1
-
-
 def event_columns(study: Study, event: Hypothesis, others: Sequence[Hypothesis] = ()
                   ) -> tuple[Floats, Floats]:
     """Whitened change per unit of the amount and per second of each instant; how far each may go.
 
     Returns [rows, 1 + edges * runs] and as many ranges.
     """
-    runs, edges = runs_with(study, event), edges_of(event)
+    runs, edges = runs_with(study, event), event.effect.edges
     columns = [_amount_column(study, event, others, runs)]
     ranges = [event.effect.amount.high - event.effect.amount.low]
     for i in runs:
@@ -85,13 +80,12 @@ def fit_event(study: Study, start: Ranked, chi2_null: float,
                 break
         if fall - before < _ENOUGH:
             break
-    bonus = max(start.evidence - start.delta, 0.0)
-    return Ranked(event, fall, sigma, refitted=True, evidence=fall + bonus)
+    return Ranked(event, fall, sigma, refitted=True, evidence=fall + start.evidence - start.delta)
 
 
 def _moved(study: Study, event: Hypothesis, step: Floats) -> Hypothesis:
     """The event with amount and instants moved, inside their bounds."""
-    amount, edges = event.effect.amount, edges_of(event)
+    amount, edges = event.effect.amount, event.effect.edges
     times = dict(event.times)
     for k, i in enumerate(runs_with(study, event)):
         run = study.runs[i]

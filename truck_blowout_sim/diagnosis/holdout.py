@@ -18,7 +18,7 @@ from truck_blowout_sim.diagnosis.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.linear import Projector
 from truck_blowout_sim.diagnosis.runs import Run
 from truck_blowout_sim.diagnosis.study import FURTHEST, Study
-from truck_blowout_sim.diagnosis.timed import grid_of
+from truck_blowout_sim.diagnosis.timed import bins_between, delayed, grid_of
 
 Floats = NDArray[np.float64]
 _REFINE_S = (0.4, 0.2, 0.1)
@@ -85,21 +85,25 @@ def _place(study: Study, run: Run, columns: Floats, amounts: Floats,
     lengths = [end - start for start, end in event.times.values()]
     length = float(np.median(lengths)) if lengths else np.inf
 
-    def falls(times: Sequence[float]) -> Floats:
+    def models(times: Sequence[float]) -> list[Floats]:
         trucks = [with_effects(study.packed, [*others, replace(event, times={
             name: (t, t + length)})], name) for t in times]
-        models = study.simulate([(run, truck) for truck in trucks])
-        return np.array([float(np.sum((run.residual(m) - columns @ amounts) ** 2))
-                         for m in models])
+        return study.simulate([(run, truck) for truck in trucks])
+
+    def left(model: Floats) -> float:
+        return float(np.sum((run.residual(model) - columns @ amounts) ** 2))
 
     without = study.simulate([(run, with_effects(study.packed, others, name))])[0]
-    least = float(np.sum((run.residual(without) - columns @ amounts) ** 2))
-    times = grid_of(run)
-    sums = falls(times.tolist())
-    at, best = float(times[int(np.argmin(sums))]), float(sums.min())
+    least, bin_s, grid = left(without), study.settings.bin_s, grid_of(run, event.effect)
+    sums = {float(time) + bins * bin_s: left(without + delayed(model - without, bins))
+            for time, model in zip(grid, models(grid.tolist()), strict=True)
+            for bins in bins_between(event.effect, run, bin_s)}
+    at = min(sums, key=lambda time: sums[time])
+    best = left(models([at])[0])
     for width in _REFINE_S:
-        trial = [at - width, at + width]
-        sums = falls(trial)
-        if sums.min() < best:
-            at, best = trial[int(np.argmin(sums))], float(sums.min())
+        found = {time: left(model) for time, model in zip(
+            (at - width, at + width), models([at - width, at + width]), strict=True)}
+        nearest = min(found, key=lambda time: found[time])
+        if found[nearest] < best:
+            at, best = nearest, found[nearest]
     return replace(event, times={name: (at, at + length)}) if best < least else None

@@ -18,12 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from truck_blowout_sim.diagnosis.attribute import Ranked
-from truck_blowout_sim.diagnosis.event_fit import (
-    edges_of,
-    event_columns,
-    event_information,
-    runs_with,
-)
+from truck_blowout_sim.diagnosis.event_fit import event_columns, event_information, runs_with
 from truck_blowout_sim.diagnosis.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.result_parts import Interval
 from truck_blowout_sim.diagnosis.runs import Run
@@ -48,7 +43,7 @@ def time_intervals(study: Study, found: Ranked, others: Sequence[Hypothesis] = (
     """Intervals for each run that has the event, ``others`` in force."""
     event = found.hypothesis
     runs = runs_with(study, event)
-    edges = edges_of(event)
+    edges = event.effect.edges
     matrix, priors = event_columns(study, event, others)
     covariance = np.asarray(
         np.linalg.inv(event_information(study, event, others, matrix, priors)), dtype=np.float64)

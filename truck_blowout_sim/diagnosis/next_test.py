@@ -89,7 +89,8 @@ def pair_of(rivals: Sequence[Ranked]) -> Pair | None:
     other = next((r.hypothesis for r in rivals[1:]
                   if r.hypothesis.effect.name != best.effect.name), rivals[1].hypothesis)
     timings = [h.effect.timing for h in (best, other) if h.times]
-    return None if "step" in timings or len(timings) == 2 else (best, other)
+    stays = "step" in timings or "ramp" in timings
+    return None if stays or len(timings) == 2 else (best, other)
 
 
 def _difference(study: Study, run: Run, pair: Pair, others: Sequence[Hypothesis]) -> Floats | None:

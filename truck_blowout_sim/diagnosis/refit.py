@@ -106,9 +106,9 @@ def _valley(sums: Floats) -> float:
     before, here, after = sums[k - 1:k + 2]
     bend = 0.5 * (before + after) - here
     if bend <= 0.0:
-        return float(sums.min())
+        return float(np.min(sums))
     at = float(np.clip(0.25 * (before - after) / bend, -1.0, 1.0))
-    return float(min(here + 0.5 * (after - before) * at + bend * at * at, sums.min()))
+    return float(min(here + 0.5 * (after - before) * at + bend * at * at, np.min(sums)))
 
 
 def _advance(study: Study, projector: Projector, hypothesis: Hypothesis,

@@ -70,7 +70,9 @@ def search(study: Study, progress: Progress | None = None, most: int = _MOST_EFF
             break
         rounds.append(ranked)
     left = found.chi2_after - study.settings.expected_level * study.columns.shape[0]
-    found.rivals = [_rivals(best, ranked, slack(study, best, left))
+    taken = {r.hypothesis.key for r in found.named}
+    found.rivals = [_rivals(best, [r for r in ranked if r.hypothesis.key not in taken],
+                            slack(study, best, left))
                     for best, ranked in zip(found.named, rounds, strict=True)]
     return found
 
@@ -186,7 +188,6 @@ def _predict_with(study: Study, named: Sequence[Hypothesis]
 
 
 def _rivals(best: Ranked, ranked: Sequence[Ranked], room: float) -> tuple[Ranked, ...]:
-    """Hypotheses of the same round that explain nearly as much: the alias set, best first."""
-    others = [r for r in ranked if r.hypothesis.key != best.hypothesis.key
-              and r.delta > best.delta - room and r.refitted]
+    """The alias set, best first: what is not named itself and explains nearly as much."""
+    others = [r for r in ranked if r.delta > best.delta - room and r.refitted]
     return (best, *others)

@@ -27,6 +27,8 @@ _REFIT_TIMED = 2
 _TIMED_COST = 8.0  # evidence that choosing an instant in a run costs
 _TIMED_SHARE = 0.15  # and the share that freedom of shape costs: steady causes come first
 _WORTH_REFITTING = 0.25  # of the threshold
+_HALF = 0.5  # of what the best explains: less is no rival
+_MUCH = 0.5  # of what is unusual: an event that explains it leaves no call for others
 _LARGE = 3.0  # thresholds of mismatch, from which on a tire may have been lost unseen
 
 
@@ -47,7 +49,7 @@ def shortlist(study: Study, named: Sequence[Hypothesis], progress: Progress | No
         else:
             done.append(one)
     best = max((r.delta for r in done if r.refitted), default=0.0)
-    done += _events(study, named, chi2, max(worth, 0.5 * best), ranked, progress)
+    done += _events(study, named, chi2, max(worth, _HALF * best), ranked, progress)
     best_of: dict[tuple[str, str], Ranked] = {}
     for one in sorted(done, key=lambda r: (-r.delta, r.hypothesis.key)):
         if one.hypothesis.key not in taken:
@@ -58,6 +60,7 @@ def shortlist(study: Study, named: Sequence[Hypothesis], progress: Progress | No
 def _events(study: Study, named: Sequence[Hypothesis], chi2: float, worth: float,
             steady: Sequence[Ranked], progress: Progress | None) -> list[Ranked]:
     """Tires that lost pressure by themselves, and everything scanned over time."""
+    excess = chi2 - study.settings.expected_level * study.columns.shape[0]
     found = [_failed(study, named, chi2, tire, times)
              for tire, times in failed_tires(study, study.train).items()]
     projector, tried = study.projector(named), _event_places(study, named, steady)
@@ -67,11 +70,16 @@ def _events(study: Study, named: Sequence[Hypothesis], chi2: float, worth: float
         if progress:
             progress("events", (k + 1) / len(tried))
     scanned.sort(key=lambda r: -r.delta)
-    for k, one in enumerate(scanned):
+    keys: set[tuple[str, str]] = set()
+    for one in scanned:
         cost = _TIMED_COST * len(one.hypothesis.times) + _TIMED_SHARE * one.delta
-        # what acts only near a limit shows little to a linear scan
-        curved = bool(one.hypothesis.effect.amount.grid) and _large(study, steady)
-        if one.hypothesis.times and (curved or (k < _REFIT_TIMED and one.delta - cost > worth)):
+        # what acts only near a limit shows little to a linear scan: looked at where much is open
+        curved = bool(one.hypothesis.effect.amount.grid) and _large(study, steady) and (
+            max((r.delta for r in found), default=0.0) < _MUCH * excess)
+        among = one.hypothesis.key in keys or len(keys) < _REFIT_TIMED
+        worth = max(worth, _HALF * max((r.delta for r in found), default=0.0))
+        if one.hypothesis.times and (curved or (among and one.delta - cost > worth)):
+            keys.add(one.hypothesis.key)
             one = refine_times(study, one, chi2, named)
             one = fit_event(study, refit(study, one, chi2, named), chi2, named)
             cost = _TIMED_COST * len(one.hypothesis.times) + _TIMED_SHARE * max(one.delta, 0.0)
@@ -89,14 +97,15 @@ def _event_places(study: Study, named: Sequence[Hypothesis], steady: Sequence[Ra
                   ) -> list[tuple[Effect, Place]]:
     """Where each event is looked for: another form only where the steady one explains something."""
     settings, taken = study.settings, {h.key for h in named}
-    promising = {r.hypothesis.effect.name for r in steady
-                 if r.promise > _WORTH_REFITTING * settings.accept_delta}
+    idle = {r.hypothesis.effect.name for r in steady} - {
+        r.hypothesis.effect.name for r in steady
+        if r.promise > _WORTH_REFITTING * settings.accept_delta}
     tried: list[tuple[Effect, Place]] = []
     for effect in timed_effects():
         places = effect.places(study.packed.vehicle)
         if effect.name == secondary_blowout.EFFECT.name:
             places = unwatched_tires(study) if _large(study, steady) else ()
-        elif effect.variant and effect.name not in promising:
+        elif effect.variant and effect.name in idle:
             continue
         tried += [(effect, p) for p in places if (effect.name, str(p)) not in taken]
     return tried

@@ -27,12 +27,15 @@ Times = Mapping[str, tuple[float, float]]
 _GRID_S = 1.0
 _MOST_INSTANTS = 20
 _MARGIN_S = 0.5
+_FINER_BINS = 2
+_DELAYED_OVER = 3  # instants: so long, what a ramp does hardly depends on when it begins
 _REFINE_S = (0.5, 0.25, 0.12)
 
 
-def grid_of(run: Run) -> Floats:
-    """Instants tried in a run."""
-    return np.arange(run.edges_s[0] + _MARGIN_S, run.edges_s[-1] - _MARGIN_S, spacing_s(run))
+def grid_of(run: Run, effect: Effect) -> Floats:
+    """Instants of an effect simulated in a run."""
+    return np.arange(run.edges_s[0] + _MARGIN_S, run.edges_s[-1] - _MARGIN_S,
+                     spacing_s(run) * (_DELAYED_OVER if effect.timing == "ramp" else 1))
 
 
 def spacing_s(run: Run) -> float:
@@ -48,10 +51,10 @@ def scan(study: Study, projector: Projector, effect: Effect, place: Place,
     for i in study.train:
         run = study.runs[i]
         truck = with_effects(study.packed, named, run.recording.name)
-        grid = grid_of(study.runs[i])
+        grid = grid_of(run, effect)
         for k, time in enumerate(grid):
-            end = time + spacing_s(study.runs[i]) if effect.timing == "pulse" else np.inf
-            trial = Hypothesis(effect, place, step, {run.recording.name: (float(time), end)})
+            span = (float(time), effect.end_s(float(time), spacing_s(run)))
+            trial = Hypothesis(effect, place, step, {run.recording.name: span})
             jobs.append((run, trial.apply(truck, run.recording.name)))
             keys.append((i, k))
     results = dict(zip(keys, study.simulate(jobs), strict=True))
@@ -75,9 +78,8 @@ def _best_of_sign(study: Study, projector: Projector, effect: Effect, place: Pla
     times: dict[str, tuple[float, float]] = {}
     total = np.zeros(residual.size)
     for i in study.train:
-        run, grid = study.runs[i], grid_of(study.runs[i])
-        single = [run.change(results[(i, k)], study.models[i]) / effect.amount.step
-                  for k in range(grid.size)]
+        run = study.runs[i]
+        grid, single = _responses(study, effect, i, results)
         delta, span, column = _best_span(study, projector, effect, i, grid, single, residual,
                                          removed, low, high)
         if delta > 4.0:
@@ -86,6 +88,38 @@ def _best_of_sign(study: Study, projector: Projector, effect: Effect, place: Pla
     found = score(projector, residual, removed, total, low, high)
     return Ranked(Hypothesis(effect, place, found.amount, times), found.delta, found.sigma,
                   evidence=found.delta)
+
+
+def _responses(study: Study, effect: Effect, i: int, results: Mapping[tuple[int, int], Floats]
+               ) -> tuple[Floats, list[Floats]]:
+    """Instants in one run, and the whitened response per unit of the amount to each."""
+    run = study.runs[i]
+    grid = grid_of(run, effect)
+    later = bins_between(effect, run, study.settings.bin_s)
+    times, found = [], []
+    for k, time in enumerate(grid.tolist()):
+        change = results[(i, k)] - study.models[i]
+        for bins in later:
+            times.append(time + bins * study.settings.bin_s)
+            found.append(run.change(delayed(change, bins), np.zeros(1)) / effect.amount.step)
+    return np.array(times), found
+
+
+def delayed(change: Floats, bins: int) -> Floats:
+    """What an event changes [n, m], had it come so many bins later."""
+    moved = np.zeros(change.shape)
+    moved[bins:] = change[:change.shape[0] - bins]
+    return moved
+
+
+def bins_between(effect: Effect, run: Run, bin_s: float) -> range:
+    """By how many bins to delay the response to one instant tried, up to the next instant.
+
+    What a ramp does soon after it begins is as short as the ramp; other events begin slowly enough.
+    """
+    if effect.timing != "ramp":
+        return range(1)
+    return range(0, round(_DELAYED_OVER * spacing_s(run) / bin_s), _FINER_BINS)
 
 
 def _best_span(study: Study, projector: Projector, effect: Effect, i: int, grid: Floats,
@@ -111,8 +145,7 @@ def _best_span(study: Study, projector: Projector, effect: Effect, i: int, grid:
             amount = float(np.clip(slope / information, low, high))
             delta = 2.0 * amount * slope - amount**2 * information
             if delta > best[0]:
-                end = float(grid[last]) + spacing_s(study.runs[i])
-                end = end if effect.timing == "pulse" else np.inf
+                end = effect.end_s(float(grid[last]), spacing_s(study.runs[i]))
                 best = (delta, (float(grid[first]), end), matrix[:, pick].sum(axis=1))
     return best
 
@@ -129,7 +162,7 @@ def refine_times(study: Study, start: Ranked, chi2_null: float,
             name = study.runs[i].recording.name
             if name not in best.times:
                 continue
-            trials = _moved(best, name, width, best.effect.timing == "pulse")
+            trials = _moved(best, name, width)
             truck = with_effects(study.packed, named, name)
             results = study.simulate([(study.runs[i], t.apply(truck, name)) for t in trials])
             falls = [chi2_null - chi2_of(study, projector, {**models, i: r}) for r in results]
@@ -137,15 +170,18 @@ def refine_times(study: Study, start: Ranked, chi2_null: float,
             if falls[k] > fall:
                 best, fall = trials[k], falls[k]
                 models[i] = results[k]
-    bonus = max(start.evidence - start.delta, 0.0)
-    return Ranked(best, fall, start.sigma, refitted=True, evidence=fall + bonus)
+    return Ranked(best, fall, start.sigma, refitted=True,
+                  evidence=fall + start.evidence - start.delta)
 
 
-def _moved(hypothesis: Hypothesis, run: str, width: float, pulse: bool) -> list[Hypothesis]:
-    """The hypothesis with one run's start (and end) moved to either side."""
+def _moved(hypothesis: Hypothesis, run: str, width: float) -> list[Hypothesis]:
+    """The hypothesis with one run's start, or end, moved to either side; a ramp moves whole."""
     start, end = hypothesis.times[run]
-    spans = [(start - width, end), (start + width, end)]
-    if pulse:
+    if hypothesis.effect.timing == "ramp":
+        spans = [(start - width, end - width), (start + width, end + width)]
+    else:
+        spans = [(start - width, end), (start + width, end)]
+    if hypothesis.effect.edges == 2:
         spans += [(start, end - width), (start, end + width)]
     return [replace(hypothesis, times={**hypothesis.times, run: span})
             for span in spans if span[1] > span[0] + 0.05]

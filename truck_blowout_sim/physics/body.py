@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from truck_blowout_sim.physics.jit import core
 from truck_blowout_sim.physics.layout import UNIT, UNIT_S, UNIT_W
-from truck_blowout_sim.physics.scalar import clip, smooth
+from truck_blowout_sim.physics.scalar import clip, smooth, smooth_slopes
 
 Floats = NDArray[np.float64]
 
@@ -103,7 +103,8 @@ def start_unit(x: Floats, s: int, p: Floats, a: int, work: Floats, w: int,
 @core
 def shift_payload(x: Floats, s: int, p: Floats, a: int, work: Floats, w: int) -> None:
     """Move the payload: first moment, inertia and weight moment of the displaced mass."""
-    share = smooth((x[0] - p[a + UNIT.shift_start_s]) / p[a + UNIT.shift_duration_s])
+    time = (x[0] - p[a + UNIT.shift_start_s]) / p[a + UNIT.shift_duration_s]
+    share = smooth(time)
     if share <= 0.0 or p[a + UNIT.payload_kg] <= 0.0:
         return
     m = p[a + UNIT.payload_kg]
@@ -134,6 +135,21 @@ def shift_payload(x: Floats, s: int, p: Floats, a: int, work: Floats, w: int) ->
     work[w + UNIT_W.fx_n] -= pr * dot - w2 * sx
     work[w + UNIT_W.fy_n] -= qr * dot - w2 * sy
     work[w + UNIT_W.fz_n] -= rr * dot
+    if time < 1.0:
+        _push_back(x, s, p, a, work, w, smooth_slopes(time), (x1, y1, z0))
+
+
+@core
+def _push_back(x: Floats, s: int, p: Floats, a: int, work: Floats, w: int,
+               slopes: tuple[float, float], at: tuple[float, float, float]) -> None:
+    """What moving the load pushes its unit back with: -m (a_rel + 2 omega x v_rel) where it is."""
+    m, duration = p[a + UNIT.payload_kg], p[a + UNIT.shift_duration_s]
+    rate, bend = slopes[0] / duration, slopes[1] / (duration * duration)
+    dx, dy = p[a + UNIT.shift_x_m], p[a + UNIT.shift_y_m]
+    pr, qr, rr = x[s + UNIT_S.p_radps], x[s + UNIT_S.q_radps], x[s + UNIT_S.r_radps]
+    add_force(work, w, (-m * (bend * dx - 2.0 * rr * rate * dy),
+                        -m * (bend * dy + 2.0 * rr * rate * dx),
+                        -2.0 * m * rate * (pr * dy - qr * dx)), at)
 
 
 @core

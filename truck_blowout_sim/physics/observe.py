@@ -1,18 +1,24 @@
 """What instruments on the truck would read: one output vector from the state.
 
 References: INS strapdown equations; axes and positions in docs/recordings.md.
-Known limits: ideal instruments (noise and filters belong to recordings, not to the truck).
-Validated with: test/physics/test_observe.py (at rest +g, circular motion, gravity through roll).
+Known limits: ideal instruments (noise and filters belong to recordings); gyros do
+not feel a slope begin (roll and pitch do).
+Validated with: test/physics/test_observe.py (at rest +g, circular motion, gravity through roll,
+roll of a banked road).
 """
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 from numpy.typing import NDArray
 
+from truck_blowout_sim.physics import road
 from truck_blowout_sim.physics.fifth_wheel import point_velocity
 from truck_blowout_sim.physics.jit import core, entry
 from truck_blowout_sim.physics.layout import (
+    GLOBAL_S,
     HUB_S,
     STATE_UNIT_AT,
     TIRE_S,
@@ -23,7 +29,7 @@ from truck_blowout_sim.physics.layout import (
     UNIT_SIZE,
     UNIT_W,
 )
-from truck_blowout_sim.physics.rotation import fill_rotation, to_map
+from truck_blowout_sim.physics.rotation import fill_rotation, to_body, to_map
 
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
@@ -82,8 +88,9 @@ def _observe_unit(x: Floats, s: int, p: Floats, a: int, work: Floats, out: Float
     m = to_map(work, 0, bx, by, bz)
     v = point_velocity(x, s, bx, by, bz)
     out[k], out[k + 1] = x[s + UNIT_S.x_m] + m[0], x[s + UNIT_S.y_m] + m[1]
-    out[k + 2], out[k + 3] = x[s + UNIT_S.yaw_rad], x[s + UNIT_S.roll_rad]
-    out[k + 4], out[k + 5], out[k + 6] = x[s + UNIT_S.pitch_rad], v[0], v[1]
+    roll_rad, pitch_rad = _tilt(x, s, p, work)
+    out[k + 2], out[k + 3], out[k + 4] = x[s + UNIT_S.yaw_rad], roll_rad, pitch_rad
+    out[k + 5], out[k + 6] = v[0], v[1]
     wx, wy, wz = x[s + UNIT_S.p_radps], x[s + UNIT_S.q_radps], x[s + UNIT_S.r_radps]
     out[k + 7], out[k + 8], out[k + 9] = wz, wx, wy
     cx, cy, cz = wy * bz - wz * by, wz * bx - wx * bz, wx * by - wy * bx
@@ -96,3 +103,17 @@ def _observe_unit(x: Floats, s: int, p: Floats, a: int, work: Floats, out: Float
                    - x[s + UNIT_S.gz_mps2])
     out[k + 13] = x[s + UNIT_S.z_m] + m[2]
     out[k + 14] = (work[UNIT_W.rzx] * v[0] + work[UNIT_W.rzy] * v[1] + work[UNIT_W.rzz] * v[2])
+
+
+@core
+def _tilt(x: Floats, s: int, p: Floats, work: Floats) -> tuple[float, float]:
+    """Roll and pitch [rad] against the true horizontal: of the unit on its road, and of the road.
+
+    ``work`` holds the unit's rotation. Without gravity there is no horizontal but the road.
+    """
+    g = road.gravity(p, x[GLOBAL_S.time_s])
+    size = math.sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2])
+    if size <= 0.0:
+        return x[s + UNIT_S.roll_rad], x[s + UNIT_S.pitch_rad]
+    down = to_body(work, 0, g[0] / size, g[1] / size, g[2] / size)
+    return math.atan2(-down[1], -down[2]), math.asin(min(max(down[0], -1.0), 1.0))

@@ -57,3 +57,11 @@ def smooth(share: float) -> float:
     """Cubic step from 0 to 1 as ``share`` runs from 0 to 1."""
     s = clip(share, 0.0, 1.0)
     return s * s * (3.0 - 2.0 * s)
+
+
+@core
+def smooth_slopes(share: float) -> tuple[float, float]:
+    """First and second derivative of :func:`smooth`; zero where it has ended."""
+    if share <= 0.0 or share >= 1.0:
+        return 0.0, 0.0
+    return 6.0 * share * (1.0 - share), 6.0 - 12.0 * share

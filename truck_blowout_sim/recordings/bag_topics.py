@@ -108,7 +108,7 @@ def read_topic(topic: Topic, file: Path) -> TopicSeries:
     log = np.array(topic.log_times_ns, dtype=np.uint64)
     if (log > _LATEST_NS).any():
         raise InputError(
-            f"log time {log.max()} ns", file=file, where=f"topic {topic.name}", expected="a time"
+            f"log time {np.max(log)} ns", file=file, where=f"topic {topic.name}", expected="a time"
         )
     log_ns = log.astype(np.int64)
     order = np.argsort(log_ns, kind="stable")

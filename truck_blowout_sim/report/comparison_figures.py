@@ -167,7 +167,7 @@ def _pressures(comparison: Comparison) -> Iterator[Picture]:
     quiet: list[str] = []
     for axle in comparison.vehicle.axles:
         names = [f"brake_chamber_{axle}_{side}_pa" for side in ("left", "right")]
-        known = [comparison.model[name].value.max() for name in names if name in comparison.model]
+        known = [np.max(comparison.model[name].value) for name in names if name in comparison.model]
         if known:
             (braked if max(known) > _QUIET_PA else quiet).append(axle)
     if not braked:

@@ -69,9 +69,9 @@ def combine(parts: Iterable[MassProperties]) -> MassProperties:
     return MassProperties(mass, x, z, ixx, iyy, izz, ixz)
 
 
-def payload_mass(unit: UnitSpec) -> MassProperties:
-    """All payload blocks of a unit; of zero mass where it carries none."""
-    return combine(box_mass(box) for box in unit.payload.values())
+def payload_mass(unit: UnitSpec, blocks: Iterable[str] | None = None) -> MassProperties:
+    """Payload blocks of a unit, all or those named; of zero mass where it carries none."""
+    return combine(box_mass(unit.payload[b]) for b in (unit.payload if blocks is None else blocks))
 
 
 def unit_mass(unit: UnitSpec) -> MassProperties:

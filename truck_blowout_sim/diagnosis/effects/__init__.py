@@ -56,7 +56,8 @@ _MODULES = (
 )
 LIBRARY: tuple[Effect, ...] = (*(module.EFFECT for module in _MODULES),
                                driveline_drag.RETARDER, road_grade.FROM_AN_INSTANT,
-                               road_bank.FROM_AN_INSTANT)
+                               road_bank.FROM_AN_INSTANT, payload_shift.FOREMOST,
+                               payload_shift.REARMOST)
 """Every candidate, physics first."""
 
 __all__ = ["LIBRARY", "Amount", "Effect"]

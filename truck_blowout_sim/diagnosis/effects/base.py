@@ -10,11 +10,13 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
+import numpy as np
+
 from truck_blowout_sim.diagnosis.result_parts import Kind, Place
 from truck_blowout_sim.vehicle import Packed, Vehicle
 
 Values = Mapping[str, float]
-Timing = Literal["always", "step", "pulse"]
+Timing = Literal["always", "step", "pulse", "ramp"]
 
 
 @dataclass(frozen=True)
@@ -49,7 +51,9 @@ class Effect:
         amount: how strong.
         places: where it can act on a vehicle.
         values: packed parameters for a place and an amount (absolute values).
-        timing: ``always`` there; a ``step`` at an instant; a ``pulse`` over an interval.
+        timing: ``always`` there; a ``step`` at an instant; a ``pulse`` over an interval; a ``ramp``
+            that grows over an interval and stays.
+        ramp_s: how long a ramp grows, to begin with.
         timed: packed parameters for (place, start, end) of a timed effect.
         applies: which runs can show it at all.
         sentence: for a person; fields ``{where}``, ``{value}``, ``{percent}``, ``{onset}``.
@@ -60,7 +64,7 @@ class Effect:
         met: met on the way (wind, slope, grip, an event) and not a property of the truck, so that
             runs of the same truck elsewhere say nothing about it.
         variant: another form of an effect of the same name. One with an onset is tried where the
-            steady form explains something.
+            steady form, if there is one, explains something.
         neutral: amount at which a vehicle is as given; 0 unless it lacks the part altogether.
         absorbs: calibration number that means the same as this amount; ``{hub}`` and ``{circuit}``
             are filled in.
@@ -74,6 +78,7 @@ class Effect:
     equation: str
     splits: str
     timing: Timing = "always"
+    ramp_s: float = 0.0
     timed: Callable[[Packed, Place, float, float], Values] | None = None
     applies: Literal["any", "blowout", "brakes"] = "any"
     kind: Kind = "physics"
@@ -82,6 +87,15 @@ class Effect:
     met: bool = False
     variant: bool = False
     neutral: Callable[[Packed], float] = lambda packed: 0.0
+
+    @property
+    def edges(self) -> int:
+        """How many instants of a run are free: start and end of what ends, else the start."""
+        return 2 if self.timing in ("pulse", "ramp") else 1
+
+    def end_s(self, start_s: float, spacing_s: float) -> float:
+        """End to begin with, of an event found on a grid of that spacing."""
+        return start_s + {"pulse": spacing_s, "ramp": self.ramp_s}.get(self.timing, np.inf)
 
 
 def whole_truck(vehicle: Vehicle) -> Sequence[Place]:

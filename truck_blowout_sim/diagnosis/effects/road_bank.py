@@ -25,6 +25,7 @@ EFFECT = Effect(
 
 FROM_AN_INSTANT = replace(
     EFFECT,
+    amount=replace(EFFECT.amount, material=0.0012),  # the same road before it shows the crossfall
     values=lambda packed, place, a: {"world.bank_change_rad": a},
     timing="step",
     timed=lambda packed, place, start, end: {"world.bank_change_time_s": start},

@@ -75,7 +75,7 @@ def _inputs(run: Recording, driven: Recording) -> list[Row]:
 
 def _yaw(run: Recording) -> list[Row]:
     early = yaw_rate_degps(run, "tractor", 0.0, 1.5)
-    peak = float(early.max())
+    peak = float(np.max(early))
     when = float(np.argmax(early) * run["tractor_yaw_rate_radps"].period_s)
     swing = float(yaw_rate_degps(run, "tractor", 1.5, 3.5).mean())
     hold = float(yaw_rate_degps(run, "tractor", 3.5, 10.0).mean())
@@ -112,7 +112,7 @@ def _against_the_log(run: Recording, log: Recording) -> list[Row]:
     along = feet(1.0) * (run.at("tractor_x_m", times) - log.at("tractor_x_m", times))
     yaw = -np.degrees(run.at("tractor_yaw_rate_radps", times)
                       - log.at("tractor_yaw_rate_radps", times))
-    miss = float(yaw[np.abs(times - 1.0).argmin()])
+    miss = float(yaw[np.argmin(np.abs(times - 1.0))])
     worst = float(np.abs(speed).max())
     return [
         Row("V15", "speed error", "at most 0.6 mph (TruckSim)", f"{worst:.2f} mph", worst <= 0.6,
@@ -131,9 +131,9 @@ def _against_the_log(run: Recording, log: Recording) -> list[Row]:
 def _rest(packed: Packed, run: Recording, driven: Recording) -> list[Row]:
     lateral = float(np.abs(mph(1.0) * window(run, "tractor_vy_mps", 0.0, 10.0)).max())
     names = packed.names.hubs
-    tractor = max((float(window(run, f"brake_chamber_{h}_pa", -1.0, 10.0).max()) for h in names
+    tractor = max((float(np.max(window(run, f"brake_chamber_{h}_pa", -1.0, 10.0))) for h in names
                    if not h.startswith("trailer")), default=0.0)
-    trailer = max((float(window(run, f"brake_chamber_{h}_pa", -1.0, 10.0).max()) for h in names
+    trailer = max((float(np.max(window(run, f"brake_chamber_{h}_pa", -1.0, 10.0))) for h in names
                    if h.startswith("trailer")), default=0.0)
     tire = packed.names.tires[0]
     peak = packed[f"tire.{tire}.peak_y"] * packed[f"tire.{tire}.friction_scale"]

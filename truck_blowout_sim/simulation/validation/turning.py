@@ -40,7 +40,7 @@ def _first_second(run: Recording, normal: Recording, unit: str) -> float:
     """Largest change of yaw rate in the first second after the blowout, signed [deg/s]."""
     change = (yaw_rate_degps(run, unit, _BLOWN_S, _BLOWN_S + 1.0)
               - yaw_rate_degps(normal, unit, _BLOWN_S, _BLOWN_S + 1.0))
-    return float(change[np.abs(change).argmax()])
+    return float(change[np.argmax(np.abs(change))])
 
 
 def _path_change_m(run: Recording, normal: Recording, unit: str) -> float:
@@ -76,7 +76,7 @@ def _single_dual(runs: Mapping[str, Recording]) -> list[Row]:
     run, normal = runs["outer"], runs["none"]
     rate = max(abs(_late(run, unit) - _late(normal, unit)) for unit in ("tractor", "trailer"))
     moved = abs(_outward_m(run, normal))
-    load = float(window(run, "tire_fz_trailer_1_right_inner_n", 6.0, _END_S).max())
+    load = float(np.max(window(run, "tire_fz_trailer_1_right_inner_n", 6.0, _END_S)))
     return [Row("Q1", "one outer dual: path and yaw unchanged, its partner carries the load",
                 "yes; yaw rate within 0.1 deg/s, path within 0.3 m",
                 f"yaw rate {rate:.2f} deg/s, path {moved:.2f} m; partner carries "
@@ -113,7 +113,7 @@ def _drive(runs: Mapping[str, Recording]) -> list[Row]:
     right, left, normal = runs["right"], runs["left"], runs["none"]
     dr, dl = (_first_second(run, normal, "tractor") for run in (right, left))
     late = _late(right, "tractor")
-    peak = float(yaw_rate_degps(right, "tractor", _BLOWN_S, _END_S).max())
+    peak = float(np.max(yaw_rate_degps(right, "tractor", _BLOWN_S, _END_S)))
     return [
         Row("Q6", "either drive blowout: more yaw into the turn", "yes",
             f"left {dl:+.2f}, right {dr:+.2f} deg/s in the first second", dl > 0.0 and dr > 0.0),

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from truck_blowout_sim.physics import layout
 from truck_blowout_sim.vehicle.masses import payload_mass, unit_mass
 from truck_blowout_sim.vehicle.packing.blocks import fill
@@ -10,6 +12,8 @@ from truck_blowout_sim.vehicle.schema.body import UnitSpec
 from truck_blowout_sim.vehicle.schema.controls import ABS_MODES
 from truck_blowout_sim.vehicle.schema.road import RoadSpec
 from truck_blowout_sim.vehicle.vehicle import Vehicle
+
+_LOAD = ("payload_kg", "payload_x_m", "payload_y_m", "payload_z_m", "payload_rear_share")
 
 
 def world_block(road: RoadSpec) -> list[float]:
@@ -92,19 +96,25 @@ def torsion_ends(unit: UnitSpec) -> dict[str, float]:
     }
 
 
-def rear_share(unit: UnitSpec, middle_m: float) -> float:
-    """Share of the payload that stands behind the center of gravity."""
-    total = sum(box.mass_kg for box in unit.payload.values())
-    behind = sum(box.mass_kg for box in unit.payload.values() if box.x_m > middle_m)
-    return behind / total if total > 0.0 else 0.0
+def movable_load(unit: UnitSpec, blocks: Sequence[str] | None = None) -> dict[str, float]:
+    """The part of the payload that may move, from the unit's center of gravity, x forward.
+
+    Args:
+        blocks: names of the blocks; None for all.
+    """
+    middle, moved = unit_mass(unit), tuple(unit.payload) if blocks is None else tuple(blocks)
+    cargo = payload_mass(unit, moved)
+    if cargo.mass_kg <= 0.0:
+        return dict.fromkeys(_LOAD, 0.0)
+    behind = sum(unit.payload[b].mass_kg for b in moved if unit.payload[b].x_m > middle.x_m)
+    return dict(zip(_LOAD, (cargo.mass_kg, middle.x_m - cargo.x_m, 0.0, cargo.z_m - middle.z_m,
+                            behind / cargo.mass_kg), strict=True))
 
 
 def unit_block(vehicle: Vehicle, name: str) -> list[float]:
     """A sprung body with its cargo, seen from the common center of gravity, x forward."""
     unit = vehicle.unit_specs[name]
-    mass, cargo = unit_mass(unit), payload_mass(unit)
-    base, hitch, air = unit.base_link, unit.hitch, unit.air
-    has_cargo = cargo.mass_kg > 0.0
+    mass, base, hitch, air = unit_mass(unit), unit.base_link, unit.hitch, unit.air
     computed = {
         "mass_kg": mass.mass_kg,
         "ixx_kgm2": mass.ixx_kgm2,
@@ -125,10 +135,6 @@ def unit_block(vehicle: Vehicle, name: str) -> list[float]:
         "side_x_m": mass.x_m - air.side_x_m,
         "side_z_m": air.side_z_m - mass.z_m,
         **torsion_ends(unit),
-        "payload_kg": cargo.mass_kg,
-        "payload_x_m": mass.x_m - cargo.x_m if has_cargo else 0.0,
-        "payload_y_m": 0.0,
-        "payload_z_m": cargo.z_m - mass.z_m if has_cargo else 0.0,
-        "payload_rear_share": rear_share(unit, mass.x_m),
+        **movable_load(unit),
     }
     return fill(layout.UnitParams, computed, [unit.frame, air])
