@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from truck_blowout_sim.diagnosis.sensors.case import Case, make_case, undone
 from truck_blowout_sim.diagnosis.sensors.findings import Amount, GateResult, SensorFinding
 from truck_blowout_sim.diagnosis.sensors.geometry import Geometry
+from truck_blowout_sim.diagnosis.sensors.judgement import determined
 from truck_blowout_sim.diagnosis.sensors.residuals import broken_identities, identity_residuals
 from truck_blowout_sim.diagnosis.sensors.search import Found, SearchResult, applied, search
 from truck_blowout_sim.diagnosis.sensors.steering import steering_zero
@@ -86,7 +87,7 @@ def _finding(found: Found, *, knows_roll: bool) -> SensorFinding:
         # Roll follows lateral acceleration: without its channel a leak looks like a gain.
         names = tuple(dict.fromkeys([*names, "lateral_accel_roll"]))
     sigmas = np.sqrt(np.diag(found.covariance))
-    shown = _determined(found.amounts, sigmas)
+    shown = determined(found.amounts, sigmas)
     parameters = {
         name: Amount(value, unit, (value - _Z90 * sigma, value + _Z90 * sigma))
         for k, ((name, unit), value, sigma) in enumerate(
@@ -115,12 +116,6 @@ def _finding(found: Found, *, knows_roll: bool) -> SensorFinding:
 
 def _has_roll(case: Case, unit: str) -> bool:
     return any(f"{unit}_roll_rad" in signals for signals in case.signals)
-
-
-def _determined(amounts: Sequence[float], sigmas: FloatArray) -> list[int]:
-    """Parameters worth stating: those that differ from zero, at least the clearest one."""
-    clear = np.abs(np.array(amounts)) / sigmas
-    return [k for k in range(len(amounts)) if clear[k] > 3.0 or k == int(np.argmax(clear))]
 
 
 def _alternatives(found: Found) -> tuple[str, ...]:

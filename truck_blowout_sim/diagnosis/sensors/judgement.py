@@ -7,16 +7,20 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+import numpy as np
+from numpy.typing import NDArray
 from scipy.stats import chi2 as chi2_law
 
 from truck_blowout_sim.diagnosis.sensors.case import Case, Hypothesis
 from truck_blowout_sim.diagnosis.sensors.distortions import Delay, LeverArm, Scale
 
+FloatArray = NDArray[np.float64]
 # A rival within this of the best sum of squares cannot be told from it (odds of about 90 to 1).
 ALIAS_CHI2 = 9.0
 _PER_PARAMETER = 2.0  # what a parameter must earn when hypotheses of different size compete
 _NEVER_ALONE = ("_x_m", "_y_m", "_vx_mps", "_vy_mps", "_roll_rad", "_pitch_rad")
 _ODD = 6.0
+_CLEAR = 3.0  # standard errors
 _WILDEST_SCALE = 0.45
 _NEAREST_M, _FARTHEST_M = 0.18, 3.0  # a tape measure errs less; the body ends before
 
@@ -38,6 +42,12 @@ def admissible(hypothesis: Hypothesis, amounts: Sequence[float]) -> bool:
     if isinstance(kind, LeverArm):
         return _NEAREST_M < max(abs(a) for a in amounts) < _FARTHEST_M
     return not isinstance(kind, Scale) or abs(amounts[0]) < _WILDEST_SCALE
+
+
+def determined(amounts: Sequence[float], sigmas: FloatArray) -> list[int]:
+    """Parameters worth stating: those that differ from zero, at least the clearest one."""
+    clear = np.abs(np.array(amounts)) / sigmas
+    return [k for k in range(len(amounts)) if clear[k] > _CLEAR or k == int(np.argmax(clear))]
 
 
 def handicap(case: Case, hypothesis: Hypothesis) -> float:

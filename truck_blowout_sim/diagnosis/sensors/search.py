@@ -20,6 +20,7 @@ from truck_blowout_sim.diagnosis.sensors.case import Applied, Case, Hypothesis
 from truck_blowout_sim.diagnosis.sensors.judgement import (
     ALIAS_CHI2,
     admissible,
+    determined,
     family_p,
     handicap,
 )
@@ -164,8 +165,9 @@ def _pruned(
     while kept:
         gains = [_gain(kept, estimate, k) for k in range(len(kept))]
         doubtful = [
-            not admissible(h, a) or family_p(g, len(a), len(case.hypotheses)) >= _FAMILY_P
-            for h, a, g in zip(kept, estimate.amounts, gains, strict=True)
+            not admissible(h, _stated(kept, estimate, k))
+            or family_p(g, len(h.distortion.parameters), len(case.hypotheses)) >= _FAMILY_P
+            for k, (h, g) in enumerate(zip(kept, gains, strict=True))
         ]
         if not any(doubtful):
             break
@@ -174,6 +176,12 @@ def _pruned(
         del kept[weakest]
         estimate = refine(case, kept, inflation, amounts)
     return kept, estimate
+
+
+def _stated(chosen: Sequence[Hypothesis], estimate: Estimate, which: int) -> list[float]:
+    """Amounts of one fault that the answer would state."""
+    amounts, covariance = part(chosen, estimate, which)
+    return [float(amounts[k]) for k in determined(amounts.tolist(), np.sqrt(np.diag(covariance)))]
 
 
 def _gain(chosen: Sequence[Hypothesis], estimate: Estimate, which: int) -> float:
