@@ -112,6 +112,15 @@ def test_a_program_of_the_workspace_runs_and_finds_its_data(workspace: Path) -> 
     assert done.stdout.splitlines()[-1] == str(expected)
 
 
+def test_colcon_test_runs_the_tests_of_the_package(workspace: Path) -> None:
+    colcon = str(Path(sys.executable).with_name("colcon"))
+    done = run([colcon, "test", "--pytest-args", "test/physics/test_trig.py"], cwd=workspace)
+    assert done.returncode == 0, done.stdout + done.stderr
+    told = run([colcon, "test-result"], cwd=workspace)
+    assert "0 errors, 0 failures, 0 skipped" in told.stdout
+    assert "Summary: 0 tests" not in told.stdout
+
+
 def test_metadata_agree(copy_of_source: Path) -> None:
     import truck_blowout_sim
 

@@ -71,6 +71,7 @@ def rank_steady(study: Study, candidates: Sequence[Hypothesis],
     residual = study.residual()
     free = study.projector(named).chi2(residual)
     ranked: list[Ranked] = []
+    cleaned: dict[str, Floats] = {}  # by the number that is held
     k = 0
     for candidate in candidates:
         parts = {}
@@ -81,7 +82,9 @@ def rank_steady(study: Study, candidates: Sequence[Hypothesis],
         column = study.stack(parts) / amount.step
         at = candidate.amount
         projector = study.projector([*named, candidate])
-        removed = projector.remove(residual)
+        held = study.meaning(candidate)
+        removed = cleaned[held] if held in cleaned else projector.remove(residual)
+        cleaned[held] = removed
         found = score(projector, residual, removed, column, amount.low - at, amount.high - at)
         fall = max(found.delta - (float(residual @ removed) - free), 0.0)
         ranked.append(Ranked(candidate.at(at + found.amount), fall, found.sigma, evidence=fall,
