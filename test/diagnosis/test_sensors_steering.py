@@ -51,3 +51,10 @@ def test_no_wheel_no_answer() -> None:
     result = sensor_gate([run.without_channels([WHEEL]) for run in RUNS])
     assert result.steering is None
     assert any("hand-wheel zero" in note for note in result.notes)
+
+
+def test_a_zero_that_differs_from_run_to_run_is_not_the_sensor() -> None:
+    wandering = [faults.offset(WHEEL, np.radians(d))(run)
+                 for d, run in zip((3.0, 9.0, 15.0), RUNS, strict=True)]
+    findings = sensor_gate(wandering, BASELINE).findings
+    assert "steering_angle_offset" not in [finding.name for finding in findings]

@@ -27,6 +27,7 @@ _ALIKE = 0.4  # less evidence than the best by more than this share is no alias
 _AT_BOUND = 0.002  # of the range
 _EVENT_WORTH = 0.8
 _NEXT_SHARE = 0.12
+_MOST = 0.5  # of what a stronger effect left beyond the usual
 
 
 @dataclass(eq=False)
@@ -69,7 +70,7 @@ def search(study: Study, progress: Progress | None = None, most: int = _MOST_EFF
         if best is None:
             break
         rounds.append(ranked)
-    left = found.chi2_after - study.settings.expected_level * study.columns.shape[0]
+    left = _excess(study, found)
     taken = {r.hypothesis.key for r in found.named}
     found.rivals = [_rivals(best, [r for r in ranked if r.hypothesis.key not in taken],
                             slack(study, best, left))
@@ -84,9 +85,11 @@ def _accept(study: Study, found: Found, ranked: Sequence[Ranked],
     Among those that training cannot tell apart, the one that predicts the holdout best is taken.
     """
     strongest = max((r.evidence for r in found.named), default=0.0)
+    excess = _excess(study, found)
     passing: list[tuple[Ranked, float, list[Floats], tuple[Prediction, ...]]] = []
     for one in ranked:
-        reason = _weak(study, one, strongest)
+        # what explains most of the rest is no leftover of a stronger effect's inexactness
+        reason = _weak(study, one, strongest if one.delta < _MOST * excess else 0.0)
         if not reason and passing and _worth(one) < max(
                 _worth(p[0]) for p in passing) - slack(study, passing[0][0]):
             reason = "explains less"
@@ -107,6 +110,11 @@ def _accept(study: Study, found: Found, ranked: Sequence[Ranked],
     found.chi2_after -= best.delta
     _note(found, best, "accepted")
     return best
+
+
+def _excess(study: Study, found: Found) -> float:
+    """What is left beyond the usual."""
+    return found.chi2_after - study.settings.expected_level * study.columns.shape[0]
 
 
 def _predicts_better(study: Study, before: Sequence[Prediction], after: Sequence[Prediction]

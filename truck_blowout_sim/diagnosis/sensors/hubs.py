@@ -27,6 +27,8 @@ _BRAKE_FREE_PA = 8000.0
 _BRAKE_RELEASE_S = 2.0
 _COASTING_MPS2 = 0.6
 _SLOWEST_MPS = 4.0
+_HARD_TURN_MPS2 = 2.0
+_TURN_S = 0.5
 _MODEL_SIGMA_MPS = 0.01
 
 
@@ -43,10 +45,16 @@ def hub_of(channel: str) -> str:
 
 
 def free_rolling(signals: Signals, unit: str) -> BoolArray:
-    """Samples at which no brake acts on the unit's undriven hubs and the truck rolls."""
-    circuit = "trailer" if unit == "trailer" else "steer"
-    speed = signals[channel_names(unit)["vx"]]
+    """Samples at which the unit's undriven hubs roll: neither braked nor in a hard turn.
+
+    There steered wheels point elsewhere, and load makes one radius smaller than the other.
+    """
+    circuit, names = "trailer" if unit == "trailer" else "steer", channel_names(unit)
+    speed = signals[names["vx"]]
     free = speed > _SLOWEST_MPS
+    if names["r"] in signals:
+        turning = smoothed(signals[names["r"]], _TURN_S / signals.period_s) * speed
+        free &= ~(np.abs(turning) > _HARD_TURN_MPS2)
     pressure = f"brake_pressure_{circuit}_pa"
     if pressure in signals:
         braked = ~(signals[pressure] < _BRAKE_FREE_PA)

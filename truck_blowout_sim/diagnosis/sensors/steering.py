@@ -79,15 +79,26 @@ def steering_zero(
     offsets = _intercepts([run.wheel for run in runs], [run.motion for run in runs])
     here = [offsets[k] for k, run in enumerate(runs) if not run.is_baseline]
     there = [offsets[k] for k, run in enumerate(runs) if run.is_baseline]
+    scatter = _scatter(here, there)
     zero = SteeringZero(
         offset_rad=float(np.mean(here)),
-        sigma_rad=_SCATTER_RAD / float(np.sqrt(len(here))),
+        sigma_rad=scatter / float(np.sqrt(len(here))),
         baseline_rad=float(np.mean(there)) if there else None,
-        baseline_sigma_rad=_SCATTER_RAD / float(np.sqrt(len(there))) if there else None,
+        baseline_sigma_rad=scatter / float(np.sqrt(len(there))) if there else None,
         by_recording={run.name: float(o) for run, o in zip(runs, offsets, strict=True)},
     )
     finding, notes = _judge(zero, runs)
     return zero, finding, notes
+
+
+def _scatter(*groups: Sequence[float]) -> float:
+    """Scatter of the zero between runs of one kind: at least the usual one.
+
+    A sensor is off by the same angle in every run; where runs disagree, the truck is at fault.
+    """
+    squares = sum(float(np.sum(np.square(np.array(g) - np.mean(g)))) for g in groups if g)
+    freedom = sum(len(g) - 1 for g in groups if g)
+    return max(_SCATTER_RAD, float(np.sqrt(squares / freedom)) if freedom else 0.0)
 
 
 def _judge(
