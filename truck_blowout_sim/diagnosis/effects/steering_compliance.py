@@ -19,7 +19,7 @@ EFFECT = Effect(
         "steering.compliance_on": 1.0 if a > -1.0 else packed["steering.compliance_on"]},
     neutral=lambda packed: 0.0 if packed["steering.compliance_on"] else -1.0,
     sentence="The front wheels turn against the held hand wheel when a moment acts at the "
-             "kingpins: the steering gives {value} times as much as modelled.",
+             "kingpins: the steering gives {value} times as much as the linkage of its sheet.",
     equation="delta = delta_hw / i - {value} * M_kingpin / K_s",
     splits="the road-wheel angle; yaw without hand-wheel motion that grows with kingpin moment",
     absorbs="steering_stiffness",
