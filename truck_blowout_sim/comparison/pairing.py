@@ -97,7 +97,8 @@ def _gravity(model: Recording, name: str, time_s: Floats) -> Floats:
 
 def _unwrapped(measured: Floats, simulated: Floats) -> tuple[Floats, Floats]:
     """Headings without jumps, on the same turn at the start."""
-    measured, simulated = np.unwrap(measured), np.unwrap(simulated)
+    measured, simulated = (np.asarray(np.unwrap(one), dtype=np.float64)
+                           for one in (measured, simulated))
     turns = np.round((measured[0] - simulated[0]) / (2 * np.pi))
     return measured, simulated + 2 * np.pi * turns
 

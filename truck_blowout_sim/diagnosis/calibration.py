@@ -47,7 +47,8 @@ def calibrate(study: Study, rounds: int = 2, progress: Progress | None = None) -
     columns = np.concatenate([study.columns[rows[i]] for i in chosen])
     projector = Projector.of(columns)
     least = projector.chi2(_residual_of(study, chosen))
-    total, kept = np.zeros(len(sheet)), np.zeros(len(sheet))
+    total: Floats = np.zeros(len(sheet))
+    kept: Floats = np.zeros(len(sheet))
     if study.baseline:
         spread = np.sqrt(np.diag(projector.covariance()))
         study.known = frozenset(n.name for n, s in zip(sheet, spread, strict=False) if s < _KNOWN)

@@ -72,7 +72,7 @@ def fit_event(study: Study, start: Ranked, chi2_null: float,
         sigma = float(np.linalg.inv(information)[0, 0] ** 0.5)
         before = fall
         for share in _SHARES:
-            trial = _moved(study, event, share * step)
+            trial = _moved(study, event, np.asarray(share * step, dtype=np.float64))
             tried = models_at(study, [trial], named)[0]
             gain = chi2_null - chi2_of(study, projector, tried)
             if gain > fall:

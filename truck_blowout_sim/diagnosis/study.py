@@ -178,7 +178,7 @@ def instrument_names(study: Study) -> tuple[str, ...]:
 
 def instrument_columns(study: Study, run: Run) -> list[Floats]:
     """Whitened columns of a normal instrument's constant error and gain, for one run."""
-    columns = []
+    columns: list[Floats] = []
     for name in instrument_names(study):
         kind, channel = name.split(" of ")
         column = np.zeros(run.measured.shape)

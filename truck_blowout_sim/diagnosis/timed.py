@@ -76,7 +76,7 @@ def _best_of_sign(study: Study, projector: Projector, effect: Effect, place: Pla
     low = max(effect.amount.low, 0.0) if sign > 0 else effect.amount.low
     high = effect.amount.high if sign > 0 else min(effect.amount.high, 0.0)
     times: dict[str, tuple[float, float]] = {}
-    total = np.zeros(residual.size)
+    total: Floats = np.zeros(residual.size)
     for i in study.train:
         run = study.runs[i]
         grid, single = _responses(study, effect, i, results)

@@ -36,7 +36,7 @@ class DisplayJoints:
         self._moving = [column[f"{hub.hub}_steer_rad"] for hub in hubs if hub.steered]
         if len(vehicle.units) > 1:
             self._moving.append(column["articulation_rad"])
-        self._last = np.full(len(self._moving), math.nan)
+        self._last: FloatArray = np.full(len(self._moving), math.nan)
         self.channels = self._rows(vehicle, hubs)
 
     def values(self, outputs: FloatArray, elapsed_s: float) -> FloatArray:

@@ -155,9 +155,9 @@ def _onset_error(cause: Cause, effect: Mapping[str, Any] | None) -> float | None
 
 
 def _onset_covered(cause: Cause, effect: Mapping[str, Any] | None) -> bool | None:
-    """Whether the stated 90 % interval of the onset holds the true one."""
+    """Whether the stated 90 % interval of the onset holds the true one; None if it is open."""
     true, interval = _true_onset(cause), effect and effect.get("onset_ci90_s")
-    if not interval or true is None:
+    if not interval or true is None or None in interval:
         return None
     return bool(interval[0] <= true <= interval[1])
 

@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import NDArray
 
 from truck_blowout_sim.errors import InputError, quoted
 from truck_blowout_sim.recordings import clock as clocks
@@ -170,10 +171,11 @@ class _Reader:
                 " one, which is taken"
             )
         if place.field.endswith(":yaw"):
-            values = np.unwrap(values)
+            values = np.asarray(np.unwrap(values), dtype=np.float64)
         return Series(times_ns[last] / _NS, values[last])
 
-    def _check_order(self, topic: TopicSeries, index: np.ndarray, times_ns: np.ndarray) -> None:
+    def _check_order(self, topic: TopicSeries, index: NDArray[np.int64],
+                     times_ns: NDArray[np.int64]) -> None:
         back = np.flatnonzero(times_ns[1:] < times_ns[:-1])
         if back.size:
             i = int(back[0]) + 1
@@ -185,6 +187,6 @@ class _Reader:
             )
 
 
-def _left_at_default(channel: Channel, numbers: np.ndarray) -> bool:
+def _left_at_default(channel: Channel, numbers: NDArray[np.float64]) -> bool:
     # a recorder that fills a spin angle or a height with plain zeros did not measure it
     return not channel.standard and not numbers.any()

@@ -8,6 +8,7 @@ from os import PathLike
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import NDArray
 
 from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.recordings import Blowout, Recording, read_recording
@@ -119,7 +120,7 @@ def _beside(scenario: Scenario, name: str, kind: str) -> Path:
     return beside if beside.is_file() else config_file(kind, name)
 
 
-def _initial(scenario: Scenario, base: Drive | None, inputs: np.ndarray) -> InitialState:
+def _initial(scenario: Scenario, base: Drive | None, inputs: NDArray[np.float64]) -> InitialState:
     """How the run begins: the start section, else what the recording shows."""
     spec = scenario.spec
     first = Inputs(*inputs[0].tolist())
@@ -132,7 +133,7 @@ def _initial(scenario: Scenario, base: Drive | None, inputs: np.ndarray) -> Init
 
 
 def _events(blowouts: tuple[Blowout, ...], vehicle: Vehicle, start_s: float, step_s: float
-            ) -> tuple[np.ndarray, np.ndarray]:
+            ) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
     """Step and tire number of each blowout."""
     pairs = [(max(round((event.time_s - start_s) / step_s), 0), vehicle.tires.index(tire))
              for event in blowouts for tire in event.tires]

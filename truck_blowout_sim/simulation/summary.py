@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from truck_blowout_sim.recordings import Recording
 from truck_blowout_sim.vehicle.units import MILE_PER_HOUR_MPS
@@ -30,9 +31,9 @@ def _speed(recording: Recording) -> str:
     return f"{first:.1f} to {last:.1f} mph over {_travelled(recording)[-1]:.0f} m"
 
 
-def _travelled(recording: Recording) -> np.ndarray:
+def _travelled(recording: Recording) -> NDArray[np.float64]:
     x, y = recording["tractor_x_m"].value, recording["tractor_y_m"].value
-    return np.concatenate([[0.0], np.cumsum(np.hypot(np.diff(x), np.diff(y)))])
+    return np.asarray(np.concatenate([[0.0], np.cumsum(np.hypot(np.diff(x), np.diff(y)))]))
 
 
 def _yaw(recording: Recording) -> str:

@@ -94,7 +94,7 @@ def refine(
     Returns:
         The estimate; amounts in full, not increments.
     """
-    amounts = [np.zeros(len(h.distortion.parameters)) for h in hypotheses]
+    amounts: list[FloatArray] = [np.zeros(len(h.distortion.parameters)) for h in hypotheses]
     if start is not None:
         amounts = [np.array(s, dtype=np.float64) for s in start]
     for _ in range(_STEPS):

@@ -106,7 +106,8 @@ def exact_channels(
     slip = (out["tractor_vy_mps"] + 2.42 * out["tractor_yaw_rate_radps"]) / speed
     out["steering_wheel_angle_rad"] = 22.0 * (slip + 0.02 * lateral / GRAVITY)
     kept = slice(1000, -1000, round(SAMPLE_S / FINE_S))
-    return t[kept], {name: values[kept] for name, values in out.items()}
+    time_s: FloatArray = np.asarray(t[kept], dtype=np.float64)
+    return time_s, {name: values[kept] for name, values in out.items()}
 
 
 def make_run(
