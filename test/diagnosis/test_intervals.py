@@ -64,7 +64,7 @@ def test_an_end_that_no_recording_shows_is_open(study_of: Studies, truck: Packed
 def test_what_stays_has_an_onset_and_no_duration(study_of: Studies, truck: Packed) -> None:
     found = timing(study_of(), bank(truck, 0.02, 3.17))
     assert found.duration_s is None
-    assert width(found.onset_s) < 2.0
+    assert width(found.onset_s) < 1.75  # of which 1.65 for another form of onset
 
 
 def test_the_sum_of_squares_rises_by_what_an_interval_says(

@@ -101,8 +101,8 @@ def _place(study: Study, run: Run, columns: Floats, amounts: Floats,
     at = min(sums, key=lambda time: sums[time])
     best = left(models([at])[0])
     for width in _REFINE_S:
-        found = {time: left(model) for time, model in zip(
-            (at - width, at + width), models([at - width, at + width]), strict=True)}
+        either = (at - width, at + width)
+        found = {time: left(model) for time, model in zip(either, models(either), strict=True)}
         nearest = min(found, key=lambda time: found[time])
         if found[nearest] < best:
             at, best = nearest, found[nearest]
