@@ -20,6 +20,7 @@ from truck_blowout_sim.diagnosis.fingerprints import simulation_key
 from truck_blowout_sim.diagnosis.resume import Kept
 from truck_blowout_sim.diagnosis.runs import Run, prepare_run
 from truck_blowout_sim.diagnosis.settings import Settings
+from truck_blowout_sim.proof.memory import Memory
 from truck_blowout_sim.recordings import Recording, write_recording
 from truck_blowout_sim.resources import config_file
 from truck_blowout_sim.vehicle import Packed
@@ -49,6 +50,18 @@ class Asked:
 
 def trucks(truck: Packed, n: int) -> list[Packed]:
     return [truck.with_values({MASS: 1e4 + k}) for k in range(n)]
+
+
+def test_what_is_remembered_is_not_simulated_again_and_cannot_be_spoilt(
+    run: Run, truck: Packed, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    asked, memory = Asked(monkeypatch), Memory(most=2)
+    before = [memory.simulated(run, t) for t in trucks(truck, 3)]
+    before[0][:] = np.nan  # whoever got it may do with it what he likes
+    again = [memory.simulated(run, t) for t in trucks(truck, 3)]
+    assert (asked.count, memory.hits) == (4, 2)  # the third was one too many
+    np.testing.assert_array_equal(again[0], 1e4 / 3.0)
+    np.testing.assert_array_equal(again[1], before[1])
 
 
 def test_what_was_simulated_before_is_not_simulated_again(

@@ -6,7 +6,7 @@ from scipy.stats import chi2 as chi2_law
 
 from truck_blowout_sim.diagnosis.sensors import trial_faults as faults
 from truck_blowout_sim.diagnosis.sensors.case import Case, Hypothesis, make_case
-from truck_blowout_sim.diagnosis.sensors.judgement import family_p
+from truck_blowout_sim.diagnosis.sensors.judgement import admissible, family_p
 from truck_blowout_sim.diagnosis.sensors.solve import noise_inflation, refine, solve
 from truck_blowout_sim.diagnosis.sensors.system import assemble, normal_equations
 from truck_blowout_sim.diagnosis.sensors.trial_drive import make_run
@@ -109,3 +109,17 @@ def test_family_p_counts_the_tests() -> None:
     assert family_p(30.0, 1, 100) == pytest.approx(100 * chi2_law.sf(30.0, 1))
     assert family_p(0.0, 1, 100) == 1.0
     assert family_p(-3.0, 2, 10) == 1.0
+
+
+@pytest.mark.parametrize(
+    ("forward", "left", "sensible"),
+    [(0.6, 0.0, True), (-2.4, 1.05, True), (0.0, -2.8, False), (3.2, 0.0, False),
+     (0.1, 0.1, False)],
+)  # fmt: skip
+def test_no_instrument_sits_beside_the_truck_or_where_it_is_said_to_sit(
+    forward: float, left: float, sensible: bool
+) -> None:
+    case = make_case([make_run(1, 8.0)], [], None)
+    arm = next(h for h in case.hypotheses if h.distortion.name == "lever_arm"
+               and [n for n, _ in h.distortion.parameters] == ["forward", "left"])
+    assert admissible(arm, (forward, left)) is sensible

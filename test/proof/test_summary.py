@@ -5,11 +5,13 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 
-from truck_blowout_sim.proof.cases import find_cases
+from truck_blowout_sim.proof.cases import Cause, find_cases
+from truck_blowout_sim.proof.comparable import compare_parameter
 from truck_blowout_sim.proof.prove import score_run
-from truck_blowout_sim.proof.summary import null_floor
+from truck_blowout_sim.proof.summary import held, null_floor
 
 Maker = Callable[..., dict[str, Any]]
 
@@ -111,3 +113,26 @@ def test_p_values_are_drawn_where_there_are_enough() -> None:
     from truck_blowout_sim.proof.figures import draw_reliability
 
     assert draw_reliability([0.1, 0.2, 0.5, 0.7, 0.9]).png().startswith(b"\x89PNG")
+
+
+def test_intervals_of_other_levels_follow_from_the_stated_one() -> None:
+    """Estimates that scatter by what their 90 % intervals say hold the truth as often as said."""
+    rng = np.random.default_rng(4)
+    arm = 1.645 * 0.1
+    scored = []
+    for value in rng.normal(1.0, 0.1, 4000):
+        stated = {"value": value, "ci90": [value - arm, value + arm]}
+        cause = Cause("brake_lag", "physics", {}, 20.0, {}, ("extra lag", 1.0))
+        scored.append(compare_parameter(cause, {"name": "brake_lag",
+                                                "parameters": {"extra_lag_s": stated}}))
+    for level in (0.5, 0.8, 0.95):
+        assert held([p for p in scored if p], level).value == pytest.approx(level, abs=0.02)
+
+
+def test_an_interval_that_is_open_toward_the_truth_says_nothing_of_other_levels() -> None:
+    cause = Cause("brake_lag", "physics", {}, 20.0, {}, ("extra lag", 1.0))
+    parts = {"extra_lag_s": {"value": 0.9, "ci90": [0.8, None]}}
+    scored = compare_parameter(cause, {"name": "brake_lag", "parameters": parts})
+    assert scored
+    assert scored.covered
+    assert held([scored], 0.5).trials == 0

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 _KEPT = ".resume"  # in the output folder, until the answer is written
 _CONTINUES = "the same command continues from here"
-_QUICK_STEP_S = 0.0025
+_QUICK_STEP_S, _QUICK_REFITS = 0.0025, (4, 1)
 _THOROUGH_STEP_S = 0.001
 
 
@@ -44,12 +44,15 @@ def command(
         None, "--impose-speed/--no-impose-speed",
         help="Follow the recorded speed. By default only where throttle or brakes are missing."
     ),
-    quick: bool = typer.Option(False, "--quick", help="One effect at most, coarser step."),
+    quick: bool = typer.Option(
+        False, "--quick", help="One effect at most, fewer candidates fitted, coarser step."
+    ),
     thorough: bool = typer.Option(False, "--thorough", help="1 ms step, up to four effects."),
 ) -> None:
     """Locate, name and fit what the model lacks to explain recordings."""
     from truck_blowout_sim.diagnosis import diagnose, keeping
     from truck_blowout_sim.diagnosis.diagnose import STEP_S
+    from truck_blowout_sim.diagnosis.study import REFITS
     from truck_blowout_sim.vehicle import load_vehicle
 
     loaded = load_vehicle(vehicle)
@@ -63,7 +66,8 @@ def command(
         answer, values = diagnose(
             train, baseline=base, holdout=hold, vehicle=loaded, settings=settings,
             impose_speed=impose_speed, step_s=step_s,
-            most_effects=1 if quick else 4 if thorough else 3, kept=kept,
+            most_effects=1 if quick else 4 if thorough else 3,
+            refits=_QUICK_REFITS if quick else REFITS, kept=kept,
             progress=lambda stage, share: progress.update(
                 task, description=stage, completed=share))
         progress.update(task, description="drawing", completed=1.0)

@@ -18,12 +18,12 @@ from truck_blowout_sim.diagnosis.locate import Wrenches, missing_wrench
 from truck_blowout_sim.diagnosis.next_test import Separation, best_test
 from truck_blowout_sim.diagnosis.outcome import Material, answer, joint_amounts
 from truck_blowout_sim.diagnosis.result import Diagnosis, Role, Verdict
-from truck_blowout_sim.diagnosis.resume import Kept
+from truck_blowout_sim.diagnosis.resume import Keeps
 from truck_blowout_sim.diagnosis.runs import Run, prepare_run
 from truck_blowout_sim.diagnosis.search import Found, search
 from truck_blowout_sim.diagnosis.sensors import correct, sensor_gate, vehicle_geometry
 from truck_blowout_sim.diagnosis.settings import load_settings
-from truck_blowout_sim.diagnosis.study import FURTHEST, Progress, Study, row_ranges
+from truck_blowout_sim.diagnosis.study import FURTHEST, REFITS, Progress, Study, row_ranges
 from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.recordings import Recording
 from truck_blowout_sim.vehicle import Packed, Vehicle, load_vehicle, pack, write_vehicle
@@ -35,9 +35,10 @@ STEP_S = 0.002  # residuals on 0.1 s bins do not change beyond a tenth of a sigm
 def diagnose(recordings: Sequence[Recording], *, baseline: Sequence[Recording] = (),
              holdout: Sequence[Recording] = (),
              vehicle: Vehicle | str = "international_9400i_trailmobile", settings: str = "default",
-             most_effects: int = 3, step_s: float = STEP_S, workers: int | None = None,
-             impose_speed: bool | None = None, progress: Progress | None = None,
-             kept: Kept | None = None) -> tuple[Diagnosis, Mapping[str, float]]:
+             most_effects: int = 3, refits: tuple[int, int] = REFITS, step_s: float = STEP_S,
+             workers: int | None = None, impose_speed: bool | None = None,
+             progress: Progress | None = None, kept: Keeps | None = None
+             ) -> tuple[Diagnosis, Mapping[str, float]]:
     """Diagnose recordings that a model does not reproduce.
 
     Args:
@@ -47,9 +48,10 @@ def diagnose(recordings: Sequence[Recording], *, baseline: Sequence[Recording] =
         vehicle: the model's vehicle, by name, path or loaded.
         settings: name of a file in ``config/diagnosis``.
         most_effects: how many effects may be named.
+        refits: how many steady candidates are fitted anew for each effect, and how many events.
         impose_speed: follow the recorded speed; None: only where throttle or brakes are missing.
         step_s: integration step; ``workers``: threads; ``progress``: called with (stage, share).
-        kept: simulations of an interrupted call, from :func:`keeping`, and where to keep new ones.
+        kept: knows simulations made before, as :func:`keeping` does those of an interrupted call.
 
     Returns:
         The diagnosis, and the packed parameters of the diagnosed vehicle that differ from the
@@ -74,10 +76,10 @@ def diagnose(recordings: Sequence[Recording], *, baseline: Sequence[Recording] =
 
     study = Study((*(cut(r, "baseline") for r in baseline), *(cut(r, "train") for r in recordings)),
                   tuple(cut(r, "holdout") for r in holdout), packed, rules,
-                  workers or os.cpu_count() or 1)
+                  workers or os.cpu_count() or 1, refits)
     if kept is not None:
         kept.begin(case_parts({"train": recordings, "baseline": baseline, "holdout": holdout},
-                              packed, rules, (most_effects, step_s, impose_speed)))
+                              packed, rules, (most_effects, refits, step_s, impose_speed)))
         study.simulated = kept.simulated
     calibrate(study, progress=progress)
     found = search(study, progress, most_effects)

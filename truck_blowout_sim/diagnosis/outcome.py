@@ -35,7 +35,6 @@ Floats = NDArray[np.float64]
 _NINETY = 1.645
 _OPEN = (-np.inf, np.inf)
 _PULLED = 2.9  # prior sigmas beyond which a sheet number is reported
-_UNKNOWN_DELTA = 900.0  # what an unnamed wrench must buy to be called a missing effect
 
 
 @dataclass(frozen=True, eq=False)
@@ -102,7 +101,7 @@ def _unexplained(material: Material) -> bool:
     unnamed = max((w.delta - 2.0 * w.degrees for w in material.unnamed), default=0.0)
     excess = found.chi2_null - rules.expected_level * rows
     left = found.chi2_after > rules.unknown_level * rows
-    return (left and bought < 0.5 * excess) or unnamed > max(_UNKNOWN_DELTA, bought)
+    return (left and bought < 0.5 * excess) or unnamed > max(rules.unknown_delta, bought)
 
 
 def pulled(material: Material) -> list[tuple[str, float]]:

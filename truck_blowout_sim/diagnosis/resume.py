@@ -18,7 +18,7 @@ import zlib
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import BinaryIO
+from typing import BinaryIO, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -32,6 +32,16 @@ Say = Callable[[str], None]
 _HEAD = struct.Struct(f"<{KEY_SIZE}sII")
 _CHECK = struct.Struct("<I")
 _FILE = "simulations"
+
+
+class Keeps(Protocol):
+    """Whatever knows simulations of a case that need not be made again."""
+
+    def begin(self, case: Mapping[str, str]) -> None:
+        """Told which case it is, by the hashes of what decides an answer."""
+
+    def simulated(self, run: Run, truck: Packed) -> Floats:
+        """Bin means of a truck over a run, the same bits as :meth:`Run.simulated`."""
 
 
 @dataclass(eq=False)

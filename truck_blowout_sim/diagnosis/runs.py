@@ -17,13 +17,13 @@ from numpy.typing import NDArray
 from truck_blowout_sim.diagnosis.result_evidence import Role
 from truck_blowout_sim.diagnosis.sensors import Noise, channel_noise
 from truck_blowout_sim.diagnosis.settings import Settings
-from truck_blowout_sim.recordings import INPUT_NAMES, Recording
+from truck_blowout_sim.diagnosis.trust import BRAKES_ON_PA, wider
+from truck_blowout_sim.recordings import Recording
 from truck_blowout_sim.simulation.drive import Drive, names_of, run_drive
 from truck_blowout_sim.simulation.replay import drive_from
 from truck_blowout_sim.vehicle import Packed
 
 Floats = NDArray[np.float64]
-BRAKES_ON_PA = 20_000.0
 _BEST_INSTRUMENT = 0.1  # smallest noise believed, in units of the model's floor
 _COARSE_ENOUGH = 0.4  # rms sigmas that the coarse step may have to be corrected by; 0.1 is usual
 _LOST = 1e4  # sigmas assigned to a simulation that broke down
@@ -145,8 +145,8 @@ def prepare_run(recording: Recording, role: Role, packed: Packed, settings: Sett
     n_bins = int((drive.times_s[-1] - drive.initial.time_s - settings.skip_s) / settings.bin_s)
     start = drive.initial.time_s + settings.skip_s
     edges: Floats = (start + np.arange(max(n_bins, 1) + 1) * settings.bin_s).astype(np.float64)
-    wider = np.where(_flat_was_braked(recording, drive, packed, edges), settings.flat_braked, 1.0)
-    parts = [_channel_bins(recording, n, noise[n], edges, settings, wider) for n in channels]
+    factor = wider(recording, drive, packed, edges, settings)
+    parts = [_channel_bins(recording, n, noise[n], edges, settings, factor) for n in channels]
     measured, sigma, plain = (np.stack([p[k] for p in parts], axis=1) for k in range(3))
     return Run(recording, role, drive, channels, tuple(names.index(n) for n in channels), edges,
                measured, sigma, plain, fine, np.zeros(measured.shape))
@@ -158,26 +158,8 @@ def _redundant(name: str, drive: Drive) -> bool:
                                     or name.startswith("hub_speed_"))
 
 
-def _flat_was_braked(recording: Recording, drive: Drive, packed: Packed, edges: Floats
-                     ) -> NDArray[np.bool_]:
-    """Bins from which on a tire blown on command has been braked.
-
-    What brakes a flat tire, its grip and its lever, no two models agree on; the speed keeps it.
-    """
-    vehicle, middles = packed.vehicle, 0.5 * (edges[1:] + edges[:-1])
-    rows = np.clip(((middles - drive.initial.time_s) / drive.step_s).astype(np.int64), 0,
-                   drive.inputs.shape[0] - 1)
-    braked = np.zeros(middles.size, dtype=np.bool_)
-    for event in recording.blowouts:
-        for tire in event.tires:
-            axle = vehicle.spec.axles[vehicle.axle_of_hub(vehicle.hub_of_tire(tire))]
-            column = INPUT_NAMES.index(f"brake_pressure_{axle.circuit}_pa")
-            braked |= (middles > event.time_s) & (drive.inputs[rows, column] > BRAKES_ON_PA)
-    return np.asarray(np.maximum.accumulate(braked))
-
-
 def _channel_bins(recording: Recording, name: str, noise: Noise, edges: Floats,
-                  settings: Settings, wider: Floats) -> tuple[Floats, Floats, Floats]:
+                  settings: Settings, factor: Floats) -> tuple[Floats, Floats, Floats]:
     """Bin means, their standard errors, and the part of these that is noise."""
     series, rule = recording[name], settings.rule(name)
     assert rule is not None
@@ -195,7 +177,7 @@ def _channel_bins(recording: Recording, name: str, noise: Noise, edges: Floats,
     plain = np.maximum(plain, _BEST_INSTRUMENT * rule.floor)
     swing = np.abs(np.nan_to_num(mean) - np.nanmedian(mean))
     model = np.hypot(rule.floor, rule.relative * swing)
-    widened = wider * model * np.sqrt(settings.correlation_s / settings.bin_s)
+    widened = factor * model * np.sqrt(settings.correlation_s / settings.bin_s)
     # a bin without samples must not count as one in which nothing changed
     return mean, np.where(counts > 0, np.hypot(plain, widened), np.nan), plain
 

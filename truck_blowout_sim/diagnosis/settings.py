@@ -79,6 +79,8 @@ class Settings:
         accept_delta: fall of the sum of squares that a named effect must buy.
         form_share: 1 sigma of what another form of law does to an amount, as a share of it.
         flat_braked: how much wider the difference between models is once a flat tire was braked.
+        hard_from_mps2, hard_growth_s2pm: lateral acceleration from which on it is wider too, and by
+            what factor more with each 1 m/s2 beyond.
         null_median, null_tail: best evidence where nothing is missing, as a share of what is
             needed: half of such cases reach the one, and all of what is needed the share of the
             other.
@@ -88,6 +90,7 @@ class Settings:
         keep_within: share of the evidence within which explanations count as aliases.
         expected_level, unknown_level: sum of squares a row when nothing is missing, and from which
             on something must be.
+        unknown_delta: what a wrench that nothing named explains must buy to be a missing effect.
     """
 
     nuisances: tuple[Nuisance, ...]
@@ -100,8 +103,11 @@ class Settings:
     keep_within: float
     expected_level: float
     unknown_level: float
+    unknown_delta: float
     form_share: float
     flat_braked: float
+    hard_from_mps2: float
+    hard_growth_s2pm: float
     same_truck: float
     null_median: float
     null_tail: float

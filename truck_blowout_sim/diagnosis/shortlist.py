@@ -22,8 +22,6 @@ from truck_blowout_sim.diagnosis.result_parts import Place
 from truck_blowout_sim.diagnosis.study import Progress, Study
 from truck_blowout_sim.diagnosis.timed import refine_times, scan
 
-_REFIT_STEADY = 7
-_REFIT_TIMED = 2
 _TIMED_COST = 8.0  # evidence that choosing an instant in a run costs
 _TIMED_SHARE = 0.15  # and the share that freedom of shape costs: steady causes come first
 _WORTH_REFITTING = 0.25  # of the threshold
@@ -42,10 +40,10 @@ def shortlist(study: Study, named: Sequence[Hypothesis], progress: Progress | No
     worth = _WORTH_REFITTING * study.settings.accept_delta
     done: list[Ranked] = []
     for k, one in enumerate(ranked):
-        if k < _REFIT_STEADY and one.promise > worth:
+        if k < study.refits[0] and one.promise > worth:
             done.append(refit(study, one, chi2, named))
             if progress:
-                progress("refitting", (k + 1) / _REFIT_STEADY)
+                progress("refitting", (k + 1) / study.refits[0])
         else:
             done.append(one)
     best = max((r.delta for r in done if r.refitted), default=0.0)
@@ -76,7 +74,7 @@ def _events(study: Study, named: Sequence[Hypothesis], chi2: float, worth: float
         # what acts only near a limit shows little to a linear scan: looked at where much is open
         curved = bool(one.hypothesis.effect.amount.grid) and _large(study, steady) and (
             max((r.delta for r in found), default=0.0) < _MUCH * excess)
-        among = one.hypothesis.key in keys or len(keys) < _REFIT_TIMED
+        among = one.hypothesis.key in keys or len(keys) < study.refits[1]
         worth = max(worth, _HALF * max((r.delta for r in found), default=0.0))
         if one.hypothesis.times and (curved or (among and one.delta - cost > worth)):
             keys.add(one.hypothesis.key)

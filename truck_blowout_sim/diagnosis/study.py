@@ -20,6 +20,7 @@ from truck_blowout_sim.vehicle import Packed
 
 Floats = NDArray[np.float64]
 Progress = Callable[[str, float], None]
+REFITS = (7, 2)
 FURTHEST = 3.0  # prior sigmas a number of the sheet may stray
 _START_SPEED_SIGMA_MPS = 0.02
 _START_SPEED_STEP_MPS = 0.1
@@ -33,6 +34,7 @@ class Study:
         runs: baseline and training; ``holdout``: predicted only.
         packed: the truck at its reference (sheet, then calibrated).
         settings: assumptions; ``workers``: threads.
+        refits: how many steady candidates are fitted anew in a round, and how many events.
         models: bin means of the model for each of ``runs`` as it stands now.
         columns: [rows, k] nuisance columns over ``runs``, scaled by prior sigma.
         holdout_models, holdout_columns: the same, run by run, for holdout.
@@ -48,6 +50,7 @@ class Study:
     packed: Packed
     settings: Settings
     workers: int = 2
+    refits: tuple[int, int] = REFITS
     models: list[Floats] = field(default_factory=list)
     columns: Floats = field(default_factory=lambda: np.zeros((0, 0)))
     holdout_models: list[Floats] = field(default_factory=list)

@@ -26,13 +26,20 @@ class Rule:
 
 @dataclass(frozen=True)
 class ParameterScore:
-    """One comparison: relative error of the estimate, whether the 90 % interval holds the truth."""
+    """One comparison of an estimate with the truth.
+
+    Attributes:
+        covered: whether the stated 90 % interval holds the truth.
+        arms: distance of the truth, as a multiple of the interval's arm on its side; None if that
+            side is open.
+    """
 
     name: str
     truth: float
     found: float
     relative_error: float
     covered: bool
+    arms: float | None = None
 
 
 COMPARABLE: Mapping[str, Rule] = {
@@ -83,4 +90,12 @@ def compare_parameter(cause: Cause, effect: Mapping[str, Any]) -> ParameterScore
     low, high = stated["ci90"]
     covered = (low is None or low <= truth) and (high is None or truth <= high)
     found = float(stated["value"])
-    return ParameterScore(cause.name, truth, found, abs(found - truth) / abs(truth), covered)
+    return ParameterScore(cause.name, truth, found, abs(found - truth) / abs(truth), covered,
+                          _arms(found, truth, high if truth > found else low))
+
+
+def _arms(found: float, truth: float, end: float | None) -> float | None:
+    """How far the truth is from the estimate, in arms of the interval toward it."""
+    if end is None or end == found:
+        return None
+    return abs(truth - found) / abs(float(end) - found)

@@ -1,4 +1,4 @@
-"""Figures of a run: power, verdicts against truth, p-values of nulls, effect by effect."""
+"""Figures of a run: power, verdicts, p-values of nulls, intervals, effect by effect."""
 
 from __future__ import annotations
 
@@ -21,6 +21,8 @@ def pictures(figures: Mapping[str, Any]) -> list[Picture]:
         made.append(draw_power(figures["power"]))
     if len(figures["null_p_values"]) >= 5:
         made.append(draw_reliability(figures["null_p_values"]))
+    if figures["parameters"]["count"] >= 5:
+        made.append(draw_intervals(figures["parameters"]["intervals"]))
     if figures["effects"]:
         made.append(draw_effects(figures["effects"]))
     return made
@@ -92,3 +94,18 @@ def draw_reliability(p_values: Sequence[float]) -> Picture:
               color=BLUE)
     axes.plot([0, 1], [0, 1], color=SOFT, linestyle="--")
     return Picture("reliability", "p-values on nulls", f"{n} cases with nothing missing.", figure)
+
+
+@styled
+def draw_intervals(rows: Sequence[Mapping[str, Any]]) -> Picture:
+    """Share of parameter intervals of each stated level that hold the truth."""
+    figure, axes = new_axes((4.2, 3.8), x="stated probability of the interval",
+                            y="share that holds the truth")
+    stated, value = (np.array([row[key] for row in rows]) for key in ("stated", "value"))
+    ends = np.array([row["wilson95"] for row in rows])
+    arms = np.maximum(np.stack([value - ends[:, 0], ends[:, 1] - value]), 0.0)
+    axes.errorbar(stated, value, yerr=arms, marker="o", capsize=3, color=BLUE)
+    axes.plot([0.4, 1.0], [0.4, 1.0], color=SOFT, linestyle="--")
+    axes.set_ylim(0.0, 1.03)
+    return Picture("intervals", "Parameter intervals", f"{rows[0]['trials']} strengths that truth "
+                   "and model state alike; bars: 95 % Wilson.", figure)

@@ -11,6 +11,7 @@ from dataclasses import asdict
 from typing import Any
 
 import numpy as np
+from scipy.stats import norm
 
 from truck_blowout_sim.proof.by_effect import SIGMA_EDGES, effect_rows
 from truck_blowout_sim.proof.comparable import NOT_COMPARABLE, ParameterScore
@@ -19,6 +20,7 @@ from truck_blowout_sim.proof.statistics import Proportion, proportion, quantile
 
 STRONG_SIGMA = 10.0
 P_LEVELS = (0.01, 0.05, 0.1, 0.5)
+INTERVAL_LEVELS = (0.5, 0.7, 0.8, 0.9, 0.95, 0.99)
 RIVALS = ("no_change", "recalibrated", "gaussian_process", "sparse_regression", "diagnosed")
 Figures = dict[str, Any]
 
@@ -108,7 +110,15 @@ def parameters(scored: Sequence[ParameterScore]) -> Figures:
     return {"count": len(scored),
             "median_relative_error": quantile([p.relative_error for p in scored], 0.5),
             "coverage": proportion(p.covered for p in scored).as_json(),
+            "intervals": [{"stated": level, **held(scored, level).as_json()}
+                          for level in INTERVAL_LEVELS],
             "each": [asdict(p) for p in scored], "not_comparable": dict(NOT_COMPARABLE)}
+
+
+def held(scored: Sequence[ParameterScore], level: float) -> Proportion:
+    """Share of intervals of a level that hold the truth; the stated 90 % ones, normal, resized."""
+    reach = float(norm.ppf(0.5 + 0.5 * level) / norm.ppf(0.95))
+    return proportion(None if p.arms is None else p.arms <= reach for p in scored)
 
 
 def power(scores: Sequence[CaseScore]) -> list[Figures]:

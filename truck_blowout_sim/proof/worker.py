@@ -17,6 +17,7 @@ def diagnose_case(case: Case, *, step_s: float, with_baselines: bool) -> dict[st
     """
     from truck_blowout_sim.diagnosis import diagnose
     from truck_blowout_sim.proof.baselines.compare import baseline_errors
+    from truck_blowout_sim.proof.memory import Memory
     from truck_blowout_sim.proof.seal import folder_hash
     from truck_blowout_sim.recordings import read_recording
 
@@ -25,13 +26,15 @@ def diagnose_case(case: Case, *, step_s: float, with_baselines: bool) -> dict[st
                             "answer": None, "baselines": None, "error": None}
     train, baseline, holdout = ([read_recording(path) for path in case.recordings(role)]
                                 for role in ROLES)
+    memory = Memory()
     try:
-        answer, _ = diagnose(train, baseline=baseline, holdout=holdout, workers=1, step_s=step_s)
+        answer, _ = diagnose(train, baseline=baseline, holdout=holdout, workers=1, step_s=step_s,
+                             kept=memory)
         line["answer"] = answer.as_json()
         line["cpu_s"] = round(time.process_time() - cpu, 1)
         if with_baselines:
             line["baselines"] = baseline_errors(train, baseline, holdout, step_s,
-                                                answer.holdout.after)
+                                                answer.holdout.after, memory)
     except (ArithmeticError, ValueError, LookupError, AssertionError, RuntimeError) as error:
         line["error"] = f"{type(error).__name__}: {error}"
     line.setdefault("cpu_s", round(time.process_time() - cpu, 1))

@@ -98,8 +98,16 @@ class Picture:
         # Without a date and the library's version the same figure gives the same file.
         metadata = {"Software": None} if form == "png" else {"Date": None, "Creator": None}
         with style_context(_WHOLE_STYLE):
+            self._lay_out()
             self.figure.savefig(buffer, format=form, dpi=_PNG_DPI, metadata=metadata)
         return buffer.getvalue()
+
+    def _lay_out(self) -> None:
+        """Find the layout once; left to the library, saving draws everything twice for it."""
+        engine = self.figure.get_layout_engine()
+        if engine is not None:
+            engine.execute(self.figure)
+            self.figure.set_layout_engine(None)
 
 
 def styled(draw: Callable[Arguments, Result]) -> Callable[Arguments, Result]:

@@ -22,7 +22,8 @@ _NEVER_ALONE = ("_x_m", "_y_m", "_vx_mps", "_vy_mps", "_roll_rad", "_pitch_rad")
 _ODD = 6.0
 _CLEAR = 3.0  # standard errors
 _WILDEST_SCALE = 0.45
-_NEAREST_M, _FARTHEST_M = 0.18, 3.0  # a tape measure errs less; the body ends before
+_NEAREST_M = 0.18  # a tape measure errs less
+_FARTHEST_M = {"forward": 3.0, "left": 1.5, "up": 3.0}  # nobody errs by more; the body ends before
 
 
 def family_p(delta_chi2: float, parameters: int, tests: int) -> float:
@@ -32,7 +33,7 @@ def family_p(delta_chi2: float, parameters: int, tests: int) -> float:
 
 
 def admissible(hypothesis: Hypothesis, amounts: Sequence[float]) -> bool:
-    """Whether the amounts make sense.
+    """Whether the amounts, one for each parameter, make sense.
 
     Nothing arrives early, no gain is off by half, nothing sits beside the truck.
     """
@@ -40,7 +41,8 @@ def admissible(hypothesis: Hypothesis, amounts: Sequence[float]) -> bool:
     if isinstance(kind, Delay):
         return amounts[0] > 0.0
     if isinstance(kind, LeverArm):
-        return _NEAREST_M < max(abs(a) for a in amounts) < _FARTHEST_M
+        inside = all(abs(a) < _FARTHEST_M[d] for d, a in zip(kind.directions, amounts, strict=True))
+        return inside and max(abs(a) for a in amounts) > _NEAREST_M
     return not isinstance(kind, Scale) or abs(amounts[0]) < _WILDEST_SCALE
 
 

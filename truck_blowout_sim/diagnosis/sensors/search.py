@@ -179,9 +179,10 @@ def _pruned(
 
 
 def _stated(chosen: Sequence[Hypothesis], estimate: Estimate, which: int) -> list[float]:
-    """Amounts of one fault that the answer would state."""
+    """Amounts of one fault that the answer would state, zero for those that it would not."""
     amounts, covariance = part(chosen, estimate, which)
-    return [float(amounts[k]) for k in determined(amounts.tolist(), np.sqrt(np.diag(covariance)))]
+    shown = determined(amounts.tolist(), np.sqrt(np.diag(covariance)))
+    return [float(a) if k in shown else 0.0 for k, a in enumerate(amounts)]
 
 
 def _gain(chosen: Sequence[Hypothesis], estimate: Estimate, which: int) -> float:

@@ -30,6 +30,7 @@ from truck_blowout_sim.diagnosis.study import Study, row_ranges
 from truck_blowout_sim.proof.baselines.features import Stretch, inputs_of, motion_columns
 from truck_blowout_sim.proof.baselines.gaussian_process import predict_residual
 from truck_blowout_sim.proof.baselines.sparse_regression import fit_law, integrate
+from truck_blowout_sim.proof.memory import Memory
 from truck_blowout_sim.recordings import Recording
 from truck_blowout_sim.vehicle import load_vehicle, pack
 
@@ -40,8 +41,12 @@ _WORST = 1e8  # mean square written where a rival ran away
 
 def baseline_errors(train: Sequence[Recording], baseline: Sequence[Recording],
                     holdout: Sequence[Recording], step_s: float,
-                    diagnosed: Mapping[str, float]) -> dict[str, float]:
-    """Mean square on holdout of each rival, and of the diagnosed model from its rms by channel."""
+                    diagnosed: Mapping[str, float], memory: Memory | None = None
+                    ) -> dict[str, float]:
+    """Mean square on holdout of each rival, and of the diagnosed model from its rms by channel.
+
+    ``memory``: knows what the diagnosis has simulated already.
+    """
     packed = pack(load_vehicle(VEHICLE))
     rules = load_settings(packed)
 
@@ -49,7 +54,7 @@ def baseline_errors(train: Sequence[Recording], baseline: Sequence[Recording],
         return tuple(prepare_run(r, role, packed, rules, step_s=step_s) for r in recordings)
 
     study = Study((*runs(baseline, "baseline"), *runs(train, "train")), runs(holdout, "holdout"),
-                  packed, rules, 1)
+                  packed, rules, 1, simulated=(memory or Memory()).simulated)
     plain = study.simulate([(run, packed) for run in study.holdout])
     calibrate(study)
     residual = study.residual()
