@@ -18,17 +18,16 @@ from truck_blowout_sim.diagnosis.law import Law
 from truck_blowout_sim.diagnosis.locate import Wrenches
 from truck_blowout_sim.diagnosis.outcome import (
     Material,
-    alias_set,
     decide,
     locate,
     null_p_value,
-    physics_effect,
     pulled,
 )
 from truck_blowout_sim.diagnosis.result_evidence import ForceHistory
 from truck_blowout_sim.diagnosis.search import Found
 from truck_blowout_sim.diagnosis.sensors import GateResult
 from truck_blowout_sim.diagnosis.study import Study
+from truck_blowout_sim.diagnosis.told import alias_set, physics_effect
 from truck_blowout_sim.vehicle import Packed
 
 Studies = Callable[..., Study]
@@ -106,21 +105,20 @@ def test_chance_falls_with_evidence_and_stays_a_probability(calm: Study, truck: 
 def test_an_effect_is_reported_in_its_own_unit_with_a_90_percent_interval(
     calm: Study, truck: Packed
 ) -> None:
-    effect = physics_effect(material(calm), ranked(truck, "brake_imbalance", -0.5, sigma=0.1))
+    effect = physics_effect(ranked(truck, "brake_imbalance", -0.5, sigma=0.1), calm)
     ratio = effect.parameters["torque_ratio"]
     assert ratio.value == pytest.approx(0.5)
     wide = 1.645 * np.hypot(0.1, 0.5 * calm.settings.form_share)
     assert ratio.ci90 == pytest.approx((0.5 - wide, 0.5 + wide), rel=1e-6)
     assert effect.onset_s is None
     assert "50 percent" in effect.sentence
-    gust = physics_effect(material(calm), ranked(truck, "crosswind", 12.0, start_s=2.5))
+    gust = physics_effect(ranked(truck, "crosswind", 12.0, start_s=2.5), calm)
     assert gust.onset_s == 2.5
     length = gust.parameters["duration_s in run 1"]
     assert length.value == pytest.approx(2.0)
     assert length.ci90 == (-np.inf, np.inf)
-    timed = replace(material(calm), timings={
-        ("crosswind", "tractor"): {"run 1": Timing((2.4, 2.6), (1.8, 2.2))}})
-    known = physics_effect(timed, ranked(truck, "crosswind", 12.0, start_s=2.5))
+    timed = {"run 1": Timing((2.4, 2.6), (1.8, 2.2))}
+    known = physics_effect(ranked(truck, "crosswind", 12.0, start_s=2.5), calm, timed)
     assert known.onset_ci90_s == (2.4, 2.6)
     assert known.parameters["duration_s in run 1"].ci90 == (1.8, 2.2)
     assert "2.50 s" in gust.sentence

@@ -47,7 +47,9 @@ def command(
     quick: bool = typer.Option(
         False, "--quick", help="One effect at most, fewer candidates fitted, coarser step."
     ),
-    thorough: bool = typer.Option(False, "--thorough", help="1 ms step, up to four effects."),
+    thorough: bool = typer.Option(
+        False, "--thorough", help="1 ms step, up to four effects, intervals by profile likelihood."
+    ),
 ) -> None:
     """Locate, name and fit what the model lacks to explain recordings."""
     from truck_blowout_sim.diagnosis import diagnose, keeping
@@ -67,7 +69,7 @@ def command(
             train, baseline=base, holdout=hold, vehicle=loaded, settings=settings,
             impose_speed=impose_speed, step_s=step_s,
             most_effects=1 if quick else 4 if thorough else 3,
-            refits=_QUICK_REFITS if quick else REFITS, kept=kept,
+            refits=_QUICK_REFITS if quick else REFITS, profile=thorough, kept=kept,
             progress=lambda stage, share: progress.update(
                 task, description=stage, completed=share))
         progress.update(task, description="drawing", completed=1.0)

@@ -17,6 +17,7 @@ from truck_blowout_sim.diagnosis.law import plainest_law
 from truck_blowout_sim.diagnosis.locate import Wrenches, missing_wrench
 from truck_blowout_sim.diagnosis.next_test import Separation, best_test
 from truck_blowout_sim.diagnosis.outcome import Material, answer, joint_amounts
+from truck_blowout_sim.diagnosis.profile import Arms, arms_of
 from truck_blowout_sim.diagnosis.result import Diagnosis, Role, Verdict
 from truck_blowout_sim.diagnosis.resume import Keeps
 from truck_blowout_sim.diagnosis.runs import Run, prepare_run
@@ -36,7 +37,7 @@ def diagnose(recordings: Sequence[Recording], *, baseline: Sequence[Recording] =
              holdout: Sequence[Recording] = (),
              vehicle: Vehicle | str = "international_9400i_trailmobile", settings: str = "default",
              most_effects: int = 3, refits: tuple[int, int] = REFITS, step_s: float = STEP_S,
-             workers: int | None = None, impose_speed: bool | None = None,
+             profile: bool = False, workers: int | None = None, impose_speed: bool | None = None,
              progress: Progress | None = None, kept: Keeps | None = None
              ) -> tuple[Diagnosis, Mapping[str, float]]:
     """Diagnose recordings that a model does not reproduce.
@@ -49,6 +50,7 @@ def diagnose(recordings: Sequence[Recording], *, baseline: Sequence[Recording] =
         settings: name of a file in ``config/diagnosis``.
         most_effects: how many effects may be named.
         refits: how many steady candidates are fitted anew for each effect, and how many events.
+        profile: intervals of amounts by profile likelihood and block jackknife, not by curvature.
         impose_speed: follow the recorded speed; None: only where throttle or brakes are missing.
         step_s: integration step; ``workers``: threads; ``progress``: called with (stage, share).
         kept: knows simulations made before, as :func:`keeping` does those of an interrupted call.
@@ -79,7 +81,7 @@ def diagnose(recordings: Sequence[Recording], *, baseline: Sequence[Recording] =
                   workers or os.cpu_count() or 1, refits)
     if kept is not None:
         kept.begin(case_parts({"train": recordings, "baseline": baseline, "holdout": holdout},
-                              packed, rules, (most_effects, refits, step_s, impose_speed)))
+                              packed, rules, (most_effects, refits, step_s, profile, impose_speed)))
         study.simulated = kept.simulated
     calibrate(study, progress=progress)
     found = search(study, progress, most_effects)
@@ -90,7 +92,8 @@ def diagnose(recordings: Sequence[Recording], *, baseline: Sequence[Recording] =
     law = plainest_law(worst, next(r for r in study.runs
                                    if r.recording.name == worst.history.recording))
     material = Material(study, found, gate, before, after, law, _timings(study, found), loaded.name,
-                        _separation(study, found, progress))
+                        _separation(study, found, progress),
+                        _arms(study, found, progress) if profile else {})
     told = answer(material)
     return told, diagnosed_values(material, packed, told.verdict)
 
@@ -110,6 +113,17 @@ def _timings(study: Study, found: Found) -> dict[tuple[str, str], Mapping[str, T
     named = [r.hypothesis for r in found.named]
     return {r.hypothesis.key: time_intervals(study, r, [h for h in named if h is not r.hypothesis])
             for r in found.named if r.hypothesis.times}
+
+
+def _arms(study: Study, found: Found, progress: Progress | None) -> dict[tuple[str, str], Arms]:
+    """How well each named amount is known, the others in force."""
+    named, arms = [r.hypothesis for r in found.named], {}
+    for k, one in enumerate(found.named):
+        others = [h for h in named if h is not one.hypothesis]
+        arms[one.hypothesis.key] = arms_of(study, one, others)
+        if progress:
+            progress("profile", (k + 1) / len(named))
+    return arms
 
 
 def _separation(study: Study, found: Found, progress: Progress | None) -> Separation | None:

@@ -2,38 +2,35 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
 
 from truck_blowout_sim.diagnosis import evidence, words
-from truck_blowout_sim.diagnosis.attribute import Ranked
 from truck_blowout_sim.diagnosis.intervals import Timing
 from truck_blowout_sim.diagnosis.law import Law
 from truck_blowout_sim.diagnosis.locate import Wrenches
 from truck_blowout_sim.diagnosis.next_test import Separation
+from truck_blowout_sim.diagnosis.profile import NINETY, Arms
 from truck_blowout_sim.diagnosis.result import (
     AliasSet,
     ChannelSigma,
     Diagnosis,
-    Effect,
     Evidence,
     Fit,
     Location,
-    Parameter,
-    Place,
     Verdict,
     Wrench,
 )
 from truck_blowout_sim.diagnosis.search import Found
-from truck_blowout_sim.diagnosis.sensors import GateResult, SensorFinding
+from truck_blowout_sim.diagnosis.sensors import GateResult
 from truck_blowout_sim.diagnosis.study import Study
+from truck_blowout_sim.diagnosis.told import alias_set, physics_effect, sensor_effect
 
 Floats = NDArray[np.float64]
-_NINETY = 1.645
-_OPEN = (-np.inf, np.inf)
+Key = tuple[str, str]  # of a hypothesis: name and place
 _PULLED = 2.9  # prior sigmas beyond which a sheet number is reported
 
 
@@ -47,6 +44,7 @@ class Material:
         timings: intervals of each timed effect's onset and duration, by key and run.
         vehicle: name of the model's vehicle.
         separation: the run that would best tell apart what these cannot, if any could.
+        arms: of each effect's amount by profile likelihood and jackknife, by key, if asked for.
     """
 
     study: Study
@@ -55,9 +53,10 @@ class Material:
     wrenches: tuple[Wrenches, ...]
     unnamed: tuple[Wrenches, ...]
     law: Law
-    timings: Mapping[tuple[str, str], Mapping[str, Timing]]
+    timings: Mapping[Key, Mapping[str, Timing]]
     vehicle: str
     separation: Separation | None = None
+    arms: Mapping[Key, Arms] = field(default_factory=dict)
 
 
 def answer(material: Material) -> Diagnosis:
@@ -67,7 +66,8 @@ def answer(material: Material) -> Diagnosis:
     verdict = decide(material)
     # what explains less than half of a mismatch is no name for it; it stays among the candidates
     named = [] if verdict == "unknown" else list(zip(found.named, found.rivals, strict=True))
-    effects += [physics_effect(material, ranked) for ranked, _ in named]
+    effects += [physics_effect(r, material.study, material.timings.get(r.hypothesis.key),
+                               material.arms.get(r.hypothesis.key)) for r, _ in named]
     aliases = [AliasSet(f.aliases or (f.name,), splits=f.next_test) for f in gate.findings]
     aliases += [alias_set(rivals) for _, rivals in named]
     next_test = words.next_test(found, gate, material.separation)
@@ -119,47 +119,6 @@ def joint_amounts(material: Material) -> dict[str, float]:
     return {study.names[k]: float(a) for k, a in zip(study.kept(named), amounts, strict=True)}
 
 
-def physics_effect(material: Material, ranked: Ranked) -> Effect:
-    """An accepted hypothesis as the answer gives it."""
-    h = ranked.hypothesis
-    amount = h.effect.amount
-    # noise alone would give an interval far too narrow: the truth has another law than the model
-    form = material.study.settings.form_share * (h.amount - h.effect.neutral(material.study.packed))
-    wide = _NINETY * float(np.hypot(ranked.sigma, form))
-    value = amount.report(h.amount)
-    ends = sorted(amount.report(float(np.clip(end, amount.low, amount.high)))
-                  for end in (h.amount - wide, h.amount + wide))
-    first = min(h.times, key=lambda run: h.times[run][0], default="")
-    onset = h.times[first][0] if first else None
-    timings = material.timings.get(h.key, {})
-    interval = timings[first].onset_s if first in timings else None
-    parameters = {amount.name: Parameter(value, amount.unit, (ends[0], ends[1]))}
-    for run, (start, end) in h.times.items():
-        if np.isfinite(end):
-            known = timings[run].duration_s if run in timings else None
-            parameters[f"duration_s in {run}"] = Parameter(end - start, "s", known or _OPEN)
-    sentence, equation = words.fill(h, value, onset)
-    return Effect(name=h.effect.name, kind=h.effect.kind, where=h.place, parameters=parameters,
-                  equation=equation, sentence=sentence, onset_s=onset, onset_ci90_s=interval)
-
-
-def sensor_effect(finding: SensorFinding) -> Effect:
-    """A faulty instrument as the answer gives it."""
-    return Effect(name=finding.name, kind="sensor", where=Place(body=finding.body or None),
-                  parameters={n: Parameter(a.value, a.unit, a.ci90)
-                              for n, a in finding.parameters.items()},
-                  equation=finding.equation, sentence=finding.sentence)
-
-
-def alias_set(rivals: Sequence[Ranked]) -> AliasSet:
-    """Names that explain as much, best first, each once."""
-    first: dict[str, Ranked] = {}
-    for r in rivals:
-        first.setdefault(r.hypothesis.effect.name, r)
-    return AliasSet(tuple(first), tuple(str(r.hypothesis.place) for r in first.values()),
-                    rivals[0].hypothesis.effect.splits)
-
-
 def locate(material: Material) -> Location:
     """Channels that differ before anything is named; where what is then left unnamed acts."""
     study = material.study
@@ -178,7 +137,7 @@ def locate(material: Material) -> Location:
     if best.delta < study.settings.accept_delta or not strong.size:
         return Location(channels=channels)
     a, b = strong[0], strong[-1] + 1
-    wide = _NINETY * best.x_sigma_m
+    wide = NINETY * best.x_sigma_m
     known = np.isfinite(best.x_m)
     return Location(
         channels=channels,

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from math import isfinite
 
 from truck_blowout_sim.diagnosis.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.law import Law
 from truck_blowout_sim.diagnosis.next_test import Separation
 from truck_blowout_sim.diagnosis.result import Effect, Verdict
+from truck_blowout_sim.diagnosis.result_parts import Interval
 from truck_blowout_sim.diagnosis.search import Found
 from truck_blowout_sim.diagnosis.sensors import GateResult
 from truck_blowout_sim.diagnosis.study import Study
@@ -31,6 +33,12 @@ def fill(hypothesis: Hypothesis, value: float, onset_s: float | None) -> tuple[s
               "percent": f"{100.0 * value:.2g}", "percent_of": f"{100.0 * value:.0f}"}
     effect = hypothesis.effect
     return effect.sentence.format(**blanks), effect.equation.format(**blanks)
+
+
+def open_ends(ends: Interval) -> str:
+    """What to say where the recordings set no bound on one side, or on neither."""
+    open_ = [word for word, end in zip(("lower", "upper"), ends, strict=True) if not isfinite(end)]
+    return f" These recordings set no {' and no '.join(open_)} bound." if open_ else ""
 
 
 def verdict_sentence(verdict: Verdict, effects: Sequence[Effect],
