@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -85,7 +86,8 @@ def _write(answer: Diagnosis, vehicle: Vehicle, base: str, values: Mapping[str, 
 
     write_diagnosis(answer, folder / "diagnosis.json")
     write_diagnosed_vehicle(folder / "vehicle.yaml", base, values, answer)
-    write_diagnosis_report(answer, vehicle, folder / "report.html")
+    write_diagnosis_report(answer, vehicle, folder / "report.html",
+                           help_drawing=(os.cpu_count() or 1) > 1)
 
 
 def _read(paths: Sequence[Path], hubs: tuple[str, ...], tires: tuple[str, ...]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 
 import numpy as np
@@ -38,14 +39,9 @@ def shortlist(study: Study, named: Sequence[Hypothesis], progress: Progress | No
     steady = [h for h in steady_candidates(study) if h.key not in taken]
     ranked = rank_steady(study, steady, named, progress)
     worth = _WORTH_REFITTING * study.settings.accept_delta
-    done: list[Ranked] = []
-    for k, one in enumerate(ranked):
-        if k < study.refits[0] and one.promise > worth:
-            done.append(refit(study, one, chi2, named))
-            if progress:
-                progress("refitting", (k + 1) / study.refits[0])
-        else:
-            done.append(one)
+    promising = [one for one in ranked[:study.refits[0]] if one.promise > worth]
+    done = [*_refitted(study, promising, chi2, named, progress),
+            *ranked[len(promising):]]
     best = max((r.delta for r in done if r.refitted), default=0.0)
     done += _events(study, named, chi2, max(worth, _HALF * best), ranked, progress)
     best_of: dict[tuple[str, str], Ranked] = {}
@@ -53,6 +49,21 @@ def shortlist(study: Study, named: Sequence[Hypothesis], progress: Progress | No
         if one.hypothesis.key not in taken:
             best_of.setdefault(one.hypothesis.key, one)
     return list(best_of.values())
+
+
+def _refitted(study: Study, chosen: Sequence[Ranked], chi2: float, named: Sequence[Hypothesis],
+              progress: Progress | None) -> list[Ranked]:
+    """Each at its best amount, side by side; the same numbers as one after another."""
+    study.projector(named)  # made once, before all ask for it
+    alone = [replace(study, workers=1, simulations=0) for _ in chosen]
+    done: list[Ranked] = []
+    with ThreadPoolExecutor(study.workers) as pool:
+        for one in pool.map(lambda k: refit(alone[k], chosen[k], chi2, named), range(len(chosen))):
+            done.append(one)
+            if progress:
+                progress("refitting", len(done) / len(chosen))
+    study.simulations += sum(one.simulations for one in alone)
+    return done
 
 
 def _events(study: Study, named: Sequence[Hypothesis], chi2: float, worth: float,
