@@ -83,7 +83,7 @@ def test_the_same_inputs_give_the_same_bytes(case: Case, tmp_path: Path) -> None
     train, holdout = (read_recording(p, hubs=vehicle.hubs, tires=vehicle.tires)
                       for p in (case.train, case.holdout))
     again, _ = diagnose([train], holdout=[holdout], settings=str(case.settings), step_s=0.0025,
-                        most_effects=1, workers=1)
+                        most_effects=1, refits=(4, 1), workers=1)
     write_diagnosis(again, tmp_path / "again.json")
     assert (tmp_path / "again.json").read_bytes() == (case.folder / "diagnosis.json").read_bytes()
 
@@ -126,6 +126,20 @@ def test_bad_input_is_one_line_and_status_2(
     assert "no_file" in refused(capsys, path, "--settings", "no_file", *out)
     assert "--output" in refused(capsys, path)
     assert not (tmp_path / "out" / "diagnosis.json").exists()
+
+
+def test_thorough_says_how_long_and_follows_the_likelihood(
+    case: Case, capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    assert main(["diagnose", str(case.train), "--holdout", str(case.holdout), "--settings",
+                 str(case.settings), "--thorough", "-o", str(tmp_path / "out")]) == 0
+    assert "finding four effects would take about" in capsys.readouterr().err
+    answer = json.loads((tmp_path / "out" / "diagnosis.json").read_text(encoding="utf-8"))
+    ratio, quick = (a["effects"][0]["parameters"]["torque_ratio"] for a in (answer, case.answer))
+    assert answer["effects"][0]["name"] == "brake_imbalance"
+    assert ratio["ci90"][0] < 0.3 < ratio["ci90"][1]
+    assert ratio["ci90"] != quick["ci90"]
+    assert ratio["ci90"] == pytest.approx(quick["ci90"], abs=0.05)
 
 
 def test_help_names_every_option(capsys: pytest.CaptureFixture[str]) -> None:

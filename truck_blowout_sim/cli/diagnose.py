@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import os
+import time
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import typer
 from rich.console import Console
-from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
+from rich.progress import BarColumn, Progress, TaskID, TextColumn, TimeElapsedColumn
 
 from truck_blowout_sim.cli.failures import interruptible
 
@@ -22,6 +23,7 @@ _KEPT = ".resume"  # in the output folder, until the answer is written
 _CONTINUES = "the same command continues from here"
 _QUICK_STEP_S, _QUICK_REFITS = 0.0025, (4, 1)
 _THOROUGH_STEP_S = 0.001
+_OF_SENSITIVITIES = 25.0  # as many times as long take four effects
 
 
 def command(
@@ -71,8 +73,7 @@ def command(
             impose_speed=impose_speed, step_s=step_s,
             most_effects=1 if quick else 4 if thorough else 3,
             refits=_QUICK_REFITS if quick else REFITS, profile=thorough, kept=kept,
-            progress=lambda stage, share: progress.update(
-                task, description=stage, completed=share))
+            progress=_reporter(progress, task, thorough))
         progress.update(task, description="drawing", completed=1.0)
         _write(answer, loaded, vehicle, values, output)
     _print(Console(), answer, output)
@@ -108,6 +109,22 @@ def _read(paths: Sequence[Path], hubs: tuple[str, ...], tires: tuple[str, ...]
 def _progress() -> Progress:
     columns = (TextColumn("{task.description:<20.20}"), BarColumn(), TimeElapsedColumn())
     return Progress(*columns, console=Console(stderr=True), transient=True)
+
+
+def _reporter(progress: Progress, task: TaskID, foretell: bool) -> Callable[[str, float], None]:
+    """Shows stage and share; ``foretell``: says once how long the whole may take."""
+    begun: list[float] = []
+
+    def report(stage: str, share: float) -> None:
+        progress.update(task, description=stage, completed=share)
+        if foretell and stage == "sensitivities":
+            begun.append(time.monotonic())
+            if share >= 1.0 and len(begun) > 1:
+                most_s = _OF_SENSITIVITIES * (begun[-1] - begun[0])
+                _teller(progress)(f"finding four effects would take about {most_s / 60.0:.1f} min; "
+                                  "less where fewer are missing")
+
+    return report
 
 
 def _teller(progress: Progress) -> Callable[[str], None]:
