@@ -31,7 +31,7 @@ from truck_blowout_sim.diagnosis.told import alias_set, physics_effect
 from truck_blowout_sim.vehicle import Packed
 
 Studies = Callable[..., Study]
-NO_LAW = Law("fy_n", "trailer", "1", 0.0, 1.0, "F_y = 0", 0.0, {})
+NO_LAW = Law("fy_n", "trailer", (("1", 0.0),), "F_y = 0", 0.0, {})
 
 
 def ranked(truck: Packed, name: str, amount: float, delta: float = 500.0, *, at: int = 0,

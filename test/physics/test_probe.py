@@ -46,12 +46,19 @@ def test_its_impulse_is_force_times_duration(truck: Packed, state: Floats, work:
     assert impulse == pytest.approx(-700.0, rel=2e-3)
 
 
+@pytest.mark.parametrize(("key", "component", "per_unit"), [
+    ("probe_fx_v_nspm", 0, 20.0), ("probe_fx_vv_ns2pm2", 0, 400.0), ("probe_fx_vr_kg", 0, 2.0),
+    ("probe_fx_roll_nprad", 0, 0.05), ("probe_fy_v_nspm", 1, 20.0),
+    ("probe_fy_vv_ns2pm2", 1, 400.0), ("probe_fy_vr_kg", 1, 2.0), ("probe_fy_roll_nprad", 1, 0.05),
+    ("probe_mz_v_ns", 5, 20.0), ("probe_mz_vv_ns2pm", 5, 400.0), ("probe_mz_vr_kgm", 5, 2.0),
+    ("probe_mz_roll_nmprad", 5, 0.05),
+])  # fmt: skip
 def test_its_laws_follow_the_motion(truck: Packed, state: Floats, work: Floats,
-                                    block: Callable[[str], int]) -> None:
-    law = truck.with_values({"unit.tractor.probe_fy_law_npmps2": 100.0,
-                             "unit.tractor.probe_fx_law_nspm": 30.0})
+                                    block: Callable[[str], int], key: str, component: int,
+                                    per_unit: float) -> None:
+    law = truck.with_values({f"unit.tractor.{key}": -30.0})
+    at = block("unit.tractor")
     state[S + UNIT_S.u_mps], state[S + UNIT_S.r_radps] = 20.0, 0.1
-    found = wrench(law, state, work, block("unit.tractor"))
-    assert found[0] == pytest.approx(-600.0)
-    assert found[1] == pytest.approx(200.0)
-    assert np.abs(wrench(truck, state, work, block("unit.tractor"))).max() == 0.0
+    state[S + UNIT_S.roll_rad] = 0.05
+    assert wrench(law, state, work, at)[component] == pytest.approx(-30.0 * per_unit)
+    assert np.abs(wrench(truck, state, work, at)).max() == 0.0

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -13,10 +14,10 @@ from truck_blowout_sim.diagnosis.calibration import calibrate
 from truck_blowout_sim.diagnosis.fingerprints import case_parts
 from truck_blowout_sim.diagnosis.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.intervals import Timing, time_intervals
-from truck_blowout_sim.diagnosis.law import plainest_law
+from truck_blowout_sim.diagnosis.law import checked, plainest_law
 from truck_blowout_sim.diagnosis.locate import Wrenches, missing_wrench
 from truck_blowout_sim.diagnosis.next_test import Separation, best_test
-from truck_blowout_sim.diagnosis.outcome import Material, answer, joint_amounts
+from truck_blowout_sim.diagnosis.outcome import Material, answer, decide, joint_amounts
 from truck_blowout_sim.diagnosis.profile import Arms, arms_of
 from truck_blowout_sim.diagnosis.result import Diagnosis, Role, Verdict
 from truck_blowout_sim.diagnosis.resume import Keeps
@@ -94,6 +95,8 @@ def diagnose(recordings: Sequence[Recording], *, baseline: Sequence[Recording] =
     material = Material(study, found, gate, before, after, law, _timings(study, found), loaded.name,
                         _separation(study, found, progress),
                         _arms(study, found, progress) if profile else {})
+    if decide(material) == "unknown":
+        material = replace(material, law=checked(study, law))
     told = answer(material)
     return told, diagnosed_values(material, packed, told.verdict)
 
@@ -143,7 +146,7 @@ def diagnosed_values(material: Material, given: Packed, verdict: Verdict) -> Map
         here, usual = study.amounts.get(nuisance.name, 0.0), study.expected(nuisance.name)
         total = float(np.clip(joint.get(nuisance.name, here), usual - FURTHEST, usual + FURTHEST))
         truck = truck.with_values(nuisance.values(truck, nuisance.between(here, total)))
-    if verdict == "unknown":
+    if verdict == "unknown" and material.law.helps:
         truck = truck.with_values(material.law.values)
     for effect in named:
         truck = effect.apply(truck, next(iter(effect.times), ""))

@@ -53,8 +53,17 @@ def verdict_sentence(verdict: Verdict, effects: Sequence[Effect],
     if verdict == "unknown":
         return (f"Something acts on the {law.body} that no known effect explains; its plainest law "
                 f"is {law.equation}, which left-out windows confirm to "
-                f"{100.0 * law.explained:.0f} percent.")
+                f"{100.0 * law.explained:.0f} percent{_unseen(law)}.")
     return " ".join(effect.sentence for effect in effects)
+
+
+def _unseen(law: Law) -> str:
+    """What runs that were never fitted say of a law."""
+    if law.unseen is None:
+        return "" if law.values else "; the model has no place for it"
+    change = 100.0 * (1.0 - law.unseen[1] / law.unseen[0])
+    return (f"; with it, unseen runs are predicted {change:.0f} percent better" if law.helps else
+            "; unseen runs are not predicted better with it, so it is not added")
 
 
 def next_test(found: Found, gate: GateResult, best: Separation | None = None) -> str:

@@ -162,8 +162,18 @@ class UnitParams(NamedTuple):
     probe_start_s: int
     probe_end_s: int
     probe_ramp_s: int
-    probe_fy_law_npmps2: int  # unexplained lateral force proportional to a lateral acceleration
-    probe_fx_law_nspm: int  # unexplained drag proportional to speed
+    probe_fx_v_nspm: int  # its laws, in this order for each component: speed, speed squared,
+    probe_fx_vv_ns2pm2: int  # yaw rate times speed, roll
+    probe_fx_vr_kg: int
+    probe_fx_roll_nprad: int
+    probe_fy_v_nspm: int
+    probe_fy_vv_ns2pm2: int
+    probe_fy_vr_kg: int
+    probe_fy_roll_nprad: int
+    probe_mz_v_ns: int
+    probe_mz_vv_ns2pm: int
+    probe_mz_vr_kgm: int
+    probe_mz_roll_nmprad: int
 
 
 class AxleParams(NamedTuple):

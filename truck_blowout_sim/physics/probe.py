@@ -1,11 +1,12 @@
 """A wrench of unknown origin on a unit: what a diagnosis finds before it can name a cause.
 
-Constant over an interval, plus two plain laws that hold throughout: a lateral force proportional to
-yaw rate times speed, and a drag proportional to speed. All zero in a vehicle that is understood.
+Constant over an interval, plus plain laws that hold throughout: each of Fx, Fy and Mz as a sum of
+terms in speed, speed squared, yaw rate times speed, and roll. All zero in a vehicle that is
+understood.
 
 References: none; the input of an augmented-state smoother.
-Known limits: acts at base_link, in the road plane.
-Validated with: test/physics/test_probe.py (impulse, interval, lever).
+Known limits: acts at base_link, in the road plane; roll is that of the body on its road.
+Validated with: test/physics/test_probe.py (impulse, interval, lever, every law).
 """
 
 from __future__ import annotations
@@ -24,18 +25,25 @@ Floats = NDArray[np.float64]
 @core
 def add_probe(x: Floats, s: int, p: Floats, a: int, work: Floats, w: int) -> None:
     """Add the unexplained wrench of the unit at state ``s``, parameters ``a``, work ``w``."""
-    side = p[a + UNIT.probe_fy_law_npmps2]
-    drag = p[a + UNIT.probe_fx_law_nspm]
-    timed = p[a + UNIT.probe_start_s] <= x[0]
-    if not timed and side == 0.0 and drag == 0.0:
-        return
-    share = 0.0
-    if timed:
+    fx = _law(x, s, p, a + UNIT.probe_fx_v_nspm)
+    fy = _law(x, s, p, a + UNIT.probe_fy_v_nspm)
+    mz = _law(x, s, p, a + UNIT.probe_mz_v_ns)
+    if p[a + UNIT.probe_start_s] <= x[0]:
         share = ramp(x[0] + 1e-9, p[a + UNIT.probe_start_s], p[a + UNIT.probe_end_s],
                      p[a + UNIT.probe_ramp_s])
-    speed = x[s + UNIT_S.u_mps]
-    fx = share * p[a + UNIT.probe_fx_n] - drag * speed
-    fy = share * p[a + UNIT.probe_fy_n] + side * speed * x[s + UNIT_S.r_radps]
+        fx += share * p[a + UNIT.probe_fx_n]
+        fy += share * p[a + UNIT.probe_fy_n]
+        mz += share * p[a + UNIT.probe_mz_nm]
+    if fx == 0.0 and fy == 0.0 and mz == 0.0:
+        return
     add_force(work, w, (fx, fy, 0.0),
               (p[a + UNIT.base_x_m], p[a + UNIT.base_y_m], p[a + UNIT.base_z_m]))
-    add_moment(work, w, 0.0, 0.0, share * p[a + UNIT.probe_mz_nm])
+    add_moment(work, w, 0.0, 0.0, mz)
+
+
+@core
+def _law(x: Floats, s: int, p: Floats, first: int) -> float:
+    """One component of the laws whose four factors begin at ``first``."""
+    speed = x[s + UNIT_S.u_mps]
+    return (p[first] * speed + p[first + 1] * speed * speed
+            + p[first + 2] * speed * x[s + UNIT_S.r_radps] + p[first + 3] * x[s + UNIT_S.roll_rad])
