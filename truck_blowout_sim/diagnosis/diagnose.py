@@ -23,7 +23,7 @@ from truck_blowout_sim.diagnosis.result import Diagnosis, Role, Verdict
 from truck_blowout_sim.diagnosis.resume import Keeps
 from truck_blowout_sim.diagnosis.runs import Run, prepare_run
 from truck_blowout_sim.diagnosis.search import Found, search
-from truck_blowout_sim.diagnosis.sensors import correct, sensor_gate, vehicle_geometry
+from truck_blowout_sim.diagnosis.sensors import GateResult, correct, sensor_gate, vehicle_geometry
 from truck_blowout_sim.diagnosis.settings import load_settings
 from truck_blowout_sim.diagnosis.study import FURTHEST, REFITS, Progress, Study, row_ranges
 from truck_blowout_sim.errors import InputError
@@ -86,19 +86,26 @@ def diagnose(recordings: Sequence[Recording], *, baseline: Sequence[Recording] =
         study.simulated = kept.simulated
     calibrate(study, progress=progress)
     found = search(study, progress, most_effects)
+    material = _material(study, found, gate, loaded.name, profile, progress)
+    told = answer(material)
+    return told, diagnosed_values(material, packed, told.verdict)
+
+
+def _material(study: Study, found: Found, gate: GateResult, vehicle: str, profile: bool,
+              progress: Progress | None) -> Material:
+    """Everything else an answer needs, once the search has ended."""
     named = [r.hypothesis for r in found.named]
     before = _wrenches(study, found.models_null, (), progress)
     after = _wrenches(study, study.models, named, progress) if named else before
     worst = max(after, key=lambda w: w.delta)
     law = plainest_law(worst, next(r for r in study.runs
                                    if r.recording.name == worst.history.recording))
-    material = Material(study, found, gate, before, after, law, _timings(study, found), loaded.name,
+    material = Material(study, found, gate, before, after, law, _timings(study, found), vehicle,
                         _separation(study, found, progress),
                         _arms(study, found, progress) if profile else {})
     if decide(material) == "unknown":
-        material = replace(material, law=checked(study, law))
-    told = answer(material)
-    return told, diagnosed_values(material, packed, told.verdict)
+        material = replace(material, law=checked(study, law, named))
+    return material
 
 
 def _wrenches(study: Study, models: Sequence[Floats], named: Sequence[Hypothesis],

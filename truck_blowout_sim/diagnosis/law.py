@@ -14,13 +14,15 @@ Validated with: test/diagnosis/test_law.py (the law that made the data is found)
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
+from truck_blowout_sim.diagnosis.attribute import with_effects
 from truck_blowout_sim.diagnosis.holdout import predict
+from truck_blowout_sim.diagnosis.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.locate import Wrenches
 from truck_blowout_sim.diagnosis.runs import Run
 from truck_blowout_sim.diagnosis.study import Study
@@ -91,17 +93,21 @@ def plainest_law(wrenches: Wrenches, run: Run) -> Law:
                _probe_values(component, history.body, terms, wrenches, acting))
 
 
-def checked(study: Study, law: Law) -> Law:
-    """The law with what it does to runs that were never fitted; a mere interval is not asked."""
+def checked(study: Study, law: Law, named: Sequence[Hypothesis] = ()) -> Law:
+    """The law with what it does to runs that were never fitted, beside the effects in force.
+
+    A mere interval is not asked: it says nothing of another run.
+    """
     if not study.holdout or not law.values or law.terms[0][0] == CONSTANT:
         return law
-    truck = study.packed.with_values(law.values)
-    trained = dict(enumerate(study.models))
-    jobs = [(study.runs[i], truck) for i in study.train]
-    trained |= dict(zip(study.train, study.simulate(jobs), strict=True))
-    unseen = study.simulate([(run, truck) for run in study.holdout])
-    before = predict(study, study.residual(), ())
-    after = predict(replace(study, holdout_models=unseen), study.residual(trained), ())
+    truck, models = study.packed.with_values(law.values), list(study.models)
+    jobs = [(study.runs[i], with_effects(truck, named, study.runs[i].recording.name))
+            for i in study.train]
+    for i, model in zip(study.train, study.simulate(jobs), strict=True):
+        models[i] = model
+    held = study.simulate([(run, truck) for run in study.holdout])
+    tried = replace(study, packed=truck, models=models, holdout_models=held)
+    before, after = (predict(one, one.residual(), named) for one in (study, tried))
     return replace(law, unseen=(sum(p.chi2 for p in before), sum(p.chi2 for p in after)))
 
 
