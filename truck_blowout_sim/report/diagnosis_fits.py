@@ -39,6 +39,7 @@ def overlay_picture(
         _overlay(axes, overlay, labels)
     for axes in panels[len(overlays) :]:
         axes.remove()
+    figure.supxlabel("time (s)", fontsize=9)
     handles, words = panels[0].get_legend_handles_labels()
     figure.legend(handles, words, loc="outside upper right", ncols=3)
     first = overlays[0]
