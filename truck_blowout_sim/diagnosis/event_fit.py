@@ -127,5 +127,5 @@ def _change(study: Study, i: int, before: Hypothesis, after: Hypothesis,
     """What a run changes from one hypothesis to another."""
     run, name = study.runs[i], study.runs[i].recording.name
     truck = with_effects(study.packed, others, name)
-    first, last = study.simulate([(run, h.apply(truck, name)) for h in (before, after)])
+    first, last = study.simulate([study.job(run, truck, h) for h in (before, after)])
     return run.change(last, first)

@@ -86,9 +86,9 @@ def _place(study: Study, run: Run, columns: Floats, amounts: Floats,
     length = float(np.median(lengths)) if lengths else np.inf
 
     def models(times: Sequence[float]) -> list[Floats]:
-        trucks = [with_effects(study.packed, [*others, replace(event, times={
-            name: (t, t + length)})], name) for t in times]
-        return study.simulate([(run, truck) for truck in trucks])
+        base = with_effects(study.packed, others, name)
+        return study.simulate([study.job(run, base, replace(event, times={name: (t, t + length)}))
+                               for t in times])
 
     def left(model: Floats) -> float:
         return float(np.sum((run.residual(model) - columns @ amounts) ** 2))

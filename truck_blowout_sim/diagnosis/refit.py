@@ -27,8 +27,8 @@ _STEP_SHARE = 0.15  # of the amount, lower bound of the finite difference
 def models_at(study: Study, hypotheses: Sequence[Hypothesis], named: Sequence[Hypothesis]
               ) -> list[dict[int, Floats]]:
     """Training models under each hypothesis, on top of those already named."""
-    jobs = [(study.runs[i], h.apply(with_effects(
-        study.packed, named, study.runs[i].recording.name), study.runs[i].recording.name))
+    jobs = [study.job(study.runs[i], with_effects(
+        study.packed, named, study.runs[i].recording.name), h)
         for h in hypotheses for i in study.train]
     results = study.simulate(jobs)
     n = len(study.train)

@@ -19,6 +19,7 @@ from truck_blowout_sim.diagnosis.sensors import Noise, channel_noise
 from truck_blowout_sim.diagnosis.settings import Settings
 from truck_blowout_sim.diagnosis.trust import BRAKES_ON_PA, wider
 from truck_blowout_sim.recordings import Recording
+from truck_blowout_sim.simulation.course import Course
 from truck_blowout_sim.simulation.drive import Drive, names_of, run_drive
 from truck_blowout_sim.simulation.replay import drive_from
 from truck_blowout_sim.vehicle import Packed
@@ -42,6 +43,7 @@ class Run:
         noise: standard error from the instrument alone.
         correction: [n, m] what the fine step changes in the reference truck's bin means; added to
             those of every truck, which are simulated on the coarse step.
+        course, since_s: a driven truck from which those simulated differ only after an instant.
     """
 
     recording: Recording
@@ -55,6 +57,8 @@ class Run:
     noise: Floats
     fine: Drive
     correction: Floats
+    course: Course | None = None
+    since_s: float = 0.0
 
     @property
     def length_s(self) -> float:
@@ -78,7 +82,9 @@ class Run:
 
     def simulated(self, truck: Packed) -> Floats:
         """[n, m] bin means of a truck over this run."""
-        return self.bins_of(run_drive(truck, self.drive)) + self.correction
+        out = (run_drive(truck, self.drive) if self.course is None
+               else self.course.left_at(truck, self.since_s))
+        return self.bins_of(out) + self.correction
 
     def corrected(self, truck: Packed) -> Run:
         """This run, corrected for the coarse step at a reference truck.

@@ -16,11 +16,13 @@ from truck_blowout_sim.diagnosis.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.linear import Projector
 from truck_blowout_sim.diagnosis.runs import Run, simulate_bins
 from truck_blowout_sim.diagnosis.settings import Settings
+from truck_blowout_sim.simulation.course import Course, drive_course
 from truck_blowout_sim.vehicle import Packed
 
 Floats = NDArray[np.float64]
 Progress = Callable[[str, float], None]
 REFITS = (7, 2)
+_MOST_COURSES = 12  # driven trucks that are remembered, some 3 MB each
 FURTHEST = 3.0  # prior sigmas a number of the sheet may stray
 _START_SPEED_SIGMA_MPS = 0.02
 _START_SPEED_STEP_MPS = 0.1
@@ -61,6 +63,7 @@ class Study:
     simulations: int = 0
     simulated: Callable[[Run, Packed], Floats] = Run.simulated
     _projectors: dict[frozenset[str], tuple[Projector, list[int]]] = field(default_factory=dict)
+    _courses: dict[tuple[Run, bytes], Course] = field(default_factory=dict)
 
     @property
     def train(self) -> tuple[int, ...]:
@@ -101,6 +104,24 @@ class Study:
         """Bin means of many (run, truck) pairs."""
         self.simulations += len(jobs)
         return simulate_bins(jobs, self.workers, self.simulated)
+
+    def job(self, run: Run, base: Packed, hypothesis: Hypothesis) -> tuple[Run, Packed]:
+        """What to simulate for a hypothesis on top of a truck: an event from its start on only."""
+        name = run.recording.name
+        truck = hypothesis.apply(base, name)
+        if not hypothesis.effect.timed:
+            return run, truck
+        start, _ = hypothesis.times.get(name, (np.inf, np.inf))
+        return self.late(run, base, start), truck
+
+    def late(self, run: Run, base: Packed, since_s: float) -> Run:
+        """The run for trucks that are another than ``base`` only from an instant on."""
+        key = (run, base.params.tobytes())
+        if key not in self._courses:
+            if len(self._courses) >= _MOST_COURSES:
+                self._courses.pop(next(iter(self._courses)))
+            self._courses[key] = drive_course(base, run.drive)
+        return replace(run, course=self._courses[key], since_s=since_s)
 
     def stack(self, parts: Mapping[int, Floats]) -> Floats:
         """Join whitened vectors of some runs into one over all rows, zero elsewhere."""

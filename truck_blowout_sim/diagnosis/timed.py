@@ -55,7 +55,7 @@ def scan(study: Study, projector: Projector, effect: Effect, place: Place,
         for k, time in enumerate(grid):
             span = (float(time), effect.end_s(float(time), spacing_s(run)))
             trial = Hypothesis(effect, place, step, {run.recording.name: span})
-            jobs.append((run, trial.apply(truck, run.recording.name)))
+            jobs.append(study.job(run, truck, trial))
             keys.append((i, k))
     results = dict(zip(keys, study.simulate(jobs), strict=True))
     residual = study.residual()
@@ -164,7 +164,7 @@ def refine_times(study: Study, start: Ranked, chi2_null: float,
                 continue
             trials = _moved(best, name, width)
             truck = with_effects(study.packed, named, name)
-            results = study.simulate([(study.runs[i], t.apply(truck, name)) for t in trials])
+            results = study.simulate([study.job(study.runs[i], truck, t) for t in trials])
             falls = [chi2_null - chi2_of(study, projector, {**models, i: r}) for r in results]
             k = int(np.argmax(falls))
             if falls[k] > fall:

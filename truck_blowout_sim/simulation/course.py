@@ -1,0 +1,77 @@
+"""A drive that is left at an instant: what begins late need not be driven from the start again.
+
+The truck of a course is driven once and its state kept every so often. A truck that differs from it
+only after some instant branches off there, with the same bits as if it had been driven whole.
+
+Known limits: no drive with a driver, whose memory is not kept.
+Validated with: test/simulation/test_course.py (every timed effect of the diagnosis, bit for bit).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from truck_blowout_sim.physics.layout import N_WORK, TIRE_S, TOPOLOGY
+from truck_blowout_sim.simulation.drive import Drive, names_of, total_mass_kg
+from truck_blowout_sim.simulation.equilibrium import initial_vector
+from truck_blowout_sim.simulation.loop import run_loop
+from truck_blowout_sim.vehicle import Packed
+
+Floats = NDArray[np.float64]
+KEPT_EVERY_S = 0.5
+
+
+@dataclass(frozen=True, eq=False)
+class Course:
+    """A driven truck.
+
+    Attributes:
+        drive: what drove it; ``out`` [n_rows, n_outputs] what came out.
+        steps: of the kept states, ascending from 0; ``states`` [k, n_state].
+    """
+
+    drive: Drive
+    out: Floats
+    steps: tuple[int, ...]
+    states: Floats
+
+    def left_at(self, packed: Packed, since_s: float) -> Floats:
+        """Outputs [n_rows, n_outputs] of a truck that is another only from ``since_s`` on."""
+        last = (since_s - self.drive.initial.time_s) / self.drive.step_s
+        k = max(int(np.searchsorted(self.steps, last, side="left")) - 1, 0)
+        out = self.out.copy()
+        _go_on(packed, self.drive, self.states[k].copy(), self.steps[k], out)
+        return out
+
+
+def drive_course(packed: Packed, drive: Drive) -> Course:
+    """Drive a truck and keep its state on the way.
+
+    Raises:
+        ValueError: the drive has a driver.
+    """
+    if drive.pilot.size:
+        raise ValueError("a driver's memory is not kept")
+    n, part = drive.inputs.shape[0], max(round(KEPT_EVERY_S / drive.step_s), 1)
+    steps = tuple(range(0, max(n, 1), part))
+    x = initial_vector(packed, drive.initial, drive.step_s, drive.warm)
+    out = np.full((drive.n_rows, len(names_of(packed.vehicle))), np.nan)
+    states = np.empty((len(steps), x.size))
+    for k, first in enumerate(steps):
+        states[k] = x
+        _go_on(packed, drive, x, first, out, min(first + part, n))
+    return Course(drive, out, steps, states)
+
+
+def _go_on(packed: Packed, drive: Drive, x: Floats, first: int, out: Floats,
+           last: int | None = None) -> None:
+    """Drive on from a step, state ``x`` in place; rows after a failure are NaN."""
+    topo, end = packed.topology, drive.inputs.shape[0] if last is None else last
+    slots = topo[TOPOLOGY.state_tire_at] + drive.blown * len(TIRE_S) + TIRE_S.blown_time_s
+    out[-(-first // drive.every):] = np.nan
+    run_loop(x, packed.params.copy(), topo, drive.inputs.copy(), drive.step_s, drive.every, first,
+             end, drive.initial.time_s, drive.blow_steps, slots, drive.speed,
+             total_mass_kg(packed), drive.pilot.copy(), drive.path, np.zeros(N_WORK), out)
