@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import time
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
@@ -87,8 +86,7 @@ def _write(answer: Diagnosis, vehicle: Vehicle, base: str, values: Mapping[str, 
 
     write_diagnosis(answer, folder / "diagnosis.json")
     write_diagnosed_vehicle(folder / "vehicle.yaml", base, values, answer)
-    write_diagnosis_report(answer, vehicle, folder / "report.html",
-                           help_drawing=(os.cpu_count() or 1) > 1)
+    write_diagnosis_report(answer, vehicle, folder / "report.html")
 
 
 def _read(paths: Sequence[Path], hubs: tuple[str, ...], tires: tuple[str, ...]

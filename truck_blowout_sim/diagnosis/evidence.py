@@ -32,9 +32,9 @@ def left_after(study: Study, found: Found, role: str) -> Left:
     if role == "holdout":
         return [(p.run, p.left) for p in found.after]
     named = [r.hypothesis for r in found.named]
-    projector, kept = study.projector(named), study.kept(named)
+    projector = study.projector(named)
     residual = study.residual()
-    clean = residual - study.columns[:, kept] @ projector.amounts(residual)
+    clean = residual - projector.explained(projector.amounts(residual))
     rows = row_ranges(study)
     return [(study.runs[i], clean[rows[i]].reshape(study.runs[i].measured.shape))
             for i in study.train]

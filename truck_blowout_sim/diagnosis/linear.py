@@ -12,6 +12,7 @@ Validated with: test/diagnosis/test_linear.py (against dense marginal likelihood
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -23,28 +24,51 @@ Floats = NDArray[np.float64]
 
 @dataclass(frozen=True, eq=False)
 class Projector:
-    """Removes from a whitened vector what nuisances with unit priors explain."""
+    """Removes from a whitened vector what nuisances with unit priors explain.
 
-    columns: Floats  # [n, k], each scaled by its prior sigma
+    Attributes:
+        columns: [n, k] of all nuisances, each scaled by its prior sigma.
+        kept: [m] which of them are removed; the matrix is large and never copied.
+        factor: of their information, priors included.
+    """
+
+    columns: Floats
+    kept: NDArray[np.int64]
     factor: tuple[Floats, bool]
 
     @staticmethod
-    def of(columns: Floats) -> Projector:
-        """A projector for nuisance columns [n, k]."""
-        k = columns.shape[1]
-        return Projector(columns, cho_factor(np.eye(k) + columns.T @ columns))
+    def of(columns: Floats, kept: Sequence[int] | None = None, gram: Floats | None = None
+           ) -> Projector:
+        """A projector for nuisance columns [n, k], or those of them in ``kept``.
+
+        ``gram``: all columns' columns, if known.
+        """
+        gram = columns.T @ columns if gram is None else gram
+        which = np.arange(columns.shape[1]) if kept is None else np.array(kept, dtype=np.int64)
+        return Projector(columns, which, cho_factor(
+            np.eye(which.size) + gram[np.ix_(which, which)]))
+
+    def reach(self, matrix: Floats, rows: slice = slice(None)) -> Floats:
+        """What a vector or columns over some rows have in common with each nuisance kept."""
+        return np.asarray((self.columns[rows].T @ matrix)[self.kept])
 
     def amounts(self, vector: Floats) -> Floats:
         """Posterior mean of the nuisances, in prior sigmas."""
-        return np.asarray(cho_solve(self.factor, self.columns.T @ vector))
+        return np.asarray(cho_solve(self.factor, self.reach(vector)))
+
+    def explained(self, amounts: Floats) -> Floats:
+        """What the nuisances kept do at these amounts."""
+        everything = np.zeros(self.columns.shape[1])
+        everything[self.kept] = amounts
+        return np.asarray(self.columns @ everything)
 
     def covariance(self) -> Floats:
         """Posterior covariance of the nuisances, in prior sigmas squared."""
-        return np.asarray(cho_solve(self.factor, np.eye(self.columns.shape[1])))
+        return np.asarray(cho_solve(self.factor, np.eye(self.kept.size)))
 
     def remove(self, vector: Floats) -> Floats:
         """C^-1 vector, C being noise plus marginalised nuisances."""
-        return np.asarray(vector - self.columns @ cho_solve(self.factor, self.columns.T @ vector))
+        return np.asarray(vector - self.explained(self.amounts(vector)))
 
     def chi2(self, vector: Floats) -> float:
         """Vector' C^-1 vector: the sum of squares left, priors included."""

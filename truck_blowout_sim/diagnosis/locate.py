@@ -71,9 +71,8 @@ def missing_wrench(study: Study, i: int, body: str, models: Sequence[Floats],
     columns = np.stack([run.change(r, base) * s for r, s in zip(results, scale, strict=True)],
                        axis=1)
     rows = row_ranges(study)[i]
-    own = projector.columns[rows]
     removed = projector.remove(study.residual(dict(enumerate(models))))[rows]
-    reach = own.T @ columns
+    reach = projector.reach(columns, rows)
     information = columns.T @ columns - reach.T @ cho_solve(projector.factor, reach)
     gradient = columns.T @ removed
     factor = cho_factor(information + np.eye(columns.shape[1]))

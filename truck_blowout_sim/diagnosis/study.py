@@ -63,6 +63,7 @@ class Study:
     simulations: int = 0
     simulated: Callable[[Run, Packed], Floats] = Run.simulated
     _projectors: dict[frozenset[str], tuple[Projector, list[int]]] = field(default_factory=dict)
+    _gram: Floats = field(default_factory=lambda: np.zeros((0, 0)))
     _courses: dict[tuple[Run, bytes], Course] = field(default_factory=dict)
 
     @property
@@ -96,8 +97,10 @@ class Study:
         """Projector and the nuisances in it, made once for each set that is left out."""
         drop = frozenset(self.meaning(h) for h in hypotheses)
         if drop not in self._projectors:
+            if not self._gram.size:
+                self._gram = self.columns.T @ self.columns
             keep = [k for k, name in enumerate(self.names) if name not in drop]
-            self._projectors[drop] = (Projector.of(self.columns[:, keep]), keep)
+            self._projectors[drop] = Projector.of(self.columns, keep, self._gram), keep
         return self._projectors[drop]
 
     def simulate(self, jobs: Sequence[tuple[Run, Packed]]) -> list[Floats]:
@@ -163,6 +166,7 @@ def build_columns(study: Study, progress: Progress | None = None) -> None:
     n_runs = len(study.runs)
     study.columns = np.concatenate(blocks[:n_runs], axis=0)
     study._projectors.clear()
+    study._gram = np.zeros((0, 0))
     study.holdout_columns = blocks[n_runs:]
     study.names = (*(n.name for n in sheet), *(f"start speed of {r.recording.name}"
                                                for r in everything), *instrument_names(study))

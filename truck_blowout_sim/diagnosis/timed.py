@@ -129,8 +129,7 @@ def _best_span(study: Study, projector: Projector, effect: Effect, i: int, grid:
     rows = row_ranges(study)[i]
     part = removed[rows]
     matrix = np.stack(single, axis=1)
-    own = projector.columns[rows]
-    reach = own.T @ matrix
+    reach = projector.reach(matrix, rows)
     gram = matrix.T @ matrix - reach.T @ cho_solve(projector.factor, reach)
     gradient = matrix.T @ part
     best = (0.0, (float(grid[0]), np.inf), matrix[:, 0])

@@ -6,7 +6,6 @@ Validated with: test/report/test_diagnosis_page.py.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from concurrent.futures import Executor
 from pathlib import Path
 
 from truck_blowout_sim.comparison.words import labels_for
@@ -18,7 +17,6 @@ from truck_blowout_sim.report.diagnosis_rows import (
     effect_row,
     location_rows,
 )
-from truck_blowout_sim.report.drawing import draw_all, second_hand
 from truck_blowout_sim.report.page import render, write_text
 from truck_blowout_sim.vehicle import Vehicle
 
@@ -33,33 +31,25 @@ _ROLES = (("Training", "train"), ("Holdout, never fitted", "holdout"), ("Baselin
 _ABSENT = "–"
 
 
-def write_diagnosis_report(diagnosis: Diagnosis, vehicle: Vehicle, path: Path, *,
-                           help_drawing: bool = False) -> None:
+def write_diagnosis_report(diagnosis: Diagnosis, vehicle: Vehicle, path: Path) -> None:
     """Write the page; it needs no other file.
-
-    Args:
-        help_drawing: draw in a second process too.
 
     Raises:
         StorageError: it cannot be written.
     """
-    with second_hand(help_drawing) as hand:
-        text = diagnosis_page(diagnosis, vehicle, hand)
-    write_text(text, path)
+    write_text(diagnosis_page(diagnosis, vehicle), path)
 
 
-def diagnosis_page(diagnosis: Diagnosis, vehicle: Vehicle, hand: Executor | None = None) -> str:
+def diagnosis_page(diagnosis: Diagnosis, vehicle: Vehicle) -> str:
     """The page as HTML.
 
     Args:
         diagnosis: the answer with its evidence.
         vehicle: the vehicle as given, for its geometry and the names of its channels.
-        hand: draws some of the pictures.
     """
     labels = labels_for(vehicle)
     evidence, words = diagnosis.evidence, _VERDICTS[diagnosis.verdict]
     pictures = diagnosis_pictures(diagnosis, vehicle, labels)
-    draw_all(pictures.everything, hand)
     effects = [
         effect_row(effect, aliases)
         for effect, aliases in zip(diagnosis.effects, diagnosis.alias_sets, strict=True)

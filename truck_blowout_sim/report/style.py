@@ -12,7 +12,7 @@ from __future__ import annotations
 import base64
 import io
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Any, ParamSpec, TypeVar
 
 from matplotlib.axes import Axes
@@ -83,25 +83,14 @@ class Picture:
     title: str
     caption: str
     figure: Figure
-    _svg: list[bytes] = field(default_factory=list)
 
     def png(self) -> bytes:
         """Bitmap for documents."""
         return self._saved("png")
 
-    def svg(self) -> bytes:
-        """Vector drawing, drawn once."""
-        if not self._svg:
-            self._svg.append(self._saved("svg"))
-        return self._svg[0]
-
-    def keep_svg(self, drawn: bytes) -> None:
-        """Take a vector drawing of this picture that was made elsewhere."""
-        self._svg[:] = [drawn]
-
     def svg_uri(self) -> str:
         """Vector drawing as the address of an image, for a page that needs no other file."""
-        text = base64.b64encode(self.svg()).decode("ascii")
+        text = base64.b64encode(self._saved("svg")).decode("ascii")
         return f"data:image/svg+xml;base64,{text}"
 
     def _saved(self, form: str) -> bytes:
