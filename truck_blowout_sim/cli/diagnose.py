@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 _KEPT = ".resume"  # in the output folder, until the answer is written
 _CONTINUES = "the same command continues from here"
-_QUICK_STEP_S, _QUICK_REFITS = 0.0025, (4, 1)
+_QUICK_STEP_S, _QUICK_REFITS, _QUICK_PANELS = 0.0025, (4, 1), 4
 _THOROUGH_STEP_S = 0.001
 _OF_SENSITIVITIES = 25.0  # as many times as long take four effects
 
@@ -74,19 +74,19 @@ def command(
             refits=_QUICK_REFITS if quick else REFITS, profile=thorough, kept=kept,
             progress=_reporter(progress, task, thorough))
         progress.update(task, description="drawing", completed=1.0)
-        _write(answer, loaded, vehicle, values, output)
+        _write(answer, loaded, vehicle, values, output, _QUICK_PANELS if quick else None)
     _print(Console(), answer, output)
 
 
 def _write(answer: Diagnosis, vehicle: Vehicle, base: str, values: Mapping[str, float],
-           folder: Path) -> None:
+           folder: Path, panels: int | None) -> None:
     """The three files of an answer."""
     from truck_blowout_sim.diagnosis import write_diagnosed_vehicle, write_diagnosis
     from truck_blowout_sim.report.diagnosis_page import write_diagnosis_report
 
     write_diagnosis(answer, folder / "diagnosis.json")
     write_diagnosed_vehicle(folder / "vehicle.yaml", base, values, answer)
-    write_diagnosis_report(answer, vehicle, folder / "report.html")
+    write_diagnosis_report(answer, vehicle, folder / "report.html", panels)
 
 
 def _read(paths: Sequence[Path], hubs: tuple[str, ...], tires: tuple[str, ...]

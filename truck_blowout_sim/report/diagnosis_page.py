@@ -31,25 +31,30 @@ _ROLES = (("Training", "train"), ("Holdout, never fitted", "holdout"), ("Baselin
 _ABSENT = "–"
 
 
-def write_diagnosis_report(diagnosis: Diagnosis, vehicle: Vehicle, path: Path) -> None:
+def write_diagnosis_report(diagnosis: Diagnosis, vehicle: Vehicle, path: Path,
+                           panels: int | None = None) -> None:
     """Write the page; it needs no other file.
+
+    Args:
+        panels: overlays drawn of each recording, the worst channels first; None: all.
 
     Raises:
         StorageError: it cannot be written.
     """
-    write_text(diagnosis_page(diagnosis, vehicle), path)
+    write_text(diagnosis_page(diagnosis, vehicle, panels), path)
 
 
-def diagnosis_page(diagnosis: Diagnosis, vehicle: Vehicle) -> str:
+def diagnosis_page(diagnosis: Diagnosis, vehicle: Vehicle, panels: int | None = None) -> str:
     """The page as HTML.
 
     Args:
         diagnosis: the answer with its evidence.
         vehicle: the vehicle as given, for its geometry and the names of its channels.
+        panels: overlays drawn of each recording; None: all.
     """
     labels = labels_for(vehicle)
     evidence, words = diagnosis.evidence, _VERDICTS[diagnosis.verdict]
-    pictures = diagnosis_pictures(diagnosis, vehicle, labels)
+    pictures = diagnosis_pictures(diagnosis, vehicle, labels, panels)
     effects = [
         effect_row(effect, aliases)
         for effect, aliases in zip(diagnosis.effects, diagnosis.alias_sets, strict=True)

@@ -44,9 +44,9 @@ class DiagnosisPictures:
 
 @styled
 def diagnosis_pictures(
-    diagnosis: Diagnosis, vehicle: Vehicle, labels: Mapping[str, str]
+    diagnosis: Diagnosis, vehicle: Vehicle, labels: Mapping[str, str], panels: int | None = None
 ) -> DiagnosisPictures:
-    """Draw everything there is evidence for."""
+    """Draw everything there is evidence for; ``panels``: of a recording, the first so many."""
     evidence = diagnosis.evidence
     fits = {"train": diagnosis.train, "holdout": diagnosis.holdout}
     return DiagnosisPictures(
@@ -55,7 +55,7 @@ def diagnosis_pictures(
         forces=tuple(force_picture(f, k) for k, f in enumerate(evidence.forces, 1)),
         candidates=candidates_picture(evidence.candidates) if evidence.candidates else None,
         fit=fit_picture(fits, labels) if any(f.before for f in fits.values()) else None,
-        overlays=_overlays(evidence.overlays, labels),
+        overlays=_overlays(evidence.overlays, labels, panels),
         pulls=pulls_picture(evidence.calibrated) if evidence.calibrated else None,
     )
 
@@ -73,7 +73,8 @@ def _truck(diagnosis: Diagnosis, vehicle: Vehicle) -> Picture | None:
     return Picture("truck", "The truck", caption, figure)
 
 
-def _overlays(overlays: tuple[Overlay, ...], labels: Mapping[str, str]) -> tuple[Picture, ...]:
+def _overlays(overlays: tuple[Overlay, ...], labels: Mapping[str, str], panels: int | None
+              ) -> tuple[Picture, ...]:
     """One picture a recording and up to eight channels, training runs first."""
 
     def key(overlay: Overlay) -> tuple[int, str]:
@@ -81,7 +82,7 @@ def _overlays(overlays: tuple[Overlay, ...], labels: Mapping[str, str]) -> tuple
 
     pictures: list[Picture] = []
     for (_, _), group in groupby(sorted(overlays, key=key), key=key):
-        members = list(group)
+        members = list(group)[:panels]
         for first in range(0, len(members), _MOST_PANELS):
             name = f"overlay_{len(pictures) + 1}"
             pictures.append(overlay_picture(members[first : first + _MOST_PANELS], labels, name))
