@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import json
+import re
 from dataclasses import replace
 from pathlib import Path
 
@@ -30,18 +31,29 @@ def test_test_set_is_as_large_as_promised(tables: dict[str, list[CaseSpec]]) -> 
 
 
 def test_sets_share_no_seed_manoeuvre_or_severity(tables: dict[str, list[CaseSpec]]) -> None:
-    def gather(name: str) -> tuple[set[int], set[str], set[float]]:
-        seeds, kinds, sigmas = set(), set(), set()
-        for spec in tables[name]:
-            seeds |= {seed for _, _, seed in spec.runs()} | {spec.seed}
-            kinds |= {kind for _, kind, _ in spec.runs()}
-            sigmas |= {part.sigma for part in spec.effects if part.sigma and spec.group == "single"}
-        return seeds, kinds, sigmas
+    """Trucks and runs draw from streams of their own, so that a number may stand for one of each.
 
-    dev, test = gather("dev"), gather("test")
-    assert not dev[0] & test[0]
-    assert not dev[1] & test[1]
-    assert not dev[2] & test[2]
+    What is drawn for a truck is tagged otherwise than what is drawn for a run (next test).
+    """
+    def gather(name: str) -> tuple[set[int], set[int], set[str], set[float]]:
+        specs = tables[name]
+        return ({spec.seed for spec in specs},
+                {seed for spec in specs for _, _, seed in spec.runs()},
+                {kind for spec in specs for _, kind, _ in spec.runs()},
+                {part.sigma for spec in specs if spec.group == "single"
+                 for part in spec.effects if part.sigma})
+
+    for dev, test in zip(gather("dev"), gather("test"), strict=True):
+        assert dev
+        assert test
+        assert not dev & test
+
+
+def test_every_stream_of_random_numbers_has_a_tag_of_its_own() -> None:
+    found = [tag for file in Path(proving_ground.__file__).parent.rglob("*.py")
+             for tag in re.findall(r"default_rng\(\[[^\],]+, (\d+)\]", file.read_text("utf-8"))]
+    assert len(found) >= 10
+    assert len(found) == len(set(found))
 
 
 def test_the_small_set_has_every_group_and_seeds_of_its_own(
