@@ -62,7 +62,7 @@ class Study:
     known: frozenset[str] = frozenset()
     simulations: int = 0
     simulated: Callable[[Run, Packed], Floats] = Run.simulated
-    _projectors: dict[frozenset[str], tuple[Projector, list[int]]] = field(default_factory=dict)
+    _projectors: dict[frozenset[str], Projector] = field(default_factory=dict)
     _gram: Floats = field(default_factory=lambda: np.zeros((0, 0)))
     _courses: dict[tuple[Run, bytes], Course] = field(default_factory=dict)
 
@@ -86,22 +86,22 @@ class Study:
         return "" if name in self.known else name
 
     def projector(self, hypotheses: Sequence[Hypothesis] = ()) -> Projector:
-        """Projector without the nuisances that mean the same as one of the hypotheses."""
-        return self._projected(hypotheses)[0]
+        """Projector without the nuisances that mean the same as one of the hypotheses.
 
-    def kept(self, hypotheses: Sequence[Hypothesis] = ()) -> list[int]:
-        """Positions of the nuisances that :meth:`projector` keeps."""
-        return self._projected(hypotheses)[1]
-
-    def _projected(self, hypotheses: Sequence[Hypothesis]) -> tuple[Projector, list[int]]:
-        """Projector and the nuisances in it, made once for each set that is left out."""
+        Made once for each set that is left out.
+        """
         drop = frozenset(self.meaning(h) for h in hypotheses)
         if drop not in self._projectors:
             if not self._gram.size:
                 self._gram = self.columns.T @ self.columns
             keep = [k for k, name in enumerate(self.names) if name not in drop]
-            self._projectors[drop] = Projector.of(self.columns, keep, self._gram), keep
+            self._projectors[drop] = Projector.of(self.columns, keep, self._gram)
         return self._projectors[drop]
+
+    def kept(self, hypotheses: Sequence[Hypothesis] = ()) -> list[int]:
+        """Positions of the nuisances that :meth:`projector` keeps."""
+        kept: list[int] = self.projector(hypotheses).kept.tolist()
+        return kept
 
     def simulate(self, jobs: Sequence[tuple[Run, Packed]]) -> list[Floats]:
         """Bin means of many (run, truck) pairs."""
