@@ -17,7 +17,8 @@ from truck_blowout_sim.diagnosis.intervals import Timing, time_intervals
 from truck_blowout_sim.diagnosis.law import checked, plainest_law
 from truck_blowout_sim.diagnosis.locate import Wrenches, missing_wrench
 from truck_blowout_sim.diagnosis.next_test import Separation, best_test
-from truck_blowout_sim.diagnosis.outcome import Material, answer, decide, joint_amounts
+from truck_blowout_sim.diagnosis.outcome import Material, answer, joint_amounts, unexplained
+from truck_blowout_sim.diagnosis.periodic import find_beat
 from truck_blowout_sim.diagnosis.profile import Arms, arms_of
 from truck_blowout_sim.diagnosis.result import Diagnosis, Role, Verdict
 from truck_blowout_sim.diagnosis.resume import Keeps
@@ -102,8 +103,8 @@ def _material(study: Study, found: Found, gate: GateResult, vehicle: str, profil
                                    if r.recording.name == worst.history.recording))
     material = Material(study, found, gate, before, after, law, _timings(study, found), vehicle,
                         _separation(study, found, progress),
-                        _arms(study, found, progress) if profile else {})
-    if decide(material) == "unknown":
+                        _arms(study, found, progress) if profile else {}, find_beat(study, named))
+    if unexplained(material):
         material = replace(material, law=checked(study, law, named))
     return material
 
@@ -153,7 +154,7 @@ def diagnosed_values(material: Material, given: Packed, verdict: Verdict) -> Map
         here, usual = study.amounts.get(nuisance.name, 0.0), study.expected(nuisance.name)
         total = float(np.clip(joint.get(nuisance.name, here), usual - FURTHEST, usual + FURTHEST))
         truck = truck.with_values(nuisance.values(truck, nuisance.between(here, total)))
-    if verdict == "unknown" and material.law.helps:
+    if unexplained(material) and material.law.helps:
         truck = truck.with_values(material.law.values)
     for effect in named:
         truck = effect.apply(truck, next(iter(effect.times), ""))

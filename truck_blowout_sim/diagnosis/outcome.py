@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from truck_blowout_sim.diagnosis import evidence, words
+from truck_blowout_sim.diagnosis.beat import Beat
 from truck_blowout_sim.diagnosis.intervals import Timing
 from truck_blowout_sim.diagnosis.law import Law
 from truck_blowout_sim.diagnosis.locate import Wrenches
@@ -45,6 +46,7 @@ class Material:
         vehicle: name of the model's vehicle.
         separation: the run that would best tell apart what these cannot, if any could.
         arms: of each effect's amount by profile likelihood and jackknife, by key, if asked for.
+        beat: a periodic force too fast for the bins.
     """
 
     study: Study
@@ -57,6 +59,7 @@ class Material:
     vehicle: str
     separation: Separation | None = None
     arms: Mapping[Key, Arms] = field(default_factory=dict)
+    beat: Beat | None = None
 
 
 def answer(material: Material) -> Diagnosis:
@@ -73,18 +76,19 @@ def answer(material: Material) -> Diagnosis:
     next_test = words.next_test(found, gate, material.separation)
     return Diagnosis(
         verdict=verdict, sentence=words.verdict_sentence(
-            verdict, effects, pulled(material), material.law),
+            verdict, effects, pulled(material), material.law if unexplained(material) else None,
+            material.beat),
         effects=tuple(effects), alias_sets=tuple(aliases), location=locate(material),
         train=fit(material, "train"), holdout=fit(material, "holdout"),
         null_p_value=null_p_value(material), next_test=next_test,
-        evidence=gather(material, verdict))
+        evidence=gather(material))
 
 
 def decide(material: Material) -> Verdict:
     """Which of the five verdicts the evidence supports."""
     found, gate = material.found, material.gate
     physics = [r for r in found.named if r.hypothesis.effect.kind == "physics"]
-    if _unexplained(material):
+    if unexplained(material) or _beats(material):
         return "unknown"
     if physics:
         return "missing_physics"
@@ -93,7 +97,13 @@ def decide(material: Material) -> Verdict:
     return "miscalibrated" if pulled(material) else "consistent"
 
 
-def _unexplained(material: Material) -> bool:
+def _beats(material: Material) -> bool:
+    """Whether a periodic force says more than everything named."""
+    found, beat = material.found, material.beat
+    return beat is not None and beat.evidence > found.chi2_null - found.chi2_after
+
+
+def unexplained(material: Material) -> bool:
     """Whether much is left, and what was named explains less than half of it."""
     found, rules = material.found, material.study.settings
     rows = material.study.columns.shape[0]
@@ -167,11 +177,12 @@ def null_p_value(material: Material) -> float:
          for r, _ in material.found.tried), default=0.0))
 
 
-def gather(material: Material, verdict: Verdict) -> Evidence:
+def gather(material: Material) -> Evidence:
     """What stands behind the answer."""
     study, found = material.study, material.found
     rows = study.columns.shape[0]
-    law = (material.law.equation,) if verdict == "unknown" else ()
+    law = (material.law.equation,) if unexplained(material) else ()
+    beat = (material.beat.equation,) if material.beat else ()
     return Evidence(
         vehicle=material.vehicle,
         recordings=tuple((r.recording.name, r.role) for r in (*study.runs, *study.holdout)),
@@ -180,11 +191,12 @@ def gather(material: Material, verdict: Verdict) -> Evidence:
         forces=tuple(w.history for w in material.wrenches),
         calibrated=evidence.calibrated(study, joint_amounts(material)),
         equations=tuple(words.fill(r.hypothesis, r.hypothesis.effect.amount.report(
-            r.hypothesis.amount), None)[1] for r in found.named) + law,
+            r.hypothesis.amount), None)[1] for r in found.named) + law + beat,
         assumptions=words.assumptions(study), missing_channels=words.missing_channels(study),
         notes=(*material.gate.notes, *(note for r in study.runs for note in r.recording.notes)),
         facts=(*((f"unnamed wrench on the {w.history.body} buys", f"{w.delta:.0f} with {w.degrees}")
                  for w in material.unnamed),
+               *(material.beat.facts if material.beat else ()),
                ("simulations", str(study.simulations)),
                ("sum of squares a row, calibrated", f"{found.chi2_null / rows:.3f}"),
                ("sum of squares a row, diagnosed", f"{found.chi2_after / rows:.3f}")))

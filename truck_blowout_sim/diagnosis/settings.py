@@ -91,6 +91,7 @@ class Settings:
         expected_level, unknown_level: sum of squares a row when nothing is missing, and from which
             on something must be.
         unknown_delta: what a wrench that nothing named explains must buy to be a missing effect.
+        beat_turn, beat_tone: score from which on something beats once per wheel turn, or steadily.
     """
 
     nuisances: tuple[Nuisance, ...]
@@ -104,6 +105,8 @@ class Settings:
     expected_level: float
     unknown_level: float
     unknown_delta: float
+    beat_turn: float
+    beat_tone: float
     form_share: float
     flat_braked: float
     hard_from_mps2: float

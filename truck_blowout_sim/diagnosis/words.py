@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from math import isfinite
 
+from truck_blowout_sim.diagnosis.beat import Beat
 from truck_blowout_sim.diagnosis.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.law import Law
 from truck_blowout_sim.diagnosis.next_test import Separation
@@ -42,19 +43,21 @@ def open_ends(ends: Interval) -> str:
 
 
 def verdict_sentence(verdict: Verdict, effects: Sequence[Effect],
-                     pulled: Sequence[tuple[str, float]], law: Law) -> str:
-    """The verdict in one sentence."""
+                     pulled: Sequence[tuple[str, float]], law: Law | None,
+                     beat: Beat | None = None) -> str:
+    """The verdict in words; ``law``: of a force left unexplained, ``beat``: of a periodic one."""
     if verdict == "consistent":
         return ("The model explains these recordings within what instruments and trucks of one "
                 "kind differ; nothing is missing that they could show.")
     if verdict == "miscalibrated":
         names = ", ".join(f"{n.replace('_', ' ')} ({a:+.1f} sigma)" for n, a in pulled[:3])
         return f"No physics is missing, but the sheet is off: {names}."
-    if verdict == "unknown":
-        return (f"Something acts on the {law.body} that no known effect explains; its plainest law "
-                f"is {law.equation}, which left-out windows confirm to "
-                f"{100.0 * law.explained:.0f} percent{_unseen(law)}.")
-    return " ".join(effect.sentence for effect in effects)
+    said = [] if verdict == "unknown" else [effect.sentence for effect in effects]
+    if law is not None:
+        said.append(f"Something acts on the {law.body} that no known effect explains; its plainest "
+                    f"law is {law.equation}, which left-out windows confirm to "
+                    f"{100.0 * law.explained:.0f} percent{_unseen(law)}.")
+    return " ".join((*said, *((beat.sentence,) if beat else ())))
 
 
 def _unseen(law: Law) -> str:

@@ -1,0 +1,114 @@
+"""Lines in what a model leaves: false alarms on colored noise, lines that were put in."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from scipy.signal import lfilter
+
+from truck_blowout_sim.diagnosis.periodic import Lines, clearest, tone_lines, turn_lines
+from truck_blowout_sim.recordings import Recording, Series
+
+RATE_HZ = 100.0
+PER_M = np.linspace(0.30, 0.34, 200)
+PACES_HZ = np.linspace(1.2, 8.0, 300)
+CHANNELS = ("tractor_ax_mps2", "tractor_az_mps2", "trailer_ax_mps2", "trailer_az_mps2")
+TURN_M = 3.14
+LEAST = 8.0
+
+
+class Ride:
+    """One run: a speed that drifts, resonant road noise, and what is added to it."""
+
+    def __init__(self, seed: int, length_s: float = 14.0) -> None:
+        self.rng = np.random.default_rng([seed, 97])
+        self.time_s = np.arange(0.0, length_s, 1.0 / RATE_HZ)
+        self.speed = 22.0 - 0.25 * self.time_s
+        self.way = np.concatenate(([0.0], np.cumsum(self.speed[1:]))) / RATE_HZ
+        self.recording = Recording("ride", {"tractor_vx_mps": Series(self.time_s, self.speed)})
+
+    def noise(self, hz: float = 2.0) -> NDArray[np.float64]:
+        """White noise of the instrument, and a body that bounces at its own frequency."""
+        turn, damping = 2.0 * np.pi * hz / RATE_HZ, 0.97
+        road = lfilter([0.02], [1.0, -2.0 * damping * np.cos(turn), damping**2],
+                       self.rng.standard_normal(self.time_s.size))
+        return np.asarray(road + 0.03 * self.rng.standard_normal(self.time_s.size))
+
+    def blows(self, size: float) -> NDArray[np.float64]:
+        """A half-sine blow over a sixth of each wheel turn."""
+        turn = (self.way / TURN_M) % 1.0
+        return np.where(turn < 1.0 / 6.0, size * np.sin(6.0 * np.pi * turn), 0.0)
+
+    def signals(self, **added: NDArray[np.float64]) -> dict[str, tuple[NDArray[np.float64], ...]]:
+        """Every channel's noise with what is added to it."""
+        return {name: (self.time_s, self.noise() + added.get(name, 0.0)) for name in CHANNELS}
+
+
+def turns(seed: int, blow: float = 0.0, baseline: bool = False) -> Lines:
+    ride = Ride(seed)
+    lines = turn_lines(ride.signals(tractor_az_mps2=ride.blows(blow)), ride.recording, PER_M)
+    return replace(lines, baseline=baseline, speed_mps=22.0)
+
+
+def tones(seed: int, surge: float = 0.0, until_s: float = np.inf) -> Lines:
+    ride = Ride(seed)
+    wave = surge * np.cos(2.0 * np.pi * 1.7 * ride.time_s) * (ride.time_s < until_s)
+    signals = {name: (ride.time_s, 0.03 * ride.rng.standard_normal(ride.time_s.size) + (
+        wave if name.endswith("_ax_mps2") else 0.0)) for name in CHANNELS}
+    return replace(tone_lines(signals, PACES_HZ), speed_mps=22.0)
+
+
+def test_noise_of_a_body_that_bounces_has_the_score_of_chance() -> None:
+    scores = [beat.score for seed in range(30)
+              if (beat := clearest([turns(2 * seed), turns(2 * seed + 1)], 1.0 / PER_M, True, -9.0))]
+    assert len(scores) == 30
+    assert max(scores) < 0.75 * LEAST
+    assert np.median(scores) < 3.0
+
+
+def test_power_over_background_has_mean_one_where_nothing_beats() -> None:
+    turning = np.mean([turns(seed).ratios.mean() for seed in range(20)])
+    steady = np.mean([tones(seed).ratios.mean() for seed in range(20)])
+    assert turning == pytest.approx(1.0, abs=0.1)
+    assert steady == pytest.approx(1.0, abs=0.15)
+
+
+def test_blows_once_a_turn_are_found_at_any_speed_with_their_distance_and_body() -> None:
+    beat = clearest([turns(1, blow=0.12), turns(2, blow=0.12)], 1.0 / PER_M, True, LEAST)
+    assert beat is not None
+    assert beat.every == pytest.approx(TURN_M, rel=0.003)
+    assert beat.body == "tractor"
+    assert beat.pace_hz == pytest.approx(22.0 / TURN_M, rel=0.003)
+    assert "once per wheel turn" in beat.sentence
+
+
+def test_what_beats_in_the_baseline_too_is_not_missing_physics() -> None:
+    train, usual = turns(1, blow=0.12), turns(2, blow=0.12, baseline=True)
+    assert clearest([train], 1.0 / PER_M, True, LEAST) is not None
+    assert clearest([train, usual], 1.0 / PER_M, True, LEAST) is None
+    assert clearest([train, turns(3, baseline=True)], 1.0 / PER_M, True, LEAST) is not None
+
+
+def test_a_steady_tone_is_found_with_its_amplitude() -> None:
+    beat = clearest([tones(1, surge=0.03), tones(2, surge=0.03)], 1.0 / PACES_HZ, False, LEAST)
+    assert beat is not None
+    assert beat.pace_hz == pytest.approx(1.7, abs=0.1)
+    assert beat.amplitude == pytest.approx(0.03, rel=0.2)
+    assert beat.channel.endswith("_ax_mps2")
+
+
+def test_a_tone_must_last_through_the_run() -> None:
+    lasting, short = (clearest([tones(1, 0.03, until)], 1.0 / PACES_HZ, False, -9.0)
+                      for until in (np.inf, 8.0))
+    assert lasting is not None and short is not None
+    assert short.score < 0.2 * lasting.score
+
+
+def test_without_a_speed_nothing_is_said_of_wheel_turns() -> None:
+    ride = Ride(1)
+    lines = turn_lines(ride.signals(), Recording("no speed", {}), PER_M)
+    assert lines.channels == ()
+    assert clearest([lines], 1.0 / PER_M, True, LEAST) is None
