@@ -82,8 +82,11 @@ def test_braked_and_blown_wheels_are_not_asked() -> None:
     )
     rows = assemble(make_case([blown], [], None), (), []).rows[0]
     assert rows is not None
-    hub = next(i for i in rows.identities if i.name == "tractor hub speeds")
-    assert hub.needs[1:] == ("hub_speed_steer_right_radps",)
+    places = {i.name: k for k, i in enumerate(rows.identities)}
+    asked = {unit: rows.time_s[rows.valid[:, places[f"{unit} hub speeds"]]]
+             for unit in ("tractor", "trailer")}
+    assert 2.0 < asked["tractor"].max() < 3.0
+    assert asked["trailer"].max() > 5.0
 
 
 def test_missing_channels_drop_their_identities_only() -> None:

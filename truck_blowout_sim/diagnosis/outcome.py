@@ -99,19 +99,29 @@ def decide(material: Material) -> Verdict:
 
 def _beats(material: Material) -> bool:
     """Whether a periodic force says more than everything named."""
-    found, beat = material.found, material.beat
-    return beat is not None and beat.evidence > found.chi2_null - found.chi2_after
+    beat = material.beat
+    return beat is not None and beat.evidence > _bought(material)
 
 
 def unexplained(material: Material) -> bool:
     """Whether much is left, and what was named explains less than half of it."""
     found, rules = material.found, material.study.settings
     rows = material.study.columns.shape[0]
-    bought = found.chi2_null - found.chi2_after
+    bought = _bought(material)
     unnamed = max((w.delta - 2.0 * w.degrees for w in material.unnamed), default=0.0)
-    excess = found.chi2_null - rules.expected_level * rows
+    excess = found.chi2_after + bought - rules.expected_level * rows
     left = found.chi2_after > rules.unknown_level * rows
     return (left and bought < 0.5 * excess) or unnamed > max(rules.unknown_delta, bought)
+
+
+def _bought(material: Material) -> float:
+    """Fall of the sum of squares that the named effects brought.
+
+    With what calibration had ascribed to the sheet: a dragging flat tire is also a number of it.
+    """
+    found = material.found
+    return found.chi2_null - found.chi2_after + sum(
+        max(r.evidence - r.delta, 0.0) for r in found.named)
 
 
 def pulled(material: Material) -> list[tuple[str, float]]:

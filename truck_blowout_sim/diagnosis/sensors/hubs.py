@@ -1,8 +1,9 @@
 """Hub speeds against the body's speed, on wheels that roll freely.
 
-A braked, driven or flat wheel slips, and physics may explain that; so only hubs that neither
-brake nor drive nor carry a blown tire are asked, and all hubs of a unit are averaged: a speed
-sensor's gain moves them together, a tire's radius moves one.
+A braked or driven wheel slips, and physics may explain that; so only hubs that neither brake nor
+drive are asked, and all hubs of a unit are averaged: a speed sensor's gain moves them together, a
+tire's radius moves one. Once a tire of the unit is blown, its load is on the others, whose radii
+shrink: from then on nothing is asked.
 
 Known limits: without a baseline the rolling radius is unknown to about a percent, so the mean
 level says nothing about a gain; only changes against the baseline do.
@@ -89,13 +90,11 @@ def hub_identity(
 ) -> Identity | None:
     """Mean of ``radius * hub speed`` equals forward speed at the hubs; ``None`` if not asked."""
     n = channel_names(unit)
-    hubs = tuple(
-        c for c in hub_channels(signals, unit)
-        if c in radii and hub_of(c) not in signals.blown_since_s
-    )  # fmt: skip
+    hubs = tuple(c for c in hub_channels(signals, unit) if c in radii)
     if not hubs or n["vx"] not in signals:
         return None
-    masked = np.where(free_rolling(signals, unit), 0.0, np.nan)
+    asked = free_rolling(signals, unit) & (signals.time_s < _blown_since(signals, unit))
+    masked = np.where(asked, 0.0, np.nan)
     left = {c: geometry.hub_left_m(hub_of(c)) for c in hubs}
 
     def residual(s: Signals) -> FloatArray:
@@ -106,6 +105,12 @@ def hub_identity(
         f"{unit} hub speeds", "m/s", "R omega = vx (mean of freely rolling hubs)",
         (n["vx"], *hubs), (n["r"],), residual, (), _MODEL_SIGMA_MPS,
     )  # fmt: skip
+
+
+def _blown_since(signals: Signals, unit: str) -> float:
+    """Instant from which a tire of the unit is blown."""
+    return min((t for hub, t in signals.blown_since_s.items()
+                if hub.startswith("trailer") == (unit == "trailer")), default=np.inf)
 
 
 def _sound(signals: Signals, channel: str) -> BoolArray:
