@@ -3,22 +3,21 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
+from truck_blowout_sim.diagnosis.effects import road_bank, tire_saturation
 from truck_blowout_sim.diagnosis.settings import Settings
-from truck_blowout_sim.diagnosis.trust import hard_turn
+from truck_blowout_sim.diagnosis.study import Study
+from truck_blowout_sim.diagnosis.trust import demand
 from truck_blowout_sim.recordings import Recording, Series
-from truck_blowout_sim.vehicle import Packed
-
-EDGES_S = np.arange(0.0, 10.05, 0.1)
-MIDDLES_S = 0.5 * (EDGES_S[1:] + EDGES_S[:-1])
 
 
 @pytest.fixture
 def rules(few: Settings) -> Settings:
-    return replace(few, hard_from_mps2=2.5, hard_growth_s2pm=1.0, correlation_s=0.5)
+    return replace(few, hard_from_mps2=3.0, hard_demand_s2pm=0.75)
 
 
 def turning(ay_mps2: float, sign: float = 1.0) -> Recording:
@@ -31,22 +30,28 @@ def turning(ay_mps2: float, sign: float = 1.0) -> Recording:
 
 
 @pytest.mark.parametrize("sign", [1.0, -1.0])
-def test_a_turn_counts_by_what_it_exceeds_and_as_long_as_a_difference_lasts(
-    truck: Packed, rules: Settings, sign: float
+def test_the_hardest_turn_of_any_run_asks_for_more_by_what_it_exceeds(
+    rules: Settings, sign: float
 ) -> None:
-    factor = hard_turn(turning(4.0, sign), truck, EDGES_S, rules)
-    inside = (MIDDLES_S > 4.0) & (MIDDLES_S < 6.0)
-    far = (MIDDLES_S < 3.4) | (MIDDLES_S > 6.6)
-    np.testing.assert_allclose(factor[inside], 1.0 + (4.0 - 2.5))
-    np.testing.assert_allclose(factor[far], 1.0)
-    assert (factor[(MIDDLES_S > 3.6) & (MIDDLES_S < 4.0)] > 2.0).all()
+    runs = [turning(1.0, sign), turning(4.0, sign)]
+    assert demand(runs, "tractor", rules) == pytest.approx(1.0 + 0.75 * (4.0 - 3.0), rel=0.01)
 
 
-def test_a_gentle_turn_is_believed_as_ever(truck: Packed, rules: Settings) -> None:
-    np.testing.assert_array_equal(hard_turn(turning(2.4), truck, EDGES_S, rules), 1.0)
+def test_a_gentle_turn_is_believed_as_ever(rules: Settings) -> None:
+    assert demand([turning(2.9)], "tractor", rules) == 1.0
+    assert demand([], "tractor", rules) == 1.0
 
 
-def test_without_the_yaw_rate_no_turn_counts_as_hard(truck: Packed, rules: Settings) -> None:
+def test_without_the_yaw_rate_no_turn_counts_as_hard(rules: Settings) -> None:
     blind = turning(6.0)
     blind = replace(blind, channels={n: s for n, s in blind.channels.items() if "yaw" not in n})
-    np.testing.assert_array_equal(hard_turn(blind, truck, EDGES_S, rules), 1.0)
+    assert demand([blind], "tractor", rules) == 1.0
+
+
+def test_what_only_hard_turns_show_needs_no_more_there(rules: Settings) -> None:
+    run = SimpleNamespace(role="train", recording=turning(5.0))
+    study = SimpleNamespace(runs=(run,), train=(0,), settings=rules, demand=2.5)
+    assert tire_saturation.EFFECT.at_limit
+    needed = [Study.needed(study, effect) / rules.needed(effect.name)  # type: ignore[arg-type]
+              for effect in (tire_saturation.EFFECT, road_bank.EFFECT)]
+    assert needed == [1.0, 2.5]

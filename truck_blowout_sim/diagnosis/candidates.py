@@ -5,12 +5,15 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 import numpy as np
+from numpy.typing import NDArray
 
 from truck_blowout_sim.diagnosis.effects import LIBRARY, Effect, secondary_blowout
 from truck_blowout_sim.diagnosis.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.result_parts import Place
 from truck_blowout_sim.diagnosis.study import Study
 
+Floats = NDArray[np.float64]
+_PRESSURE_SEEN = 0.03  # share that stands out of a gauge's noise
 _PRESSURE_LOST = 0.3  # share of its pressure a tire must lose to count as failed by itself
 
 
@@ -48,7 +51,10 @@ def timed_effects() -> tuple[Effect, ...]:
 
 
 def failed_tires(study: Study, runs: Sequence[int]) -> Mapping[str, Mapping[str, float]]:
-    """Tires whose recorded pressure falls without a command: {tire: {run: instant}}."""
+    """Tires whose recorded pressure falls without a command: {tire: {run: instant}}.
+
+    The instant is where the line through two early levels of the pressure leaves the first one.
+    """
     found: dict[str, dict[str, float]] = {}
     for i in runs:
         run = study.runs[i]
@@ -61,10 +67,18 @@ def failed_tires(study: Study, runs: Sequence[int]) -> Mapping[str, Mapping[str,
             start = float(np.median(series.value[:20]))
             low = np.flatnonzero(series.value < (1.0 - _PRESSURE_LOST) * start)
             if low.size > 3:
-                first = np.flatnonzero(series.value[:low[0] + 1] > 0.97 * start)
-                at = series.time_s[first[-1] if first.size else 0]
-                found.setdefault(tire, {})[run.recording.name] = float(at)
+                began = _began(series.time_s[:low[0] + 1], series.value[:low[0] + 1] / start)
+                found.setdefault(tire, {})[run.recording.name] = began
     return found
+
+
+def _began(time_s: Floats, share: Floats) -> float:
+    """When a pressure that ends at ``1 - _PRESSURE_LOST`` of its first level began to fall."""
+    last = np.flatnonzero(share > 1.0 - _PRESSURE_SEEN)
+    first = float(time_s[last[-1]] if last.size else time_s[0])
+    seen, lost = _PRESSURE_SEEN, float(1.0 - share[-1])
+    return max(first - (float(time_s[-1]) - first) * seen / max(lost - seen, seen),
+               float(time_s[0]))
 
 
 def unwatched_tires(study: Study) -> tuple[Place, ...]:

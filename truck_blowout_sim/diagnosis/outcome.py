@@ -111,7 +111,8 @@ def unexplained(material: Material) -> bool:
     unnamed = max((w.delta - 2.0 * w.degrees for w in material.unnamed), default=0.0)
     excess = found.chi2_after + bought - rules.expected_level * rows
     left = found.chi2_after > rules.unknown_level * rows
-    return (left and bought < 0.5 * excess) or unnamed > max(rules.unknown_delta, bought)
+    return (left and bought < 0.5 * excess) or unnamed > max(
+        rules.unknown_delta * material.study.demand, bought)
 
 
 def _bought(material: Material) -> float:
@@ -181,9 +182,9 @@ def null_p_value(material: Material) -> float:
 
     Evidence counts in units of what an effect of its name needs.
     """
-    rules = material.study.settings
-    return rules.null_p_value(max(
-        (r.evidence / rules.needed(r.hypothesis.effect.name, bool(r.hypothesis.times))
+    study = material.study
+    return study.settings.null_p_value(max(
+        (r.evidence / study.needed(r.hypothesis.effect, bool(r.hypothesis.times))
          for r, _ in material.found.tried), default=0.0))
 
 

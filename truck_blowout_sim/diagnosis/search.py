@@ -155,7 +155,7 @@ def _weak(study: Study, one: Ranked, strongest: float) -> str:
     if not one.refitted:
         return "not refitted: others explain more"
     event = bool(one.hypothesis.times)
-    needed = study.settings.needed(one.hypothesis.effect.name, event)
+    needed = study.needed(one.hypothesis.effect, event)
     if one.evidence < needed:
         return f"buys only {one.evidence:.0f} of {needed:.0f}" + (
             ", an event whose instant was searched" if event else "")

@@ -79,14 +79,15 @@ class Settings:
         accept_delta: fall of the sum of squares that a named effect must buy.
         form_share: 1 sigma of what another form of law does to an amount, as a share of it.
         flat_braked: how much wider the difference between models is once a flat tire was braked.
-        hard_from_mps2, hard_growth_s2pm: lateral acceleration from which on it is wider too, and by
-            what factor more with each 1 m/s2 beyond.
+        hard_from_mps2, hard_demand_s2pm: lateral acceleration from which on more evidence is asked
+            for, and by what factor more with each 1 m/s2 beyond.
         null_median, null_tail: best evidence where nothing is missing, as a share of what is
             needed: half of such cases reach the one, and all of what is needed the share of the
             other.
         same_truck: share of what trucks of one kind differ by that is worth naming where baseline
             runs show this truck.
         harder: by effect, for those that what is left between good models imitates.
+        forms: by effect, instead of ``form_share``, where laws of its kind differ more.
         keep_within: share of the evidence within which explanations count as aliases.
         expected_level, unknown_level: sum of squares a row when nothing is missing, and from which
             on something must be.
@@ -110,11 +111,16 @@ class Settings:
     form_share: float
     flat_braked: float
     hard_from_mps2: float
-    hard_growth_s2pm: float
+    hard_demand_s2pm: float
     same_truck: float
     null_median: float
     null_tail: float
     harder: Mapping[str, float] = field(default_factory=dict)
+    forms: Mapping[str, float] = field(default_factory=dict)
+
+    def form(self, effect: str) -> float:
+        """1 sigma of what another form of law does to an amount, as a share of it."""
+        return self.forms.get(effect, self.form_share)
 
     def needed(self, effect: str, event: bool = False) -> float:
         """Evidence that an effect of this name must have, more if its instant was searched."""
@@ -150,11 +156,11 @@ def load_settings(packed: Packed, name: str = "default") -> Settings:
         tree = yaml.safe_load(path.read_text(encoding="utf-8"))
     except (yaml.YAMLError, UnicodeDecodeError) as error:
         raise InputError(f"not YAML: {error}", file=path) from None
-    _check(path, "", tree, {*_TOP_KEYS, "harder"}, _TOP_KEYS)
+    _check(path, "", tree, {*_TOP_KEYS, "harder", "forms"}, _TOP_KEYS)
     for part in ("nuisances", "channels"):
         _check(path, part, tree[part], set(tree[part] or ()))
     method_keys = {f.name for f in fields(Settings)} - {
-        "nuisances", "channels", "harder"}
+        "nuisances", "channels", "harder", "forms"}
     _check(path, "method", tree["method"], method_keys, method_keys)
     nuisances = [_nuisance(path, key, entry, packed) for key, entry in tree["nuisances"].items()]
     nuisances += _brake_gains(packed, _number(path, "brake_gain_sigma", tree["brake_gain_sigma"],
@@ -164,7 +170,10 @@ def load_settings(packed: Packed, name: str = "default") -> Settings:
     channels = {key: _rule(path, key, entry) for key, entry in tree["channels"].items()}
     harder = {key: _number(path, f"harder.{key}", entry, "delta")
               for key, entry in tree.get("harder", {}).items()}
-    return Settings(tuple(n for n in nuisances if n.targets), channels, harder=harder, **method)
+    forms = {key: _number(path, f"forms.{key}", entry, "share")
+             for key, entry in tree.get("forms", {}).items()}
+    return Settings(tuple(n for n in nuisances if n.targets), channels, harder=harder, forms=forms,
+                    **method)
 
 
 def _nuisance(path: Path, name: str, entry: Mapping[str, Any], packed: Packed) -> Nuisance:

@@ -18,7 +18,7 @@ from truck_blowout_sim.diagnosis.candidates import (
 from truck_blowout_sim.diagnosis.effects import Effect, secondary_blowout
 from truck_blowout_sim.diagnosis.event_fit import fit_event
 from truck_blowout_sim.diagnosis.hypothesis import Hypothesis
-from truck_blowout_sim.diagnosis.refit import refit
+from truck_blowout_sim.diagnosis.refit import chi2_of, models_at, refit
 from truck_blowout_sim.diagnosis.result_parts import Place
 from truck_blowout_sim.diagnosis.study import Progress, Study
 from truck_blowout_sim.diagnosis.timed import refine_times, scan
@@ -26,6 +26,7 @@ from truck_blowout_sim.diagnosis.timed import refine_times, scan
 _TIMED_COST = 8.0  # evidence that choosing an instant in a run costs
 _TIMED_SHARE = 0.15  # and the share that freedom of shape costs: steady causes come first
 _WORTH_REFITTING = 0.25  # of the threshold
+_HOLES = (0.1, 0.3, 1.0)  # of that of a commanded blowout: where to begin
 _HALF = 0.5  # of what the best explains: less is no rival
 _MUCH = 0.5  # of what is unusual: an event that explains it leaves no call for others
 _LARGE = 3.0  # thresholds of mismatch, from which on a tire may have been lost unseen
@@ -122,10 +123,14 @@ def _event_places(study: Study, named: Sequence[Hypothesis], steady: Sequence[Ra
 
 def _failed(study: Study, named: Sequence[Hypothesis], chi2: float, tire: str,
             times: Mapping[str, float]) -> Ranked:
-    """A tire seen to lose its pressure: the hypothesis at those instants, refitted."""
+    """A tire seen to lose its pressure: the hypothesis at those instants, its hole refitted.
+
+    No motion of the truck tells the instant as well as the gauge does.
+    """
     effect = secondary_blowout.EFFECT
     place = next(p for p in effect.places(study.packed.vehicle) if p.tire == tire)
     spans = {run: (t, np.inf) for run, t in times.items()}
-    start = Ranked(Hypothesis(effect, place, 1.0, spans), 0.0, 1.0)
-    one = refit(study, start, chi2, named)
-    return fit_event(study, refine_times(study, one, chi2, named), chi2, named)
+    starts = [Hypothesis(effect, place, hole, spans) for hole in _HOLES]
+    projector = study.projector([*named, starts[0]])
+    sums = [chi2_of(study, projector, models) for models in models_at(study, starts, named)]
+    return refit(study, Ranked(starts[int(np.argmin(sums))], 0.0, 1.0), chi2, named)

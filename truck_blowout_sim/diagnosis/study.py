@@ -8,14 +8,17 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
+from truck_blowout_sim.diagnosis.effects import Effect
 from truck_blowout_sim.diagnosis.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.linear import Projector
 from truck_blowout_sim.diagnosis.runs import Run, simulate_bins
 from truck_blowout_sim.diagnosis.settings import Settings
+from truck_blowout_sim.diagnosis.trust import demand
 from truck_blowout_sim.simulation.course import Course, drive_course
 from truck_blowout_sim.vehicle import Packed
 
@@ -70,6 +73,17 @@ class Study:
     def train(self) -> tuple[int, ...]:
         """Positions of the training runs in ``runs``."""
         return tuple(i for i, run in enumerate(self.runs) if run.role == "train")
+
+    @cached_property
+    def demand(self) -> float:
+        """Factor on the evidence asked of what does not need hard turns to show."""
+        return demand([self.runs[i].recording for i in self.train], self.packed.vehicle.units[0],
+                      self.settings)
+
+    def needed(self, effect: Effect, event: bool = False) -> float:
+        """Evidence that an effect must have in these runs."""
+        usual = self.settings.needed(effect.name, event)
+        return usual if effect.at_limit else usual * self.demand
 
     @property
     def baseline(self) -> tuple[int, ...]:

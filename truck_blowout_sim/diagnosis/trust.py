@@ -1,6 +1,8 @@
 """Where the model is believed less: a flat tire that was braked, turns near the limit of grip.
 
-Both widen the difference that good models of one truck are allowed, bin by bin.
+The flat tire widens the difference that good models of one truck are allowed, bin by bin. Hard
+turns ask more evidence of every effect but those that only such turns show: widened there, the
+difference would hide these.
 
 Known limits: lateral acceleration is that of the first unit's yaw rate and speed; without both
 channels no turn counts as hard.
@@ -9,8 +11,11 @@ Validated with: test/diagnosis/test_trust.py.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 from numpy.typing import NDArray
+from scipy.ndimage import uniform_filter1d
 
 from truck_blowout_sim.diagnosis.settings import Settings
 from truck_blowout_sim.recordings import INPUT_NAMES, Recording
@@ -19,13 +24,13 @@ from truck_blowout_sim.vehicle import Packed
 
 Floats = NDArray[np.float64]
 BRAKES_ON_PA = 20_000.0
+_LASTS_S = 0.5
 
 
 def wider(recording: Recording, drive: Drive, packed: Packed, edges_s: Floats,
           settings: Settings) -> Floats:
     """Factor on the difference between models in each bin, 1 where nothing is special."""
-    flat = np.where(flat_was_braked(recording, drive, packed, edges_s), settings.flat_braked, 1.0)
-    return np.maximum(flat, hard_turn(recording, packed, edges_s, settings))
+    return np.where(flat_was_braked(recording, drive, packed, edges_s), settings.flat_braked, 1.0)
 
 
 def flat_was_braked(recording: Recording, drive: Drive, packed: Packed, edges_s: Floats
@@ -46,19 +51,20 @@ def flat_was_braked(recording: Recording, drive: Drive, packed: Packed, edges_s:
     return np.asarray(np.maximum.accumulate(braked))
 
 
-def hard_turn(recording: Recording, packed: Packed, edges_s: Floats, settings: Settings) -> Floats:
-    """Factor by how hard the truck turns: near the limit each model's tire has its own curve.
+def demand(recordings: Sequence[Recording], unit: str, settings: Settings) -> float:
+    """Factor on the evidence that is asked for, by the hardest turn of any recording.
 
-    It counts for as long as a difference lasts, before and after.
+    Near the limit each model's tire has its own curve.
     """
-    unit = packed.vehicle.units[0]
+    hardest = max((_hardest_mps2(recording, unit) for recording in recordings), default=0.0)
+    return 1.0 + settings.hard_demand_s2pm * max(hardest - settings.hard_from_mps2, 0.0)
+
+
+def _hardest_mps2(recording: Recording, unit: str) -> float:
+    """Largest lateral acceleration that lasts, from yaw rate and speed; 0 without both."""
     names = (f"{unit}_yaw_rate_radps", f"{unit}_vx_mps")
-    if not all(name in recording for name in names):
-        return np.ones(edges_s.size - 1)
-    middles = 0.5 * (edges_s[1:] + edges_s[:-1])
-    rate, speed = (np.interp(middles, recording[n].time_s, recording[n].value) for n in names)
-    around = max(round(settings.correlation_s / settings.bin_s), 1)
-    sharpest = np.array([np.max(np.abs(rate * speed)[max(k - around, 0):k + around + 1])
-                         for k in range(middles.size)])
-    return np.asarray(1.0 + settings.hard_growth_s2pm * np.maximum(
-        sharpest - settings.hard_from_mps2, 0.0))
+    if not all(name in recording and len(recording[name]) > 1 for name in names):
+        return 0.0
+    rate, speed = (recording[name] for name in names)
+    lateral = np.abs(rate.value * np.interp(rate.time_s, speed.time_s, speed.value))
+    return float(uniform_filter1d(lateral, max(round(_LASTS_S / rate.period_s), 1)).max())

@@ -65,6 +65,7 @@ class Effect:
             runs of the same truck elsewhere say nothing about it.
         variant: another form of an effect of the same name. One with an onset is tried where the
             steady form, if there is one, explains something.
+        at_limit: shown by turns near the limit of grip only.
         neutral: amount at which a vehicle is as given; 0 unless it lacks the part altogether.
         absorbs: calibration number that means the same as this amount; ``{hub}`` and ``{circuit}``
             are filled in.
@@ -86,6 +87,7 @@ class Effect:
     onset_form_s: float = 0.0
     met: bool = False
     variant: bool = False
+    at_limit: bool = False
     neutral: Callable[[Packed], float] = lambda packed: 0.0
 
     @property
