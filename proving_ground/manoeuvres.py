@@ -10,6 +10,7 @@ from collections.abc import Callable
 
 import numpy as np
 
+from proving_ground import manoeuvres_more as more
 from proving_ground.task import Braking, Manoeuvre, Program
 
 MPH_MPS = 0.44704
@@ -206,16 +207,15 @@ def braking_ramp(rng: np.random.Generator) -> Manoeuvre:
                      release_s=1.8, brakings=stairs)
 
 
-MANOEUVRES: dict[str, Maker] = {
-    "straight": straight, "lane_change": lane_change, "double_lane_change": double_lane_change,
-    "sine_sweep": sine_sweep, "ramp_hold": ramp_hold, "slow_ramp": slow_ramp,
-    "coast_down": coast_down, "coast_slow": coast_slow, "braking_trailer": braking_trailer,
-    "braking_all": braking_all, "braking_steps": braking_steps, "blowout": blowout,
-    "blowout_free": blowout_free, "blowout_brake": blowout_brake, "random_steer": random_steer,
-    "hard_ramp": hard_ramp, "hard_slow_ramp": hard_slow_ramp, "hard_double": hard_double,
-    "speed_step": speed_step, "braking_ramp": braking_ramp,
-}
-_WITH_BLOWOUT = {"blowout": blowout, "blowout_free": blowout_free, "blowout_brake": blowout_brake}
+MANOEUVRES: dict[str, Maker] = {maker.__name__: maker for maker in (
+    straight, lane_change, double_lane_change, sine_sweep, ramp_hold, slow_ramp, coast_down,
+    coast_slow, braking_trailer, braking_all, braking_steps, blowout, blowout_free, blowout_brake,
+    random_steer, hard_ramp, hard_slow_ramp, hard_double, speed_step, braking_ramp,
+    more.j_turn, more.slalom, more.sine_dwell, more.there_and_back, more.weave, more.hard_slalom,
+    more.hard_there_and_back, more.coast_then_brake, more.late_release, more.braking_pulses,
+    more.braking_release, more.blowout_hold, more.blowout_coast)}
+_WITH_BLOWOUT = {maker.__name__: maker for maker in (
+    blowout, blowout_free, blowout_brake, more.blowout_hold, more.blowout_coast)}
 
 
 def make(kind: str, seed: int, tires: tuple[str, ...] = ("steer_left",)) -> Manoeuvre:

@@ -30,21 +30,20 @@ DEV_POOLS: Pools = {
     "any": (("straight", "lane_change"), ("sine_sweep", "coast_down")),
 }
 TEST_POOLS: Pools = {
-    "blowout": (("blowout_free", "blowout_brake"), ("blowout_brake", "blowout_free")),
-    "quick steer": (("double_lane_change", "random_steer"), ("random_steer", "slow_ramp")),
-    "hard steer": (("hard_double", "hard_slow_ramp"), ("hard_slow_ramp", "hard_double")),
-    "steer": (("double_lane_change", "random_steer"), ("slow_ramp", "random_steer")),
-    "small steer": (("random_steer", "speed_step"), ("double_lane_change", "random_steer")),
-    "kingpin": (("random_steer", "slow_ramp", "blowout_brake"),
-                ("double_lane_change", "blowout_free")),
-    "limit": (("braking_ramp", "hard_slow_ramp"), ("braking_steps", "hard_double")),
-    "brake": (("braking_steps", "braking_ramp"), ("braking_ramp", "braking_steps")),
-    "coast": (("coast_slow", "speed_step"), ("speed_step", "braking_steps")),
-    "straight": (("speed_step", "coast_slow"), ("coast_slow", "braking_steps")),
-    "any": (("speed_step", "random_steer"), ("double_lane_change", "coast_slow")),
+    "blowout": (("blowout_hold", "blowout_coast"), ("blowout_coast", "blowout_hold")),
+    "quick steer": (("slalom", "sine_dwell"), ("j_turn", "there_and_back")),
+    "hard steer": (("hard_slalom", "hard_there_and_back"), ("hard_there_and_back", "hard_slalom")),
+    "steer": (("sine_dwell", "j_turn"), ("there_and_back", "slalom")),
+    "small steer": (("weave", "late_release"), ("slalom", "weave")),
+    "kingpin": (("weave", "there_and_back", "blowout_coast"), ("slalom", "blowout_hold")),
+    "limit": (("braking_pulses", "hard_there_and_back"), ("braking_release", "hard_slalom")),
+    "brake": (("braking_release", "braking_pulses"), ("braking_pulses", "braking_release")),
+    "coast": (("coast_then_brake", "late_release"), ("late_release", "braking_pulses")),
+    "straight": (("late_release", "coast_then_brake"), ("coast_then_brake", "braking_pulses")),
+    "any": (("late_release", "weave"), ("slalom", "coast_then_brake")),
 }
 BASELINES = {"dev": (("lane_change", "coast_down"), ("ramp_hold", "braking_all")),
-             "test": (("double_lane_change", "speed_step"), ("random_steer", "braking_steps"))}
+             "test": (("slalom", "late_release"), ("weave", "braking_pulses"))}
 MISSING: tuple[tuple[str, ...], ...] = (
     (), (), (), ("hub_speed",), ("tire_pressure",), ("brake_chamber",),
     ("trailer_x_m", "trailer_y_m", "trailer_vx", "trailer_vy", "trailer_yaw_rad",
@@ -66,7 +65,7 @@ class Counts:
 
 
 COUNTS = {"dev": Counts(40, 84, 16, 16, 16), "test": Counts(120, 160, 40, 40, 40)}
-FIRST_SEED = {"dev": 10_000, "test": 1_000_000}
+FIRST_SEED = {"dev": 10_000, "test": 1_100_000}
 SETS = ("dev", "test", "ci")
 
 
