@@ -7,6 +7,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from truck_blowout_sim.diagnosis.result_evidence import BeatScores
+
 HARMONICS = (1, 2, 3)  # of a wheel turn
 
 
@@ -21,6 +23,7 @@ class Beat:
         evidence: twice the log-likelihood that the lines gain, comparable with a sum of squares.
         body: unit that shakes most; ``channel`` it shows in; ``amplitude`` there, SI.
         speed_mps: mean speed of the runs.
+        scores: of everything tried, for a picture.
     """
 
     turning: bool
@@ -31,6 +34,7 @@ class Beat:
     channel: str
     amplitude: float
     speed_mps: float
+    scores: BeatScores
 
     @property
     def pace_hz(self) -> float:

@@ -110,9 +110,9 @@ def unexplained(material: Material) -> bool:
     bought = _bought(material)
     unnamed = max((w.delta - 2.0 * w.degrees for w in material.unnamed), default=0.0)
     excess = found.chi2_after + bought - rules.expected_level * rows
-    left = found.chi2_after > rules.unknown_level * rows
-    return (left and bought < 0.5 * excess) or unnamed > max(
-        rules.unknown_delta * material.study.demand, bought)
+    demand = material.study.demand
+    left = found.chi2_after > rules.unknown_level * demand * rows
+    return (left and bought < 0.5 * excess) or unnamed > max(rules.unknown_delta * demand, bought)
 
 
 def _bought(material: Material) -> float:
@@ -200,6 +200,7 @@ def gather(material: Material) -> Evidence:
         candidates=evidence.candidates(found), maps=evidence.maps(study, found),
         overlays=evidence.overlays(study, found),
         forces=tuple(w.history for w in material.wrenches),
+        beats=material.beat.scores if material.beat else None,
         calibrated=evidence.calibrated(study, joint_amounts(material)),
         equations=tuple(words.fill(r.hypothesis, r.hypothesis.effect.amount.report(
             r.hypothesis.amount), None)[1] for r in found.named) + law + beat,

@@ -24,6 +24,7 @@ from scipy.ndimage import median_filter
 from truck_blowout_sim.diagnosis.attribute import with_effects
 from truck_blowout_sim.diagnosis.beat import HARMONICS, Beat
 from truck_blowout_sim.diagnosis.hypothesis import Hypothesis
+from truck_blowout_sim.diagnosis.result_evidence import BeatScores
 from truck_blowout_sim.diagnosis.runs import Run
 from truck_blowout_sim.diagnosis.study import Study
 from truck_blowout_sim.recordings import Recording
@@ -182,7 +183,8 @@ def clearest(lines: Sequence[Lines], every: Floats, turning: bool, least: float)
     r = np.maximum(ratios[:, k], 1.0)
     return Beat(turning, float(every[k]), float(score[k]),
                 float(2.0 * np.sum(r - 1.0 - np.log(r))), channel.split("_", 1)[0], channel,
-                amplitude, float(np.mean([part.speed_mps for part in train])))
+                amplitude, float(np.mean([part.speed_mps for part in train])),
+                BeatScores(turning, every, score, least))
 
 
 def _shaken_most(lines: Sequence[Lines], k: int, turning: bool) -> tuple[str, float]:

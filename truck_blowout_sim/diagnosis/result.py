@@ -14,6 +14,7 @@ from pathlib import Path
 
 from truck_blowout_sim.comparison.plain_json import json_text
 from truck_blowout_sim.diagnosis.result_evidence import (
+    BeatScores,
     Calibrated,
     Candidate,
     ChannelTimeMap,
@@ -44,6 +45,7 @@ __all__ = [
     "KINDS",
     "VERDICTS",
     "AliasSet",
+    "BeatScores",
     "Calibrated",
     "Candidate",
     "ChannelSigma",

@@ -101,6 +101,21 @@ class ForceHistory:
     mz_sigma_nm: FloatArray
 
 
+@dataclass(frozen=True, eq=False)
+class BeatScores:
+    """How clearly something beats at each distance or pace that was tried.
+
+    Attributes:
+        turning: ``every`` is the distance [m] from one beat to the next; else the time [s].
+        score: standard errors above what chance gives; from ``least`` on it counts.
+    """
+
+    turning: bool
+    every: FloatArray
+    score: FloatArray
+    least: float
+
+
 @dataclass(frozen=True)
 class Calibrated:
     """A number of the spec sheet as the recordings would have it.
@@ -133,7 +148,7 @@ class Evidence:
         vehicle: name of the vehicle file that was diagnosed.
         recordings: (name, role) of each.
         candidates: ranked, best first.
-        maps, overlays, forces: see their classes.
+        maps, overlays, forces, beats: see their classes.
         calibrated: spec-sheet numbers that were estimated, whatever came out.
         equations: what the diagnosed model adds, one line each.
         assumptions: everything that was taken for granted, one sentence each.
@@ -148,6 +163,7 @@ class Evidence:
     maps: tuple[ChannelTimeMap, ...] = ()
     overlays: tuple[Overlay, ...] = ()
     forces: tuple[ForceHistory, ...] = ()
+    beats: BeatScores | None = None
     calibrated: tuple[Calibrated, ...] = ()
     equations: tuple[str, ...] = ()
     assumptions: tuple[str, ...] = ()

@@ -9,7 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.colors import SymLogNorm
 from numpy.typing import NDArray
 
-from truck_blowout_sim.diagnosis.result import ChannelTimeMap, ForceHistory
+from truck_blowout_sim.diagnosis.result import BeatScores, ChannelTimeMap, ForceHistory
 from truck_blowout_sim.report.style import BLUE, SOFT, WIDE, Picture, new_figure
 
 Floats = NDArray[np.float64]
@@ -75,3 +75,19 @@ def force_picture(force: ForceHistory, number: int) -> Picture:
         "for the model to follow the record; band: ±2σ."
     )
     return Picture(f"force_{number}", f"Missing force on the {force.body}", caption, figure)
+
+
+def beat_picture(beats: BeatScores) -> Picture:
+    """How far each distance or pace that was tried stands above chance."""
+    figure = new_figure((WIDE[0], 2.8))
+    axes = figure.subplots()
+    x = beats.every if beats.turning else 1.0 / beats.every
+    order = np.argsort(x)
+    axes.plot(x[order], beats.score[order], color=BLUE)
+    axes.axhline(beats.least, color=SOFT, linewidth=0.8)
+    axes.set_xlabel("distance from beat to beat (m): one wheel turn" if beats.turning
+                    else "beats a second")
+    axes.set_ylabel("standard errors above chance")
+    caption = ("What the model leaves of accelerations and rates, all runs together, at the full "
+               "rate of the recording. Line: from here on it counts.")
+    return Picture("beats", "Something beats", caption, figure)

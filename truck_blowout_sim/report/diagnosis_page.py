@@ -77,6 +77,7 @@ def diagnosis_page(diagnosis: Diagnosis, vehicle: Vehicle, panels: int | None = 
         "location": location_rows(diagnosis.location, labels),
         "maps": pictures.maps,
         "forces": pictures.forces,
+        "beats": pictures.beats,
         "candidates": [candidate_row(c) for c in evidence.candidates],
         "candidates_picture": pictures.candidates,
         "fit": pictures.fit,

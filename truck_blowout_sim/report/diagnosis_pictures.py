@@ -13,7 +13,7 @@ from truck_blowout_sim.report.diagnosis_fits import (
     overlay_picture,
     pulls_picture,
 )
-from truck_blowout_sim.report.diagnosis_maps import force_picture, map_picture
+from truck_blowout_sim.report.diagnosis_maps import beat_picture, force_picture, map_picture
 from truck_blowout_sim.report.style import Picture, styled
 from truck_blowout_sim.report.truck_drawing import draw_truck
 from truck_blowout_sim.vehicle import Vehicle
@@ -29,6 +29,7 @@ class DiagnosisPictures:
     truck: Picture | None
     maps: tuple[Picture, ...]
     forces: tuple[Picture, ...]
+    beats: Picture | None
     candidates: Picture | None
     fit: Picture | None
     overlays: tuple[Picture, ...]
@@ -37,7 +38,7 @@ class DiagnosisPictures:
     @property
     def everything(self) -> tuple[Picture, ...]:
         """All of them in order."""
-        single = (self.truck, self.candidates, self.fit, self.pulls)
+        single = (self.truck, self.beats, self.candidates, self.fit, self.pulls)
         parts = (*self.maps, *self.forces, *self.overlays, *(p for p in single if p is not None))
         return tuple(sorted(parts, key=lambda picture: picture.name))
 
@@ -53,6 +54,7 @@ def diagnosis_pictures(
         truck=_truck(diagnosis, vehicle),
         maps=tuple(map_picture(m, labels, k) for k, m in enumerate(evidence.maps, 1)),
         forces=tuple(force_picture(f, k) for k, f in enumerate(evidence.forces, 1)),
+        beats=beat_picture(evidence.beats) if evidence.beats else None,
         candidates=candidates_picture(evidence.candidates) if evidence.candidates else None,
         fit=fit_picture(fits, labels) if any(f.before for f in fits.values()) else None,
         overlays=_overlays(evidence.overlays, labels, panels),
