@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 from truck_blowout_sim.diagnosis.attribute import Ranked
+from truck_blowout_sim.diagnosis.beat import Beat
 from truck_blowout_sim.diagnosis.effects import LIBRARY
 from truck_blowout_sim.diagnosis.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.intervals import Timing
@@ -18,12 +19,13 @@ from truck_blowout_sim.diagnosis.law import Law
 from truck_blowout_sim.diagnosis.locate import Wrenches
 from truck_blowout_sim.diagnosis.outcome import (
     Material,
+    answer,
     decide,
     locate,
     null_p_value,
     pulled,
 )
-from truck_blowout_sim.diagnosis.result_evidence import ForceHistory
+from truck_blowout_sim.diagnosis.result_evidence import BeatScores, ForceHistory
 from truck_blowout_sim.diagnosis.search import Found
 from truck_blowout_sim.diagnosis.sensors import GateResult
 from truck_blowout_sim.diagnosis.study import Study
@@ -56,7 +58,7 @@ def material(study: Study, named: tuple[Ranked, ...] = (), *, faults: int = 0,
     found = Found(named=list(named), rivals=[(r,) for r in named],
                   tried=[(r, "accepted") for r in named], models_null=list(study.models),
                   chi2_null=chi2 + sum(r.delta for r in named), chi2_after=chi2)
-    gate = cast(GateResult, SimpleNamespace(findings=("a faulty gyro",) * faults))
+    gate = cast(GateResult, SimpleNamespace(findings=("a faulty gyro",) * faults, notes=()))
     left = (wrench(unnamed),)
     return Material(study, found, gate, left, left, NO_LAW, {}, "a truck")
 
@@ -79,6 +81,32 @@ def test_verdicts_follow_what_was_found(calm: Study, truck: Packed) -> None:
     assert decide(material(calm, (drag,), faults=1)) == "missing_physics"
     assert decide(material(calm, unnamed=1e5)) == "unknown"
     assert decide(material(calm, (drag,), unnamed=1e5)) == "unknown"
+
+
+def test_what_beats_is_unknown_unless_what_was_named_says_more(calm: Study, truck: Packed) -> None:
+    scores = BeatScores(True, np.array([3.1, 3.2]), np.array([1.0, 20.0]), 8.0)
+    beat = Beat(True, 3.2, 20.0, 300.0, "tractor", "tractor_az_mps2", 0.1, 22.0, scores)
+    alone = replace(material(calm), beat=beat)
+    assert decide(alone) == "unknown"
+    told = answer(alone)
+    assert "once per wheel turn" in told.sentence
+    assert told.evidence.equations[-1] == beat.equation
+    assert told.evidence.beats is scores
+    weak, strong = (replace(material(calm, (ranked(truck, "road_bank", 0.03, delta),)), beat=beat)
+                    for delta in (200.0, 500.0))
+    assert decide(weak) == "unknown"
+    assert decide(strong) == "missing_physics"
+    assert "once per wheel turn" in answer(strong).sentence
+
+
+def test_what_calibration_had_swallowed_counts_as_explained(calm: Study, truck: Packed) -> None:
+    rows = calm.columns.shape[0]
+    calm.settings = replace(calm.settings, expected_level=0.0, unknown_level=0.0)
+    left = calm.projector().chi2(calm.residual())
+    named = ranked(truck, "blown_tire_drag", 0.5, 0.1 * left)
+    assert rows > 0
+    assert decide(material(calm, (named,))) == "unknown"
+    assert decide(material(calm, (replace(named, evidence=2.0 * left),))) == "missing_physics"
 
 
 def test_a_sheet_number_far_off_is_a_miscalibration_and_named(

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from truck_blowout_sim.diagnosis.result import Diagnosis, Location
+from truck_blowout_sim.diagnosis.result import BeatScores, Diagnosis, Location
 from truck_blowout_sim.report.diagnosis_page import diagnosis_page, write_diagnosis_report
 from truck_blowout_sim.report.diagnosis_rows import interval_text
 from truck_blowout_sim.vehicle import Vehicle, load_vehicle
@@ -109,6 +109,17 @@ def test_a_location_without_effects_is_drawn(diagnosis: Diagnosis, vehicle: Vehi
     assert "Missing wrench +2,100 N forward" in text
     nowhere = replace(unknown, location=Location(interval_s=(1.0, 2.5)))
     assert "1.00 to 2.50 s" in read(diagnosis_page(nowhere, vehicle)).text
+
+
+def test_what_beats_is_drawn(diagnosis: Diagnosis, vehicle: Vehicle) -> None:
+    every = np.linspace(2.9, 3.3, 50)
+    score = 20.0 * np.exp(-((every - 3.1) / 0.02) ** 2)
+    for turning in (True, False):
+        beats = BeatScores(turning, every, score, 8.0)
+        beating = replace(diagnosis, evidence=replace(diagnosis.evidence, beats=beats))
+        page = diagnosis_page(beating, vehicle)
+        assert "Something beats" in page
+        assert page.count("<img") == diagnosis_page(diagnosis, vehicle).count("<img") + 1
 
 
 def test_open_intervals_are_said_in_words() -> None:
