@@ -14,10 +14,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from truck_blowout_sim.physics.layout import N_WORK, TIRE_S, TOPOLOGY
-from truck_blowout_sim.simulation.drive import Drive, names_of, total_mass_kg
+from truck_blowout_sim.simulation.drive import Drive, Driven, names_of
 from truck_blowout_sim.simulation.equilibrium import initial_vector
-from truck_blowout_sim.simulation.loop import run_loop
 from truck_blowout_sim.vehicle import Packed
 
 Floats = NDArray[np.float64]
@@ -42,8 +40,11 @@ class Course:
         """Outputs [n_rows, n_outputs] of a truck that is another only from ``since_s`` on."""
         last = (since_s - self.drive.initial.time_s) / self.drive.step_s
         k = max(int(np.searchsorted(self.steps, last, side="left")) - 1, 0)
-        out = self.out.copy()
-        _go_on(packed, self.drive, self.states[k].copy(), self.steps[k], out)
+        first, out = self.steps[k], self.out.copy()
+        # what follows a failure is no row of the truck that was driven before
+        out[-(-first // self.drive.every):] = np.nan
+        Driven(packed, self.drive).steps(self.states[k].copy(), first, self.drive.inputs.shape[0],
+                                         out)
         return out
 
 
@@ -60,18 +61,8 @@ def drive_course(packed: Packed, drive: Drive) -> Course:
     x = initial_vector(packed, drive.initial, drive.step_s, drive.warm)
     out = np.full((drive.n_rows, len(names_of(packed.vehicle))), np.nan)
     states = np.empty((len(steps), x.size))
+    driven, going = Driven(packed, drive), True
     for k, first in enumerate(steps):
         states[k] = x
-        _go_on(packed, drive, x, first, out, min(first + part, n))
+        going = going and driven.steps(x, first, min(first + part, n), out)
     return Course(drive, out, steps, states)
-
-
-def _go_on(packed: Packed, drive: Drive, x: Floats, first: int, out: Floats,
-           last: int | None = None) -> None:
-    """Drive on from a step, state ``x`` in place; rows after a failure are NaN."""
-    topo, end = packed.topology, drive.inputs.shape[0] if last is None else last
-    slots = topo[TOPOLOGY.state_tire_at] + drive.blown * len(TIRE_S) + TIRE_S.blown_time_s
-    out[-(-first // drive.every):] = np.nan
-    run_loop(x, packed.params.copy(), topo, drive.inputs.copy(), drive.step_s, drive.every, first,
-             end, drive.initial.time_s, drive.blow_steps, slots, drive.speed,
-             total_mass_kg(packed), drive.pilot.copy(), drive.path, np.zeros(N_WORK), out)

@@ -80,22 +80,41 @@ def execute(packed: Packed, drive: Drive, progress: Progress | None = None
     Returns:
         Outputs [n_rows, n_outputs], NaN after a failure, and the inputs [n_steps, 5] as driven.
     """
-    topo, n = packed.topology, drive.inputs.shape[0]
+    n, driven = drive.inputs.shape[0], Driven(packed, drive)
     x = initial_vector(packed, drive.initial, drive.step_s, drive.warm)
     out = np.full((drive.n_rows, len(names_of(packed.vehicle))), np.nan)
-    slots = topo[TOPOLOGY.state_tire_at] + drive.blown * len(TIRE_S) + TIRE_S.blown_time_s
-    params, inputs, pilot = packed.params.copy(), drive.inputs.copy(), drive.pilot.copy()
-    mass_kg, work = total_mass_kg(packed), np.zeros(N_WORK)
     part = max(round(_PART_S / drive.step_s), 1) if progress else max(n, 1)
     for first in range(0, max(n, 1), part):
         last = min(first + part, n)
-        if not run_loop(x, params, topo, inputs, drive.step_s, drive.every, first, last,
-                        drive.initial.time_s, drive.blow_steps, slots, drive.speed, mass_kg, pilot,
-                        drive.path, work, out):
+        if not driven.steps(x, first, last, out):
             break
         if progress:
             progress(last / max(n, 1))
-    return out, inputs
+    return out, driven.inputs
+
+
+class Driven:
+    """A truck and its drive, ready for the loop; what a run changes of them is its own copy."""
+
+    def __init__(self, packed: Packed, drive: Drive) -> None:
+        self._drive, self._topology = drive, packed.topology
+        self._params, self._pilot = packed.params.copy(), drive.pilot.copy()
+        self.inputs = drive.inputs.copy()
+        self._slots = (self._topology[TOPOLOGY.state_tire_at] + drive.blown * len(TIRE_S)
+                       + TIRE_S.blown_time_s)
+        self._mass_kg, self._work = total_mass_kg(packed), np.zeros(N_WORK)
+
+    def steps(self, x: Floats, first: int, last: int, out: Floats) -> bool:
+        """Drive on from step ``first`` to ``last``, state ``x`` and rows ``out`` in place.
+
+        Returns:
+            False once the state stopped being finite.
+        """
+        drive = self._drive
+        return bool(run_loop(
+            x, self._params, self._topology, self.inputs, drive.step_s, drive.every, first, last,
+            drive.initial.time_s, drive.blow_steps, self._slots, drive.speed, self._mass_kg,
+            self._pilot, drive.path, self._work, out))
 
 
 def names_of(vehicle: Vehicle) -> tuple[str, ...]:
