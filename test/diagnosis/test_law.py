@@ -9,7 +9,8 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from truck_blowout_sim.diagnosis.law import Law, _left_out, checked, plainest_law
+from truck_blowout_sim.diagnosis.law import Law, _left_out, plainest_law
+from truck_blowout_sim.diagnosis.law_check import checked
 from truck_blowout_sim.diagnosis.locate import Wrenches
 from truck_blowout_sim.diagnosis.result_evidence import ForceHistory
 from truck_blowout_sim.diagnosis.study import Study

@@ -14,7 +14,8 @@ from truck_blowout_sim.diagnosis.calibration import calibrate
 from truck_blowout_sim.diagnosis.fingerprints import case_parts
 from truck_blowout_sim.diagnosis.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.intervals import Timing, time_intervals
-from truck_blowout_sim.diagnosis.law import checked, plainest_law
+from truck_blowout_sim.diagnosis.law import plainest_law
+from truck_blowout_sim.diagnosis.law_check import checked
 from truck_blowout_sim.diagnosis.locate import Wrenches, missing_wrench
 from truck_blowout_sim.diagnosis.next_test import Separation, best_test
 from truck_blowout_sim.diagnosis.outcome import Material, answer, joint_amounts, unexplained

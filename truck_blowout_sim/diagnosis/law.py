@@ -15,17 +15,13 @@ Validated with: test/diagnosis/test_law.py (the law that made the data is found)
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from truck_blowout_sim.diagnosis.attribute import with_effects
-from truck_blowout_sim.diagnosis.holdout import predict
-from truck_blowout_sim.diagnosis.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.locate import Wrenches
 from truck_blowout_sim.diagnosis.runs import Run
-from truck_blowout_sim.diagnosis.study import Study
 
 Floats = NDArray[np.float64]
 CONSTANT = "1 (constant while it acts)"
@@ -91,24 +87,6 @@ def plainest_law(wrenches: Wrenches, run: Run) -> Law:
     return Law(component, history.body, terms, _equation(component, history.body, terms),
                max(1.0 - left / total, 0.0) if total > 0 else 0.0,
                _probe_values(component, history.body, terms, wrenches, acting))
-
-
-def checked(study: Study, law: Law, named: Sequence[Hypothesis] = ()) -> Law:
-    """The law with what it does to runs that were never fitted, beside the effects in force.
-
-    A mere interval is not asked: it says nothing of another run.
-    """
-    if not study.holdout or not law.values or law.terms[0][0] == CONSTANT:
-        return law
-    truck, models = study.packed.with_values(law.values), list(study.models)
-    jobs = [(study.runs[i], with_effects(truck, named, study.runs[i].recording.name))
-            for i in study.train]
-    for i, model in zip(study.train, study.simulate(jobs), strict=True):
-        models[i] = model
-    held = study.simulate([(run, truck) for run in study.holdout])
-    tried = replace(study, packed=truck, models=models, holdout_models=held)
-    before, after = (predict(one, one.residual(), named) for one in (study, tried))
-    return replace(law, unseen=(sum(p.chi2 for p in before), sum(p.chi2 for p in after)))
 
 
 def _variables(run: Run, body: str, time_s: Floats, acting: NDArray[np.bool_]
