@@ -14,7 +14,7 @@ Validated with: test/diagnosis/test_law.py (the law that made the data is found)
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
