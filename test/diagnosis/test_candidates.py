@@ -1,0 +1,44 @@
+"""What pressures tell: which tire failed by itself, and when."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+from typing import cast
+
+import numpy as np
+import pytest
+
+from truck_blowout_sim.diagnosis.candidates import failed_tires
+from truck_blowout_sim.diagnosis.study import Study
+from truck_blowout_sim.recordings import Blowout, Recording, Series
+from truck_blowout_sim.vehicle import Packed
+
+TIME_S = np.arange(0.0, 8.0, 0.01)
+
+
+def pressures(began_s: float, lasts_s: float, tire: str, seed: int = 1) -> Recording:
+    """A tire that empties exponentially from an instant on, beside one that does not; noise 0.5 %."""
+    rng = np.random.default_rng([seed, 101])
+    falling = np.exp(-np.maximum(TIME_S - began_s, 0.0) / lasts_s)
+    return Recording("run", {
+        f"tire_pressure_{name}_pa": Series(
+            TIME_S, 7.0e5 * share * (1.0 + 0.005 * rng.standard_normal(TIME_S.size)))
+        for name, share in ((tire, falling), ("trailer_1_left_outer", np.ones(TIME_S.size)))})
+
+
+def study_of(truck: Packed, *recordings: Recording) -> Study:
+    runs = tuple(SimpleNamespace(recording=recording) for recording in recordings)
+    return cast(Study, SimpleNamespace(runs=runs, packed=truck))
+
+
+@pytest.mark.parametrize("lasts_s", [0.3, 1.0, 4.0])
+def test_the_gauge_tells_when_a_tire_began_to_lose_its_air(truck: Packed, lasts_s: float) -> None:
+    found = failed_tires(study_of(truck, pressures(2.5, lasts_s, "steer_right")), [0])
+    assert list(found) == ["steer_right"]
+    assert found["steer_right"]["run"] == pytest.approx(2.5, abs=0.02 + 0.02 * lasts_s)
+
+
+def test_a_tire_blown_on_command_has_not_failed_by_itself(truck: Packed) -> None:
+    run = pressures(2.5, 0.3, "steer_right")
+    told = Recording("run", run.channels, (Blowout(2.5, ("steer_right",)),))
+    assert failed_tires(study_of(truck, told), [0]) == {}
