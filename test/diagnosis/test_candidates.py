@@ -17,7 +17,7 @@ TIME_S = np.arange(0.0, 8.0, 0.01)
 
 
 def pressures(began_s: float, lasts_s: float, tire: str, seed: int = 1) -> Recording:
-    """A tire that empties exponentially from an instant on, beside one that does not; noise 0.5 %."""
+    """A tire that empties exponentially from an instant on, beside a sound one; noise 0.5 %."""
     rng = np.random.default_rng([seed, 101])
     falling = np.exp(-np.maximum(TIME_S - began_s, 0.0) / lasts_s)
     return Recording("run", {
