@@ -26,6 +26,7 @@ from truck_blowout_sim.diagnosis.beat import HARMONICS, Beat
 from truck_blowout_sim.diagnosis.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.result_evidence import BeatScores
 from truck_blowout_sim.diagnosis.runs import Run
+from truck_blowout_sim.diagnosis.sensors import believable, channel_noise
 from truck_blowout_sim.diagnosis.study import Study
 from truck_blowout_sim.recordings import Recording
 from truck_blowout_sim.simulation.drive import names_of, run_drive
@@ -33,7 +34,7 @@ from truck_blowout_sim.vehicle import Packed
 
 Floats = NDArray[np.float64]
 Term = tuple[str, Floats, Floats]
-Signals = Mapping[str, tuple[Floats, Floats]]  # times and measured - model, by channel
+Signals = Mapping[str, tuple[Floats, Floats, float]]  # times, measured - model, noise; by channel
 FAST = ("_ax_mps2", "_ay_mps2", "_az_mps2", "_roll_rate_radps", "_pitch_rate_radps")
 ALONG = ("_ax_mps2",)
 _LEAST_RATE_HZ = 20.0
@@ -101,14 +102,16 @@ def measured_less_model(run: Run, truck: Packed) -> Signals:
     start = float(run.edges_s[0])
     end = min([b.time_s for b in recording.blowouts] + [float(run.edges_s[-1])])
     out, found = run_drive(truck, run.drive), {}
-    for name in (n for n in names if n.endswith(FAST) and n in recording):
+    fast = [n for n in names if n.endswith(FAST) and n in recording]
+    noise = believable(channel_noise(recording.only_channels(fast)))
+    for name in (n for n in fast if n in noise):
         series = recording[name].between(start, max(start, end))
         if len(series) < _LEAST_RATE_HZ * _SHORTEST_S or (
                 series.time_s[-1] - series.time_s[0] < _SHORTEST_S):
             continue
         model = np.interp(series.time_s, run.drive.times_s, out[:, names.index(name)])
         if np.isfinite(model).all() and series.period_s <= 1.0 / _LEAST_RATE_HZ:
-            found[name] = (series.time_s, series.value - model)
+            found[name] = (series.time_s, series.value - model, noise[name].sigma)
     return found
 
 
@@ -119,13 +122,13 @@ def turn_lines(signals: Signals, recording: Recording, per_m: Floats) -> Lines:
                   if name.endswith("_vx_mps")), None)
     if speed is None:
         return _lines(terms, per_m.size)
-    for name, (time_s, left) in signals.items():
+    for name, (time_s, left, noise) in signals.items():
         v = np.interp(time_s, speed.time_s, speed.value)
         rolling = v > _ROLLING_SPEED_MPS
         if rolling.sum() < _LEAST_RATE_HZ * _SHORTEST_S:
             continue
         way = np.concatenate(([0.0], np.cumsum(0.5 * (v[1:] + v[:-1]) * np.diff(time_s))))[rolling]
-        frequency, ratio, square = _spectrum(way, left[rolling])
+        frequency, ratio, square = _spectrum(way, left[rolling], noise)
         terms += [(name, np.interp(k * per_m, frequency, ratio),
                    np.interp(k * per_m, frequency, square))
                   for k in HARMONICS if k * per_m.max() < frequency[-1]]
@@ -135,10 +138,10 @@ def turn_lines(signals: Signals, recording: Recording, per_m: Floats) -> Lines:
 def tone_lines(signals: Signals, paces_hz: Floats) -> Lines:
     """Lines over time along the course, in each part of the run."""
     terms: list[Term] = []
-    for name, (time_s, left) in signals.items():
+    for name, (time_s, left, noise) in signals.items():
         if not name.endswith(ALONG):
             continue
-        parts = [_spectrum(time_s[part], left[part])
+        parts = [_spectrum(time_s[part], left[part], noise)
                  for part in np.array_split(np.arange(time_s.size), _PARTS)]
         ratios, squares = (np.array([np.interp(paces_hz, p[0], p[k]) for p in parts])
                            for k in (1, 2))
@@ -152,8 +155,12 @@ def _lines(terms: Sequence[Term], tries: int) -> Lines:
                  np.array([a for _, _, a in terms]).reshape(-1, tries))
 
 
-def _spectrum(x: Floats, y: Floats) -> tuple[Floats, Floats, Floats]:
-    """Frequencies, power over background, squared amplitude above background; any even axis."""
+def _spectrum(x: Floats, y: Floats, noise: float) -> tuple[Floats, Floats, Floats]:
+    """Frequencies, power over background, squared amplitude above background; any even axis.
+
+    The background is never below that of the instrument: what a computed record leaves of another
+    step's rounding beats clearly, at a size that nothing measures.
+    """
     even = np.linspace(x[0], x[-1], x.size)
     window = np.hanning(x.size)
     values = np.interp(even, x, y)
@@ -161,7 +168,7 @@ def _spectrum(x: Floats, y: Floats) -> tuple[Floats, Floats, Floats]:
     power = np.abs(np.fft.rfft(values, _PADDED * x.size)) ** 2
     background = median_filter(power, size=2 * _NEIGHBORS * _PADDED + 1,
                                mode="mirror") / _MEDIAN_OF_EXPONENTIAL
-    background = np.maximum(background, np.finfo(float).tiny)
+    background = np.maximum(background, noise**2 * float(window @ window))
     frequency = np.fft.rfftfreq(_PADDED * x.size, even[1] - even[0])
     square = 4.0 * np.maximum(power - background, 0.0) / window.sum() ** 2
     return frequency, power / background, square

@@ -16,7 +16,12 @@ from truck_blowout_sim.diagnosis.sensors.geometry import (
     stated_geometry,
     vehicle_geometry,
 )
-from truck_blowout_sim.diagnosis.sensors.noise import Noise, channel_noise, series_noise
+from truck_blowout_sim.diagnosis.sensors.noise import (
+    Noise,
+    believable,
+    channel_noise,
+    series_noise,
+)
 
 __all__ = [
     "Amount",
@@ -26,6 +31,7 @@ __all__ = [
     "Noise",
     "SensorFinding",
     "SteeringZero",
+    "believable",
     "channel_noise",
     "correct",
     "sensor_gate",
