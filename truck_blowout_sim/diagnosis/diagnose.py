@@ -14,6 +14,7 @@ from truck_blowout_sim.diagnosis.calibration import calibrate
 from truck_blowout_sim.diagnosis.fingerprints import case_parts
 from truck_blowout_sim.diagnosis.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.intervals import Timing, time_intervals
+from truck_blowout_sim.diagnosis.lagging import lagging_wheel
 from truck_blowout_sim.diagnosis.law import plainest_law
 from truck_blowout_sim.diagnosis.law_check import checked
 from truck_blowout_sim.diagnosis.locate import Wrenches, missing_wrench
@@ -104,7 +105,8 @@ def _material(study: Study, found: Found, gate: GateResult, vehicle: str, profil
                                    if r.recording.name == worst.history.recording))
     material = Material(study, found, gate, before, after, law, _timings(study, found), vehicle,
                         _separation(study, found, progress),
-                        _arms(study, found, progress) if profile else {}, find_beat(study, named))
+                        _arms(study, found, progress) if profile else {}, find_beat(study, named),
+                        lagging_wheel(study, named))
     if unexplained(material):
         material = replace(material, law=checked(study, law, named))
     return material

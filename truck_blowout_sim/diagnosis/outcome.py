@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from truck_blowout_sim.diagnosis import evidence, words
 from truck_blowout_sim.diagnosis.beat import Beat
 from truck_blowout_sim.diagnosis.intervals import Timing
+from truck_blowout_sim.diagnosis.lagging import Lag
 from truck_blowout_sim.diagnosis.law import Law
 from truck_blowout_sim.diagnosis.locate import Wrenches
 from truck_blowout_sim.diagnosis.next_test import Separation
@@ -46,7 +47,7 @@ class Material:
         vehicle: name of the model's vehicle.
         separation: the run that would best tell apart what these cannot, if any could.
         arms: of each effect's amount by profile likelihood and jackknife, by key, if asked for.
-        beat: a periodic force too fast for the bins.
+        beat: a periodic force too fast for the bins; ``lag``: a wheel that a drag holds back.
     """
 
     study: Study
@@ -60,6 +61,7 @@ class Material:
     separation: Separation | None = None
     arms: Mapping[Key, Arms] = field(default_factory=dict)
     beat: Beat | None = None
+    lag: Lag | None = None
 
 
 def answer(material: Material) -> Diagnosis:
@@ -77,7 +79,7 @@ def answer(material: Material) -> Diagnosis:
     return Diagnosis(
         verdict=verdict, sentence=words.verdict_sentence(
             verdict, effects, pulled(material), material.law if unexplained(material) else None,
-            material.beat),
+            (material.beat, material.lag)),
         effects=tuple(effects), alias_sets=tuple(aliases), location=locate(material),
         train=fit(material, "train"), holdout=fit(material, "holdout"),
         null_p_value=null_p_value(material), next_test=next_test,
@@ -88,7 +90,7 @@ def decide(material: Material) -> Verdict:
     """Which of the five verdicts the evidence supports."""
     found, gate = material.found, material.gate
     physics = [r for r in found.named if r.hypothesis.effect.kind == "physics"]
-    if unexplained(material) or _beats(material):
+    if unexplained(material) or _beats(material) or material.lag is not None:
         return "unknown"
     if physics:
         return "missing_physics"
@@ -193,7 +195,7 @@ def gather(material: Material) -> Evidence:
     study, found = material.study, material.found
     rows = study.columns.shape[0]
     law = (material.law.equation,) if unexplained(material) else ()
-    beat = (material.beat.equation,) if material.beat else ()
+    told = tuple(one.equation for one in (material.beat, material.lag) if one)
     return Evidence(
         vehicle=material.vehicle,
         recordings=tuple((r.recording.name, r.role) for r in (*study.runs, *study.holdout)),
@@ -203,7 +205,7 @@ def gather(material: Material) -> Evidence:
         beats=material.beat.scores if material.beat else None,
         calibrated=evidence.calibrated(study, joint_amounts(material)),
         equations=tuple(words.fill(r.hypothesis, r.hypothesis.effect.amount.report(
-            r.hypothesis.amount), None)[1] for r in found.named) + law + beat,
+            r.hypothesis.amount), None)[1] for r in found.named) + law + told,
         assumptions=words.assumptions(study), missing_channels=words.missing_channels(study),
         notes=(*material.gate.notes, *(note for r in study.runs for note in r.recording.notes)),
         facts=(*((f"unnamed wrench on the {w.history.body} buys", f"{w.delta:.0f} with {w.degrees}")

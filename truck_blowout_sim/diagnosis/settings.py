@@ -92,6 +92,7 @@ class Settings:
         expected_level, unknown_level: sum of squares a row when nothing is missing, and from which
             on something must be.
         unknown_delta: what a wrench that nothing named explains must buy to be a missing effect.
+        lag_delta: what one wheel's lag must buy to show where a drag acts.
         beat_turn, beat_tone: score from which on something beats once per wheel turn, or steadily.
     """
 
@@ -106,6 +107,7 @@ class Settings:
     expected_level: float
     unknown_level: float
     unknown_delta: float
+    lag_delta: float
     beat_turn: float
     beat_tone: float
     form_share: float

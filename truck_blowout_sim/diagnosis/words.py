@@ -7,6 +7,7 @@ from math import isfinite
 
 from truck_blowout_sim.diagnosis.beat import Beat
 from truck_blowout_sim.diagnosis.hypothesis import Hypothesis
+from truck_blowout_sim.diagnosis.lagging import Lag
 from truck_blowout_sim.diagnosis.law import Law
 from truck_blowout_sim.diagnosis.next_test import Separation
 from truck_blowout_sim.diagnosis.result import Effect, Verdict
@@ -44,8 +45,8 @@ def open_ends(ends: Interval) -> str:
 
 def verdict_sentence(verdict: Verdict, effects: Sequence[Effect],
                      pulled: Sequence[tuple[str, float]], law: Law | None,
-                     beat: Beat | None = None) -> str:
-    """The verdict in words; ``law``: of a force left unexplained, ``beat``: of a periodic one."""
+                     signs: Sequence[Beat | Lag | None] = ()) -> str:
+    """The verdict in words; ``law``: of a force left unexplained, ``signs``: what else shows."""
     if verdict == "consistent":
         return ("The model explains these recordings within what instruments and trucks of one "
                 "kind differ; nothing is missing that they could show.")
@@ -57,7 +58,7 @@ def verdict_sentence(verdict: Verdict, effects: Sequence[Effect],
         said.append(f"Something acts on the {law.body} that no known effect explains; its plainest "
                     f"law is {law.equation}, which left-out windows confirm to "
                     f"{100.0 * law.explained:.0f} percent{_unseen(law)}.")
-    return " ".join((*said, *((beat.sentence,) if beat else ())))
+    return " ".join((*said, *(sign.sentence for sign in signs if sign)))
 
 
 def _unseen(law: Law) -> str:

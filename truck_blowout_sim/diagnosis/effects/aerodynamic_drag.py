@@ -18,5 +18,6 @@ EFFECT = Effect(
     sentence="The {where} has {value} m^2 more drag area than modelled.",
     equation="F_x = -0.5 rho (CdA + {value} m^2) v^2",
     splits="a coast-down at two speeds",
+    drags=True,
     absorbs="drag_area",
 )

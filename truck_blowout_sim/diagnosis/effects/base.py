@@ -66,6 +66,7 @@ class Effect:
         variant: another form of an effect of the same name. One with an onset is tried where the
             steady form, if there is one, explains something.
         at_limit: shown by turns near the limit of grip only.
+        drags: slows the truck without holding back a wheel more than its law says.
         neutral: amount at which a vehicle is as given; 0 unless it lacks the part altogether.
         absorbs: calibration number that means the same as this amount; ``{hub}`` and ``{circuit}``
             are filled in.
@@ -88,6 +89,7 @@ class Effect:
     met: bool = False
     variant: bool = False
     at_limit: bool = False
+    drags: bool = False
     neutral: Callable[[Packed], float] = lambda packed: 0.0
 
     @property

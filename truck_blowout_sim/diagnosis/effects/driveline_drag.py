@@ -21,6 +21,7 @@ EFFECT = Effect(
              "modelled.",
     equation="F_x,drive = -(F_drag + {value} N) (1 - throttle)",
     splits="the slip of the drive hubs when the throttle goes",
+    drags=True,
     absorbs="driveline_loss",
 )
 

@@ -20,6 +20,7 @@ EFFECT = Effect(
     sentence="The road climbs by {percent} percent along its course.",
     equation="F_x = -m g sin({value} rad)",
     splits="the accelerometer against the wheel speeds, at any speed",
+    drags=True,
     absorbs="road_slope",
 )
 

@@ -1,0 +1,103 @@
+"""Which wheel lags: the hub at which a drag acts, where no known drag acts there.
+
+A wheel that is held back turns slower than it rolls freely, by its drag over its slip stiffness.
+What is left of a hub's speed after everything named is fitted with a share of that speed, in
+training and while nothing brakes; the gain of its tachometer, which baseline runs hold, and all
+other nuisances are projected out. Hubs that a blown tire or something named holds are not asked.
+
+References: wheel slip under a drive or brake force (Pacejka 2012, chapter 1); the score test of
+`linear.py`.
+Known limits: without baseline runs a lag is a gain of the tachometer, and nothing is said; hubs
+that were not recorded cannot lag.
+Validated with: test/diagnosis/test_lagging.py (a hub that is held back is named, and by how much).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from truck_blowout_sim.diagnosis.hypothesis import Hypothesis
+from truck_blowout_sim.diagnosis.runs import Run
+from truck_blowout_sim.diagnosis.study import Study
+from truck_blowout_sim.diagnosis.trust import BRAKES_ON_PA
+
+Floats = NDArray[np.float64]
+_BRAKES = slice(2, None)  # columns of a drive's inputs
+
+
+@dataclass(frozen=True)
+class Lag:
+    """A wheel that turns slower than the model, everything named in force, lets it roll.
+
+    Attributes:
+        slip: share of its speed by which it lags; ``sigma`` its standard error.
+        evidence: fall of the sum of squares that the lag buys.
+    """
+
+    hub: str
+    slip: float
+    sigma: float
+    evidence: float
+
+    @property
+    def equation(self) -> str:
+        """For an engineer."""
+        return (f"omega({self.hub}) = (1 - {self.slip:.5f}) * omega of the model  "
+                f"(+- {1.645 * self.sigma:.5f}, 90 %)")
+
+    @property
+    def sentence(self) -> str:
+        """For a driver."""
+        return (f"What drags acts at hub {self.hub}: its wheels turn {1000.0 * self.slip:.1f} per "
+                "mille slower than they roll freely, as a dragging brake or a seizing bearing "
+                "would have it, and none of the known drags.")
+
+
+def lagging_wheel(study: Study, named: Sequence[Hypothesis]) -> Lag | None:
+    """The wheel that lags most clearly, where a drag is named and one lags at all.
+
+    Study's models have ``named`` in force.
+    """
+    if not any(h.effect.drags for h in named):
+        return None
+    vehicle, projector = study.packed.vehicle, study.projector(named)
+    taken = {h.place.hub for h in named} | {
+        vehicle.hub_of_tire(tire) for i in study.train
+        for event in study.runs[i].recording.blowouts for tire in event.tires}
+    removed = projector.remove(study.residual())
+    lags = []
+    for hub in (hub for hub in vehicle.hubs if hub not in taken):
+        column = _share(study, f"hub_speed_{hub}_radps")
+        information = float(column @ projector.remove(column))
+        if information > 0.0:
+            slope = float(column @ removed)
+            lags.append(Lag(hub, -slope / information, information ** -0.5,
+                            slope**2 / information))
+    behind = [lag for lag in lags if lag.slip > 0.0
+              and lag.evidence > study.settings.lag_delta]
+    return max(behind, key=lambda lag: lag.evidence, default=None)
+
+
+def _share(study: Study, channel: str) -> Floats:
+    """Whitened change of the training runs if the hub, unbraked, turned twice as fast."""
+    parts = {}
+    for i in study.train:
+        run = study.runs[i]
+        change = np.zeros(run.measured.shape)
+        if channel in run.channels:
+            k = run.channels.index(channel)
+            change[:, k] = np.nan_to_num(run.measured[:, k] / run.sigma[:, k]) * _free(run)
+        parts[i] = change.ravel()
+    return study.stack(parts)
+
+
+def _free(run: Run) -> NDArray[np.bool_]:
+    """Bins in which no brake is applied."""
+    rows = np.clip(((run.edges_s - run.drive.initial.time_s) / run.drive.step_s).astype(np.int64),
+                   0, run.drive.inputs.shape[0] - 1)
+    pressed = np.asarray((run.drive.inputs[:, _BRAKES] > BRAKES_ON_PA).any(axis=1))
+    return ~np.asarray(pressed[rows[:-1]] | pressed[rows[1:]])
