@@ -85,10 +85,9 @@ def test_case_survives_its_file(tmp_path: Path, tables: dict[str, list[CaseSpec]
 
 
 def test_shipped_examples_are_cases() -> None:
-    examples = sorted((Path(proving_ground.__file__).parent / "examples").glob("*.yaml"))
-    assert examples
-    for path in examples:
-        assert read_case(path).effects[0].where.hub == "trailer_2_left"
+    examples = (Path(proving_ground.__file__).parent / "examples").glob("*.yaml")
+    assert {path.stem: read_case(path).effects[0].where.hub for path in examples} == {
+        "weak_trailer_brake": "trailer_2_left", "loose_tread": "steer_left"}
 
 
 def test_first_part_of_a_set_holds_every_group(tables: dict[str, list[CaseSpec]]) -> None:
