@@ -41,9 +41,9 @@ def diagnose(recordings: Sequence[Recording], *, baseline: Sequence[Recording] =
              holdout: Sequence[Recording] = (),
              vehicle: Vehicle | str = "international_9400i_trailmobile", settings: str = "default",
              most_effects: int = 3, refits: tuple[int, int] = REFITS, step_s: float = STEP_S,
-             profile: bool = False, workers: int | None = None, impose_speed: bool | None = None,
-             progress: Progress | None = None, kept: Keeps | None = None
-             ) -> tuple[Diagnosis, Mapping[str, float]]:
+             profile: bool = False, next_run: bool = True, workers: int | None = None,
+             impose_speed: bool | None = None, progress: Progress | None = None,
+             kept: Keeps | None = None) -> tuple[Diagnosis, Mapping[str, float]]:
     """Diagnose recordings that a model does not reproduce.
 
     Args:
@@ -55,6 +55,7 @@ def diagnose(recordings: Sequence[Recording], *, baseline: Sequence[Recording] =
         most_effects: how many effects may be named.
         refits: how many steady candidates are fitted anew for each effect, and how many events.
         profile: intervals of amounts by profile likelihood and block jackknife, not by curvature.
+        next_run: simulate which run would best tell apart what fits alike; else words only.
         impose_speed: follow the recorded speed; None: only where throttle or brakes are missing.
         step_s: integration step; ``workers``: threads; ``progress``: called with (stage, share).
         kept: knows simulations made before, as :func:`keeping` does those of an interrupted call.
@@ -89,14 +90,15 @@ def diagnose(recordings: Sequence[Recording], *, baseline: Sequence[Recording] =
         study.simulated = kept.simulated
     calibrate(study, progress=progress)
     found = search(study, progress, most_effects)
-    material = _material(study, found, gate, loaded.name, profile, progress)
+    material = _material(study, found, gate, loaded.name, (profile, next_run), progress)
     told = answer(material)
     return told, diagnosed_values(material, packed, told.verdict)
 
 
-def _material(study: Study, found: Found, gate: GateResult, vehicle: str, profile: bool,
-              progress: Progress | None) -> Material:
-    """Everything else an answer needs, once the search has ended."""
+def _material(study: Study, found: Found, gate: GateResult, vehicle: str,
+              asked: tuple[bool, bool], progress: Progress | None) -> Material:
+    """Everything else an answer needs, once the search has ended; ``asked``: profile, next run."""
+    profile, next_run = asked
     named = [r.hypothesis for r in found.named]
     before = _wrenches(study, found.models_null, (), progress)
     after = _wrenches(study, study.models, named, progress) if named else before
@@ -104,7 +106,7 @@ def _material(study: Study, found: Found, gate: GateResult, vehicle: str, profil
     law = plainest_law(worst, next(r for r in study.runs
                                    if r.recording.name == worst.history.recording))
     material = Material(study, found, gate, before, after, law, _timings(study, found), vehicle,
-                        _separation(study, found, progress),
+                        _separation(study, found, progress) if next_run else None,
                         _arms(study, found, progress) if profile else {}, find_beat(study, named),
                         lagging_wheel(study, named))
     if unexplained(material):
