@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 _KEPT = ".resume"  # in the output folder, until the answer is written
 _CONTINUES = "the same command continues from here"
-_QUICK_STEP_S, _QUICK_REFITS, _QUICK_PANELS = 0.0025, (4, 1), 3
+_QUICK_STEP_S, _QUICK_REFITS, _QUICK_PANELS = 0.0025, (3, 1), 3
 _THOROUGH_STEP_S = 0.001
 _OF_SENSITIVITIES = 25.0  # as many times as long take four effects
 
@@ -72,7 +72,7 @@ def command(
             impose_speed=impose_speed, step_s=step_s,
             most_effects=1 if quick else 4 if thorough else 3,
             refits=_QUICK_REFITS if quick else REFITS, profile=thorough,
-            next_run=not quick, kept=kept,
+            coarse=quick, next_run=not quick, kept=kept,
             progress=_reporter(progress, task, thorough))
         progress.update(task, description="drawing", completed=1.0)
         _write(answer, loaded, vehicle, values, output, _QUICK_PANELS if quick else None)

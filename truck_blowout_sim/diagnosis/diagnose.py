@@ -41,9 +41,10 @@ def diagnose(recordings: Sequence[Recording], *, baseline: Sequence[Recording] =
              holdout: Sequence[Recording] = (),
              vehicle: Vehicle | str = "international_9400i_trailmobile", settings: str = "default",
              most_effects: int = 3, refits: tuple[int, int] = REFITS, step_s: float = STEP_S,
-             profile: bool = False, next_run: bool = True, workers: int | None = None,
-             impose_speed: bool | None = None, progress: Progress | None = None,
-             kept: Keeps | None = None) -> tuple[Diagnosis, Mapping[str, float]]:
+             coarse: bool = False, profile: bool = False, next_run: bool = True,
+             workers: int | None = None, impose_speed: bool | None = None,
+             progress: Progress | None = None, kept: Keeps | None = None
+             ) -> tuple[Diagnosis, Mapping[str, float]]:
     """Diagnose recordings that a model does not reproduce.
 
     Args:
@@ -54,6 +55,7 @@ def diagnose(recordings: Sequence[Recording], *, baseline: Sequence[Recording] =
         settings: name of a file in ``config/diagnosis``.
         most_effects: how many effects may be named.
         refits: how many steady candidates are fitted anew for each effect, and how many events.
+        coarse: simulate what is tried on the coarsest step that the settings allow.
         profile: intervals of amounts by profile likelihood and block jackknife, not by curvature.
         next_run: simulate which run would best tell apart what fits alike; else words only.
         impose_speed: follow the recorded speed; None: only where throttle or brakes are missing.
@@ -74,6 +76,8 @@ def diagnose(recordings: Sequence[Recording], *, baseline: Sequence[Recording] =
     packed = pack(loaded)
     gate = sensor_gate(list(recordings), list(baseline), vehicle_geometry(loaded))
     rules = load_settings(packed, settings)
+    if coarse:
+        rules = replace(rules, trial_step_s=rules.coarsest_step_s)
 
     def cut(recording: Recording, role: Role) -> Run:
         findings = gate.findings if role != "baseline" else [

@@ -74,7 +74,8 @@ class Settings:
     Attributes:
         nuisances: spec-sheet numbers with priors, made for one vehicle.
         channels: rules by a piece of the channel's name.
-        trial_step_s: integration step of everything that is tried.
+        trial_step_s: integration step of everything that is tried; coarsest_step_s: the same for
+            a quick answer.
         bin_s, skip_s, correlation_s: averaging time, start left out, duration of a difference.
         accept_delta: fall of the sum of squares that a named effect must buy.
         form_share: 1 sigma of what another form of law does to an amount, as a share of it.
@@ -99,6 +100,7 @@ class Settings:
     nuisances: tuple[Nuisance, ...]
     channels: Mapping[str, ChannelRule]
     trial_step_s: float
+    coarsest_step_s: float
     bin_s: float
     skip_s: float
     correlation_s: float

@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.ticker import NullFormatter
+from numpy.typing import NDArray
 
 from truck_blowout_sim.comparison.units import display_unit
 from truck_blowout_sim.diagnosis.result import Calibrated, Candidate, Fit, Overlay
@@ -22,6 +23,8 @@ from truck_blowout_sim.report.style import (
     new_figure,
 )
 
+Floats = NDArray[np.float64]
+Integers = NDArray[np.int64]
 _COLUMNS = 2
 _GRAY = "#b5bdc5"
 _MOST_BARS = 20
@@ -75,12 +78,12 @@ def fit_picture(fits: Mapping[str, Fit], labels: Mapping[str, str]) -> Picture:
     for axes, (role, fit) in zip(panels, shown, strict=True):
         axes.set_title(role)
         axes.axvspan(0.01, 1.0, color=INK, alpha=0.06, linewidth=0)
-        for k, name in enumerate(channels):
-            before, after = fit.before.get(name), fit.after.get(name)
-            if before is not None and after is not None:
-                axes.plot([before, after], [k, k], color=SOFT, linewidth=1.0, zorder=1)
-            _dot(axes, before, k, BEFORE, "o", "as given")
-            _dot(axes, after, k, AFTER, "D", "as diagnosed")
+        before, after = (np.array([one.get(name, np.nan) for name in channels])
+                         for one in (fit.before, fit.after))
+        rows = np.arange(len(channels))
+        axes.hlines(rows, before, after, color=SOFT, linewidth=1.0, zorder=1)
+        _dots(axes, before, rows, BEFORE, "o", "as given")
+        _dots(axes, after, rows, AFTER, "D", "as diagnosed")
         axes.set_xscale("log")
         axes.xaxis.set_major_formatter(_plain_number)
         axes.xaxis.set_minor_formatter(NullFormatter())
@@ -97,10 +100,10 @@ def _plain_number(value: float, _: object) -> str:
     return f"{value:g}"
 
 
-def _dot(axes: Axes, value: float | None, row: int, color: str, marker: str, words: str) -> None:
-    if value is not None and value > 0.0:
-        label = words if row == 0 else None
-        axes.plot(value, row, marker, color=color, markersize=4.5, label=label, linestyle="none")
+def _dots(axes: Axes, values: Floats, rows: Integers, color: str, marker: str, words: str
+          ) -> None:
+    axes.plot(np.where(values > 0.0, values, np.nan), rows, marker, color=color, markersize=4.5,
+              label=words, linestyle="none")
 
 
 def candidates_picture(candidates: Sequence[Candidate]) -> Picture:

@@ -36,7 +36,8 @@ def write_diagnosis_report(diagnosis: Diagnosis, vehicle: Vehicle, path: Path,
     """Write the page; it needs no other file.
 
     Args:
-        panels: overlays drawn of each recording, the worst channels first; None: all.
+        panels: overlays drawn of each recording, the worst channels first, and then only the
+            worst map of each role; None: all of both.
 
     Raises:
         StorageError: it cannot be written.
@@ -50,7 +51,7 @@ def diagnosis_page(diagnosis: Diagnosis, vehicle: Vehicle, panels: int | None = 
     Args:
         diagnosis: the answer with its evidence.
         vehicle: the vehicle as given, for its geometry and the names of its channels.
-        panels: overlays drawn of each recording; None: all.
+        panels: see :func:`write_diagnosis_report`.
     """
     labels = labels_for(vehicle)
     evidence, words = diagnosis.evidence, _VERDICTS[diagnosis.verdict]

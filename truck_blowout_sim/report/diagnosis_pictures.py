@@ -6,7 +6,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from itertools import groupby
 
-from truck_blowout_sim.diagnosis.result import Diagnosis, Overlay
+import numpy as np
+
+from truck_blowout_sim.diagnosis.result import ChannelTimeMap, Diagnosis, Overlay
 from truck_blowout_sim.report.diagnosis_fits import (
     candidates_picture,
     fit_picture,
@@ -47,12 +49,16 @@ class DiagnosisPictures:
 def diagnosis_pictures(
     diagnosis: Diagnosis, vehicle: Vehicle, labels: Mapping[str, str], panels: int | None = None
 ) -> DiagnosisPictures:
-    """Draw everything there is evidence for; ``panels``: of a recording, the first so many."""
+    """Draw everything there is evidence for.
+
+    ``panels``: of a recording only so many overlays, and of each role only the worst map.
+    """
     evidence = diagnosis.evidence
     fits = {"train": diagnosis.train, "holdout": diagnosis.holdout}
     return DiagnosisPictures(
         truck=_truck(diagnosis, vehicle),
-        maps=tuple(map_picture(m, labels, k) for k, m in enumerate(evidence.maps, 1)),
+        maps=tuple(map_picture(m, labels, k)
+                   for k, m in enumerate(_maps(evidence.maps, panels is not None), 1)),
         forces=tuple(force_picture(f, k) for k, f in enumerate(evidence.forces, 1)),
         beats=beat_picture(evidence.beats) if evidence.beats else None,
         candidates=candidates_picture(evidence.candidates) if evidence.candidates else None,
@@ -73,6 +79,16 @@ def _truck(diagnosis: Diagnosis, vehicle: Vehicle) -> Picture | None:
     )
     figure = draw_truck(vehicle, diagnosis)
     return Picture("truck", "The truck", caption, figure)
+
+
+def _maps(maps: tuple[ChannelTimeMap, ...], briefly: bool) -> tuple[ChannelTimeMap, ...]:
+    """All of them, or of each role the one with the largest mismatch, in their order."""
+    if not briefly:
+        return maps
+    worst: dict[str, ChannelTimeMap] = {}
+    for one in sorted(maps, key=lambda m: -float(np.nansum(m.before**2))):
+        worst.setdefault(one.role, one)
+    return tuple(m for m in maps if worst[m.role] is m)
 
 
 def _overlays(overlays: tuple[Overlay, ...], labels: Mapping[str, str], panels: int | None
