@@ -14,9 +14,9 @@ import pytest
 from truck_blowout_sim.diagnosis.attribute import Ranked
 from truck_blowout_sim.diagnosis.effects import LIBRARY
 from truck_blowout_sim.diagnosis.hypothesis import Hypothesis
+from truck_blowout_sim.diagnosis.judging import Found
 from truck_blowout_sim.diagnosis.manoeuvres import manoeuvres
 from truck_blowout_sim.diagnosis.next_test import Separation, best_test, pair_of
-from truck_blowout_sim.diagnosis.search import Found
 from truck_blowout_sim.diagnosis.sensors import GateResult
 from truck_blowout_sim.diagnosis.study import Study
 from truck_blowout_sim.diagnosis.words import next_test

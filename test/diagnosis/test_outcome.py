@@ -15,6 +15,7 @@ from truck_blowout_sim.diagnosis.beat import Beat
 from truck_blowout_sim.diagnosis.effects import LIBRARY
 from truck_blowout_sim.diagnosis.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.intervals import Timing
+from truck_blowout_sim.diagnosis.judging import Found
 from truck_blowout_sim.diagnosis.law import Law
 from truck_blowout_sim.diagnosis.locate import Wrenches
 from truck_blowout_sim.diagnosis.outcome import (
@@ -26,7 +27,6 @@ from truck_blowout_sim.diagnosis.outcome import (
     pulled,
 )
 from truck_blowout_sim.diagnosis.result_evidence import BeatScores, ForceHistory
-from truck_blowout_sim.diagnosis.search import Found
 from truck_blowout_sim.diagnosis.sensors import GateResult
 from truck_blowout_sim.diagnosis.study import Study
 from truck_blowout_sim.diagnosis.told import alias_set, physics_effect

@@ -8,7 +8,8 @@ import pytest
 
 from truck_blowout_sim.diagnosis import candidates
 from truck_blowout_sim.diagnosis.effects import LIBRARY
-from truck_blowout_sim.diagnosis.search import Found, search, slack
+from truck_blowout_sim.diagnosis.judging import Found, slack
+from truck_blowout_sim.diagnosis.search import search
 from truck_blowout_sim.diagnosis.study import Study
 from truck_blowout_sim.vehicle import Packed
 

@@ -14,6 +14,7 @@ from truck_blowout_sim.diagnosis.calibration import calibrate
 from truck_blowout_sim.diagnosis.fingerprints import case_parts
 from truck_blowout_sim.diagnosis.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.intervals import Timing, time_intervals
+from truck_blowout_sim.diagnosis.judging import Found
 from truck_blowout_sim.diagnosis.lagging import lagging_wheel
 from truck_blowout_sim.diagnosis.law import plainest_law
 from truck_blowout_sim.diagnosis.law_check import checked
@@ -21,11 +22,12 @@ from truck_blowout_sim.diagnosis.locate import Wrenches, missing_wrench
 from truck_blowout_sim.diagnosis.next_test import Separation, best_test
 from truck_blowout_sim.diagnosis.outcome import Material, answer, joint_amounts, unexplained
 from truck_blowout_sim.diagnosis.periodic import find_beat
+from truck_blowout_sim.diagnosis.posture import turned_body
 from truck_blowout_sim.diagnosis.profile import Arms, arms_of
 from truck_blowout_sim.diagnosis.result import Diagnosis, Role, Verdict
 from truck_blowout_sim.diagnosis.resume import Keeps
 from truck_blowout_sim.diagnosis.runs import Run, prepare_run
-from truck_blowout_sim.diagnosis.search import Found, search
+from truck_blowout_sim.diagnosis.search import search
 from truck_blowout_sim.diagnosis.sensors import GateResult, correct, sensor_gate, vehicle_geometry
 from truck_blowout_sim.diagnosis.settings import load_settings
 from truck_blowout_sim.diagnosis.study import FURTHEST, REFITS, Progress, Study, row_ranges
@@ -112,7 +114,7 @@ def _material(study: Study, found: Found, gate: GateResult, vehicle: str,
     material = Material(study, found, gate, before, after, law, _timings(study, found), vehicle,
                         _separation(study, found, progress) if next_run else None,
                         _arms(study, found, progress) if profile else {}, find_beat(study, named),
-                        lagging_wheel(study, named))
+                        lagging_wheel(study, named), turned_body(study, named))
     if unexplained(material):
         material = replace(material, law=checked(study, law, named))
     return material

@@ -7,9 +7,9 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from truck_blowout_sim.diagnosis.judging import Found
 from truck_blowout_sim.diagnosis.result import Calibrated, Candidate, ChannelTimeMap, Overlay
 from truck_blowout_sim.diagnosis.runs import Run
-from truck_blowout_sim.diagnosis.search import Found
 from truck_blowout_sim.diagnosis.study import Study, row_ranges
 
 Floats = NDArray[np.float64]

@@ -11,10 +11,12 @@ from numpy.typing import NDArray
 from truck_blowout_sim.diagnosis import evidence, words
 from truck_blowout_sim.diagnosis.beat import Beat
 from truck_blowout_sim.diagnosis.intervals import Timing
+from truck_blowout_sim.diagnosis.judging import Found
 from truck_blowout_sim.diagnosis.lagging import Lag
 from truck_blowout_sim.diagnosis.law import Law
 from truck_blowout_sim.diagnosis.locate import Wrenches
 from truck_blowout_sim.diagnosis.next_test import Separation
+from truck_blowout_sim.diagnosis.posture import Posture
 from truck_blowout_sim.diagnosis.profile import NINETY, Arms
 from truck_blowout_sim.diagnosis.result import (
     AliasSet,
@@ -26,7 +28,6 @@ from truck_blowout_sim.diagnosis.result import (
     Verdict,
     Wrench,
 )
-from truck_blowout_sim.diagnosis.search import Found
 from truck_blowout_sim.diagnosis.sensors import GateResult
 from truck_blowout_sim.diagnosis.study import Study
 from truck_blowout_sim.diagnosis.told import alias_set, physics_effect, sensor_effect
@@ -47,7 +48,8 @@ class Material:
         vehicle: name of the model's vehicle.
         separation: the run that would best tell apart what these cannot, if any could.
         arms: of each effect's amount by profile likelihood and jackknife, by key, if asked for.
-        beat: a periodic force too fast for the bins; ``lag``: a wheel that a drag holds back.
+        beat: a periodic force too fast for the bins; ``lag``: a wheel that a drag holds back;
+            ``posture``: a body that stands turned.
     """
 
     study: Study
@@ -62,6 +64,12 @@ class Material:
     arms: Mapping[Key, Arms] = field(default_factory=dict)
     beat: Beat | None = None
     lag: Lag | None = None
+    posture: Posture | None = None
+
+    @property
+    def signs(self) -> tuple[Beat | Lag | Posture, ...]:
+        """What shows beside a force."""
+        return tuple(one for one in (self.beat, self.lag, self.posture) if one is not None)
 
 
 def answer(material: Material) -> Diagnosis:
@@ -79,7 +87,7 @@ def answer(material: Material) -> Diagnosis:
     return Diagnosis(
         verdict=verdict, sentence=words.verdict_sentence(
             verdict, effects, pulled(material), material.law if unexplained(material) else None,
-            (material.beat, material.lag)),
+            material.signs),
         effects=tuple(effects), alias_sets=tuple(aliases), location=locate(material),
         train=fit(material, "train"), holdout=fit(material, "holdout"),
         null_p_value=null_p_value(material), next_test=next_test,
@@ -90,7 +98,8 @@ def decide(material: Material) -> Verdict:
     """Which of the five verdicts the evidence supports."""
     found, gate = material.found, material.gate
     physics = [r for r in found.named if r.hypothesis.effect.kind == "physics"]
-    if unexplained(material) or _beats(material) or material.lag is not None:
+    accused = material.lag is not None or material.posture is not None
+    if unexplained(material) or _beats(material) or accused:
         return "unknown"
     if physics:
         return "missing_physics"
@@ -195,7 +204,7 @@ def gather(material: Material) -> Evidence:
     study, found = material.study, material.found
     rows = study.columns.shape[0]
     law = (material.law.equation,) if unexplained(material) else ()
-    told = tuple(one.equation for one in (material.beat, material.lag) if one)
+    told = tuple(one.equation for one in material.signs)
     return Evidence(
         vehicle=material.vehicle,
         recordings=tuple((r.recording.name, r.role) for r in (*study.runs, *study.holdout)),

@@ -54,7 +54,7 @@ def refit(study: Study, start: Ranked, chi2_null: float,
     value, fall, model = tries[best], falls[best], models[best]
     sigma = start.sigma
     for _ in range(_ROUNDS):
-        step = _step(amount.step, value, amount.low, amount.high)
+        step = difference_step(amount.step, value, amount.low, amount.high)
         ahead = models_at(study, [start.hypothesis.at(value + step)], named)[0]
         column = study.stack({i: study.runs[i].change(ahead[i], model[i]) for i in study.train})
         residual = study.residual(model)
@@ -125,7 +125,7 @@ def _advance(study: Study, projector: Projector, hypothesis: Hypothesis,
     return value, fall, model, 0.0
 
 
-def _step(base: float, value: float, low: float, high: float) -> float:
+def difference_step(base: float, value: float, low: float, high: float) -> float:
     """Finite difference that stays inside the bounds."""
     step = np.sign(base) * max(abs(base) * 0.3, _STEP_SHARE * abs(value))
     if not low <= value + step <= high:

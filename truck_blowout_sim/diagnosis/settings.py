@@ -93,7 +93,8 @@ class Settings:
         expected_level, unknown_level: sum of squares a row when nothing is missing, and from which
             on something must be.
         unknown_delta: what a wrench that nothing named explains must buy to be a missing effect.
-        lag_delta: what one wheel's lag must buy to show where a drag acts.
+        lag_delta: what one wheel's lag must buy to show where a drag acts; posture_delta: what a
+            body's stand must buy to be the truck's own.
         beat_turn, beat_tone: score from which on something beats once per wheel turn, or steadily.
     """
 
@@ -110,6 +111,7 @@ class Settings:
     unknown_level: float
     unknown_delta: float
     lag_delta: float
+    posture_delta: float
     beat_turn: float
     beat_tone: float
     form_share: float

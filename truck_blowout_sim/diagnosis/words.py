@@ -7,12 +7,13 @@ from math import isfinite
 
 from truck_blowout_sim.diagnosis.beat import Beat
 from truck_blowout_sim.diagnosis.hypothesis import Hypothesis
+from truck_blowout_sim.diagnosis.judging import Found
 from truck_blowout_sim.diagnosis.lagging import Lag
 from truck_blowout_sim.diagnosis.law import Law
 from truck_blowout_sim.diagnosis.next_test import Separation
+from truck_blowout_sim.diagnosis.posture import Posture
 from truck_blowout_sim.diagnosis.result import Effect, Verdict
 from truck_blowout_sim.diagnosis.result_parts import Interval
-from truck_blowout_sim.diagnosis.search import Found
 from truck_blowout_sim.diagnosis.sensors import GateResult
 from truck_blowout_sim.diagnosis.study import Study
 
@@ -45,7 +46,7 @@ def open_ends(ends: Interval) -> str:
 
 def verdict_sentence(verdict: Verdict, effects: Sequence[Effect],
                      pulled: Sequence[tuple[str, float]], law: Law | None,
-                     signs: Sequence[Beat | Lag | None] = ()) -> str:
+                     signs: Sequence[Beat | Lag | Posture] = ()) -> str:
     """The verdict in words; ``law``: of a force left unexplained, ``signs``: what else shows."""
     if verdict == "consistent":
         return ("The model explains these recordings within what instruments and trucks of one "
@@ -58,7 +59,7 @@ def verdict_sentence(verdict: Verdict, effects: Sequence[Effect],
         said.append(f"Something acts on the {law.body} that no known effect explains; its plainest "
                     f"law is {law.equation}, which left-out windows confirm to "
                     f"{100.0 * law.explained:.0f} percent{_unseen(law)}.")
-    return " ".join((*said, *(sign.sentence for sign in signs if sign)))
+    return " ".join((*said, *(sign.sentence for sign in signs)))
 
 
 def _unseen(law: Law) -> str:

@@ -1,0 +1,90 @@
+"""What the holdout speaks against alone is named with what makes it hold, and not without."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import pytest
+
+from truck_blowout_sim.diagnosis.attribute import Ranked
+from truck_blowout_sim.diagnosis.effects import LIBRARY, Effect
+from truck_blowout_sim.diagnosis.holdout import predict
+from truck_blowout_sim.diagnosis.hypothesis import Hypothesis
+from truck_blowout_sim.diagnosis.judging import Found
+from truck_blowout_sim.diagnosis.pairing import pair_with, settled
+from truck_blowout_sim.diagnosis.refit import refit
+from truck_blowout_sim.diagnosis.study import Study
+from truck_blowout_sim.vehicle import Packed
+
+TRUE = {"driveline_drag": 2500.0, "axle_misalignment": 0.006}
+Studies = Callable[..., Study]
+
+
+def changes(truck: Packed) -> dict[str, float]:
+    every: dict[str, float] = {}
+    for name, amount in TRUE.items():
+        effect = effect_of(name)
+        every |= dict(effect.values(truck, effect.places(truck.vehicle)[0], amount))
+    return every
+
+
+def effect_of(name: str) -> Effect:
+    return next(e for e in LIBRARY if e.name == name and not e.variant)
+
+
+def begun(study: Study) -> Found:
+    """A search that has named nothing."""
+    residual = study.residual()
+    chi2 = study.projector().chi2(residual)
+    before = predict(study, residual, ())
+    return Found(chi2_null=chi2, chi2_after=chi2, models_null=list(study.models), before=before,
+                 after=before)
+
+
+def drag_alone(study: Study, truck: Packed) -> Ranked:
+    effect = effect_of("driveline_drag")
+    start = Hypothesis(effect, effect.places(truck.vehicle)[0], 0.0)
+    return refit(study, Ranked(start, 0.0, 100.0), study.projector().chi2(study.residual()))
+
+
+@pytest.fixture
+def both(study_of: Studies, truck: Packed) -> Study:
+    return study_of(changes(truck), holdout=changes(truck), baseline=True)
+
+
+def test_it_is_named_with_what_makes_it_hold(both: Study, truck: Packed) -> None:
+    found, models = begun(both), list(both.models)
+    pair = pair_with(both, found, [drag_alone(both, truck)], 3, None)
+    assert pair is not None
+    named = {one.hypothesis.effect.name: one.hypothesis.amount for one in pair.named}
+    assert set(named) == set(TRUE)
+    assert named["driveline_drag"] == pytest.approx(2500.0, rel=0.1)
+    assert sum(p.chi2 for p in pair.after) < sum(p.chi2 for p in found.before)
+    assert pair.chi2 < found.chi2_null
+    # nothing is named yet: that is for the search to do
+    assert all((a == b).all() for a, b in zip(both.models, models, strict=True))
+    assert found.named == []
+
+
+def test_what_little_speaks_for_is_no_half_of_a_pair(both: Study, truck: Packed) -> None:
+    weak = replace(drag_alone(both, truck), evidence=1.5 * both.settings.accept_delta)
+    assert pair_with(both, begun(both), [weak], 3, None) is None
+    assert pair_with(both, begun(both), [], 3, None) is None
+
+
+def test_no_pair_where_only_one_may_be_named(both: Study, truck: Packed) -> None:
+    assert pair_with(both, begun(both), [drag_alone(both, truck)], 1, None) is None
+
+
+def test_no_pair_that_unseen_runs_speak_against(study_of: Studies, truck: Packed) -> None:
+    study = study_of(changes(truck), holdout={}, baseline=True)  # there, nothing is missing
+    assert pair_with(study, begun(study), [drag_alone(study, truck)], 3, None) is None
+
+
+def test_what_is_named_alone_is_left_as_it_is(both: Study, truck: Packed) -> None:
+    found = begun(both)
+    found.named = [drag_alone(both, truck)]
+    before = (list(found.named), found.chi2_after, found.after)
+    settled(both, found)
+    assert (found.named, found.chi2_after, found.after) == before
