@@ -3,7 +3,7 @@
 An amount found while another effect was still missing leans towards that effect; what predicts
 unseen runs is the amounts that hold together. Instants stay as they are.
 
-References: Gauss-Newton with step halving (Nocedal and Wright 2006, section 10.3).
+References: Gauss-Newton with shortened steps (Nocedal and Wright 2006, section 10.3).
 Known limits: from where each stands alone; no other start.
 Validated with: test/diagnosis/test_together.py (two amounts that were each fitted alone).
 """
@@ -39,7 +39,9 @@ def fit_together(study: Study, named: Sequence[Ranked]) -> tuple[list[Ranked], f
         removed = projector.remove(study.residual(models))
         move, covariance = joint_score(projector, removed, columns)
         sigmas = np.sqrt(np.diag(covariance))
-        trials = [_moved(hypotheses, share * move) for share in (1.0, 0.5, 0.25)]
+        # the whole way, part of it, or one amount alone: near a limit they do not move as one
+        ways = [move, 0.5 * move, 0.2 * move, *np.diag(move)]
+        trials = [_moved(hypotheses, way) for way in ways]
         found = _models(study, trials)
         sums = [chi2_of(study, projector, one) for one in found]
         best = int(np.argmin(sums))
