@@ -16,6 +16,7 @@ from truck_blowout_sim.diagnosis.effects import LIBRARY
 from truck_blowout_sim.diagnosis.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.intervals import Timing
 from truck_blowout_sim.diagnosis.judging import Found
+from truck_blowout_sim.diagnosis.lagging import Lag
 from truck_blowout_sim.diagnosis.law import Law
 from truck_blowout_sim.diagnosis.locate import Wrenches
 from truck_blowout_sim.diagnosis.outcome import (
@@ -26,6 +27,7 @@ from truck_blowout_sim.diagnosis.outcome import (
     null_p_value,
     pulled,
 )
+from truck_blowout_sim.diagnosis.posture import Posture
 from truck_blowout_sim.diagnosis.result_evidence import BeatScores, ForceHistory
 from truck_blowout_sim.diagnosis.sensors import GateResult
 from truck_blowout_sim.diagnosis.study import Study
@@ -171,3 +173,28 @@ def test_a_location_is_given_where_a_wrench_is_clear_and_only_there(calm: Study)
     assert found.line_of_action_ci90_m == pytest.approx((3.0 - 0.329, 3.0 + 0.329))
     assert found.wrench is not None
     assert found.wrench.fy_n == pytest.approx(5000.0)
+
+
+def test_a_body_that_stands_turned_is_no_bank_of_the_road(calm: Study, truck: Packed) -> None:
+    bank = ranked(truck, "road_bank", 0.03, delta=8000.0)
+    turned = Posture("tractor", "pitch", -0.004, 0.0001, 1500.0)
+    both = replace(material(calm, (bank,)), posture=turned)
+    assert decide(both) == "unknown"
+    told = answer(both)
+    assert told.effects == ()
+    assert "tractor stands with its tail low by 0.23 deg" in told.sentence
+    assert turned.equation in told.evidence.equations
+
+
+def test_what_an_inexact_law_leaves_turns_no_body(calm: Study, truck: Packed) -> None:
+    lost = ranked(truck, "secondary_blowout", 0.1, delta=1e6, start_s=2.0)
+    turned = Posture("tractor", "roll", 0.002, 0.0001, 1500.0)
+    assert decide(replace(material(calm, (lost,)), posture=turned)) == "missing_physics"
+
+
+def test_a_wheel_that_lags_is_no_drag_of_the_air(calm: Study, truck: Packed) -> None:
+    drag = ranked(truck, "aerodynamic_drag", 1.0)
+    lag = Lag("trailer_1_left", 0.002, 0.0002, 100.0)
+    told = answer(replace(material(calm, (drag,)), lag=lag))
+    assert told.verdict == "unknown"
+    assert "hub trailer_1_left" in told.sentence

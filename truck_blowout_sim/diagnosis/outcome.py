@@ -34,6 +34,7 @@ from truck_blowout_sim.diagnosis.told import alias_set, physics_effect, sensor_e
 
 Floats = NDArray[np.float64]
 Key = tuple[str, str]  # of a hypothesis: name and place
+_LEFT_BY_LAW = 0.02  # of what was bought: another tire lost bought 1.7 million and left 93
 _PULLED = 2.9  # prior sigmas beyond which a sheet number is reported
 
 
@@ -98,8 +99,7 @@ def decide(material: Material) -> Verdict:
     """Which of the five verdicts the evidence supports."""
     found, gate = material.found, material.gate
     physics = [r for r in found.named if r.hypothesis.effect.kind == "physics"]
-    accused = material.lag is not None or material.posture is not None
-    if unexplained(material) or _beats(material) or accused:
+    if unexplained(material) or _beats(material) or _stands_turned(material) or material.lag:
         return "unknown"
     if physics:
         return "missing_physics"
@@ -112,6 +112,12 @@ def _beats(material: Material) -> bool:
     """Whether a periodic force says more than everything named."""
     beat = material.beat
     return beat is not None and beat.evidence > _bought(material)
+
+
+def _stands_turned(material: Material) -> bool:
+    """Whether a body stands turned by more than the law of something named leaves."""
+    posture = material.posture
+    return posture is not None and posture.evidence > _LEFT_BY_LAW * _bought(material)
 
 
 def unexplained(material: Material) -> bool:
