@@ -183,6 +183,7 @@ def test_a_body_that_stands_turned_is_no_bank_of_the_road(calm: Study, truck: Pa
     told = answer(both)
     assert told.effects == ()
     assert "tractor stands with its tail low by 0.23 deg" in told.sentence
+    assert "height over every axle of the tractor" in told.next_test
     assert turned.equation in told.evidence.equations
 
 
@@ -198,3 +199,10 @@ def test_a_wheel_that_lags_is_no_drag_of_the_air(calm: Study, truck: Packed) -> 
     told = answer(replace(material(calm, (drag,)), lag=lag))
     assert told.verdict == "unknown"
     assert "hub trailer_1_left" in told.sentence
+    assert told.next_test == lag.next_test
+
+
+def test_what_is_unknown_is_to_be_looked_for(calm: Study) -> None:
+    told = answer(material(calm, unnamed=1e5))
+    assert told.verdict == "unknown"
+    assert "the force on the trailer follows speed" in told.next_test

@@ -68,3 +68,13 @@ class Beat:
                     f"{self.body}: look at its tires for a loose tread, a flat spot or a bent rim.")
         return (f"The {self.body} surges {self.pace_hz:.2f} times a second at a steady pace, which "
                 "neither the pedals nor a known effect explains.")
+
+    @property
+    def next_test(self) -> str:
+        """What would find its cause."""
+        if self.turning:
+            return (f"Look at every tire and rim of the {self.body}; then drive steadily with an "
+                    "accelerometer on one axle after the other: it beats most over the wheel at "
+                    "fault.")
+        return ("Drive at a steady speed in two gears, then coast with the clutch open: what then "
+                "beats on does not come from the engine.")

@@ -56,6 +56,12 @@ class Lag:
                 "mille slower than they roll freely, as a dragging brake or a seizing bearing "
                 "would have it, and none of the known drags.")
 
+    @property
+    def next_test(self) -> str:
+        """What would find its cause."""
+        return (f"Drive without braking and compare the temperature of hub {self.hub} with that of "
+                "the others; then turn its wheels by hand, off the ground.")
+
 
 def lagging_wheel(study: Study, named: Sequence[Hypothesis]) -> Lag | None:
     """The wheel that lags most clearly, where a drag is named and one lags at all.

@@ -84,7 +84,8 @@ def answer(material: Material) -> Diagnosis:
                                material.arms.get(r.hypothesis.key)) for r, _ in named]
     aliases = [AliasSet(f.aliases or (f.name,), splits=f.next_test) for f in gate.findings]
     aliases += [alias_set(rivals) for _, rivals in named]
-    next_test = words.next_test(found, gate, material.separation)
+    next_test = (words.next_look(material.law, material.signs) if verdict == "unknown"
+                 else words.next_test(found, gate, material.separation))
     return Diagnosis(
         verdict=verdict, sentence=words.verdict_sentence(
             verdict, effects, pulled(material), material.law if unexplained(material) else None,
@@ -165,8 +166,10 @@ def locate(material: Material) -> Location:
                      if s > 1.5)
     if not material.wrenches:
         return Location(channels=channels)
-    # along the course both bodies move as one: what was named, by its wheels, says which it is
-    bodies = [r.hypothesis.place.body for r in material.found.named[:1]]
+    # along the course both bodies move as one: what turns or beats says which it is, or what was
+    # named, by its wheels
+    turned: list[str | None] = [one.body for one in (material.posture, material.beat) if one]
+    bodies = turned or [r.hypothesis.place.body for r in material.found.named[:1]]
     best = max(material.wrenches, key=lambda w: (w.history.body in bodies, w.delta))
     history = best.history
     z = (np.abs(history.fx_n / history.fx_sigma_n) + np.abs(history.fy_n / history.fy_sigma_n)

@@ -56,6 +56,12 @@ class Posture:
                 f"{math.degrees(abs(self.turned_rad)):.2f} deg on any road, as with a spring that "
                 "is broken or without air, and none of the known effects.")
 
+    @property
+    def next_test(self) -> str:
+        """What would find its cause."""
+        return (f"On level ground measure the height over every axle of the {self.body}, on both "
+                "sides, and the air pressure of its springs.")
+
 
 def turned_body(study: Study, named: Sequence[Hypothesis]) -> Posture | None:
     """The body that stands turned most clearly, if one does.

@@ -71,6 +71,14 @@ def _unseen(law: Law) -> str:
             "; unseen runs are not predicted better with it, so it is not added")
 
 
+def next_look(law: Law, signs: Sequence[Beat | Lag | Posture]) -> str:
+    """Where nothing is named: what would show the cause of a sign, or else of the force."""
+    for sign in signs:
+        return sign.next_test
+    return (f"Repeat the run at another speed, then with another load: whether the force on the "
+            f"{law.body} follows speed, load or the place on the road tells what makes it.")
+
+
 def next_test(found: Found, gate: GateResult, best: Separation | None = None) -> str:
     """The run or channel that would decide, or confirm; ``best``: what simulation found."""
     if best is not None:
