@@ -3,13 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from types import SimpleNamespace
+from typing import cast
 
 import pytest
 
 from truck_blowout_sim.diagnosis import candidates
+from truck_blowout_sim.diagnosis.attribute import Ranked
 from truck_blowout_sim.diagnosis.effects import LIBRARY
-from truck_blowout_sim.diagnosis.judging import Found, slack
+from truck_blowout_sim.diagnosis.hypothesis import Hypothesis
+from truck_blowout_sim.diagnosis.judging import Found, not_taken_back, slack
 from truck_blowout_sim.diagnosis.search import search
+from truck_blowout_sim.diagnosis.sensors import GateResult
 from truck_blowout_sim.diagnosis.study import Study
 from truck_blowout_sim.vehicle import Packed
 
@@ -67,3 +72,15 @@ def test_the_same_case_gives_the_same_answer_bit_by_bit(study_of: Studies) -> No
     first, second = (search(study_of(TURNED), most=1) for _ in range(2))
     assert [(r.hypothesis.key, r.hypothesis.amount, r.delta, why) for r, why in first.tried] == [
         (r.hypothesis.key, r.hypothesis.amount, r.delta, why) for r, why in second.tried]
+
+
+def test_an_instrument_that_the_search_takes_back_was_none(truck: Packed) -> None:
+    def named(name: str) -> Ranked:
+        effect = next(e for e in LIBRARY if e.name == name)
+        return Ranked(Hypothesis(effect, effect.places(truck.vehicle)[0], 0.1), 1e4, 0.01)
+
+    zero, gain = SimpleNamespace(name="steering_angle_offset"), SimpleNamespace(name="speed_scale")
+    gate = cast(GateResult, SimpleNamespace(findings=(zero, gain)))
+    assert not_taken_back(gate, Found()) == (zero, gain)
+    assert not_taken_back(gate, Found(named=[named("axle_misalignment")])) == (zero, gain)
+    assert not_taken_back(gate, Found(named=[named("steering_angle_offset")])) == (gain,)

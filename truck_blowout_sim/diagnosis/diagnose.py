@@ -14,7 +14,7 @@ from truck_blowout_sim.diagnosis.calibration import calibrate
 from truck_blowout_sim.diagnosis.fingerprints import case_parts
 from truck_blowout_sim.diagnosis.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.intervals import Timing, time_intervals
-from truck_blowout_sim.diagnosis.judging import Found
+from truck_blowout_sim.diagnosis.judging import Found, not_taken_back
 from truck_blowout_sim.diagnosis.lagging import lagging_wheel
 from truck_blowout_sim.diagnosis.law import plainest_law
 from truck_blowout_sim.diagnosis.law_check import checked
@@ -80,22 +80,29 @@ def diagnose(recordings: Sequence[Recording], *, baseline: Sequence[Recording] =
     rules = load_settings(packed, settings)
     if coarse:
         rules = replace(rules, trial_step_s=rules.coarsest_step_s)
-
-    def cut(recording: Recording, role: Role) -> Run:
-        findings = gate.findings if role != "baseline" else [
-            f for f in gate.findings if f.in_baseline]
-        return prepare_run(correct(recording, findings), role, packed, rules, step_s=step_s,
-                           impose_speed=impose_speed)
-
-    study = Study((*(cut(r, "baseline") for r in baseline), *(cut(r, "train") for r in recordings)),
-                  tuple(cut(r, "holdout") for r in holdout), packed, rules,
-                  workers or os.cpu_count() or 1, refits)
     if kept is not None:
         kept.begin(case_parts({"train": recordings, "baseline": baseline, "holdout": holdout},
                               packed, rules, (most_effects, refits, step_s, profile, impose_speed)))
-        study.simulated = kept.simulated
-    calibrate(study, progress=progress)
-    found = search(study, progress, most_effects)
+
+    def searched(gate: GateResult) -> tuple[Study, Found]:
+        def cut(recording: Recording, role: Role) -> Run:
+            findings = [f for f in gate.findings if f.in_baseline or role != "baseline"]
+            return prepare_run(correct(recording, findings), role, packed, rules, step_s=step_s,
+                               impose_speed=impose_speed)
+
+        study = Study((*(cut(r, "baseline") for r in baseline),
+                       *(cut(r, "train") for r in recordings)),
+                      tuple(cut(r, "holdout") for r in holdout), packed, rules,
+                      workers or os.cpu_count() or 1, refits)
+        study.simulated = kept.simulated if kept is not None else study.simulated
+        calibrate(study, progress=progress)
+        return study, search(study, progress, most_effects)
+
+    study, found = searched(gate)
+    believed = not_taken_back(gate, found)
+    if len(believed) < len(gate.findings) and not coarse:  # all anew: no quick answer has the time
+        gate = replace(gate, findings=believed)
+        study, found = searched(gate)
     material = _material(study, found, gate, loaded.name, (profile, next_run), progress)
     told = answer(material)
     return told, diagnosed_values(material, packed, told.verdict)

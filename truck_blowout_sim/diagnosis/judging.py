@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from truck_blowout_sim.diagnosis.attribute import Ranked, with_effects
 from truck_blowout_sim.diagnosis.holdout import Prediction, predict
 from truck_blowout_sim.diagnosis.hypothesis import Hypothesis
+from truck_blowout_sim.diagnosis.sensors import GateResult, SensorFinding
 from truck_blowout_sim.diagnosis.study import Study
 
 Floats = NDArray[np.float64]
@@ -130,3 +131,13 @@ def predict_with(study: Study, named: Sequence[Hypothesis]
         models[i] = model
     residual = study.residual(dict(enumerate(models)))
     return models, predict(study, residual, named)
+
+
+def not_taken_back(gate: GateResult, found: Found) -> tuple[SensorFinding, ...]:
+    """Faulty instruments, but for those whose fault the search, once corrected, finds anew.
+
+    A correction that the truck does not follow was none: something on the truck turns it so, which
+    the search is then left to name.
+    """
+    again = {r.hypothesis.effect.name for r in found.named if r.hypothesis.effect.kind == "sensor"}
+    return tuple(finding for finding in gate.findings if finding.name not in again)
