@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -29,7 +29,7 @@ from truck_blowout_sim.diagnosis.resume import Keeps
 from truck_blowout_sim.diagnosis.runs import Run, prepare_run
 from truck_blowout_sim.diagnosis.search import search
 from truck_blowout_sim.diagnosis.sensors import GateResult, correct, sensor_gate, vehicle_geometry
-from truck_blowout_sim.diagnosis.settings import load_settings
+from truck_blowout_sim.diagnosis.settings import Settings, load_settings
 from truck_blowout_sim.diagnosis.study import FURTHEST, REFITS, Progress, Study, row_ranges
 from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.recordings import Recording
@@ -78,23 +78,16 @@ def diagnose(recordings: Sequence[Recording], *, baseline: Sequence[Recording] =
     packed = pack(loaded)
     gate = sensor_gate(list(recordings), list(baseline), vehicle_geometry(loaded))
     rules = load_settings(packed, settings)
-    if coarse:
-        rules = replace(rules, trial_step_s=rules.coarsest_step_s)
+    rules = replace(rules, trial_step_s=rules.coarsest_step_s) if coarse else rules
     if kept is not None:
         kept.begin(case_parts({"train": recordings, "baseline": baseline, "holdout": holdout},
                               packed, rules, (most_effects, refits, step_s, profile, impose_speed)))
 
-    def searched(gate: GateResult) -> tuple[Study, Found]:
-        def cut(recording: Recording, role: Role) -> Run:
-            findings = [f for f in gate.findings if f.in_baseline or role != "baseline"]
-            return prepare_run(correct(recording, findings), role, packed, rules, step_s=step_s,
-                               impose_speed=impose_speed)
+    case = _Case(recordings, baseline, holdout, packed, rules, step_s, impose_speed,
+                 workers or os.cpu_count() or 1, refits, kept)
 
-        study = Study((*(cut(r, "baseline") for r in baseline),
-                       *(cut(r, "train") for r in recordings)),
-                      tuple(cut(r, "holdout") for r in holdout), packed, rules,
-                      workers or os.cpu_count() or 1, refits)
-        study.simulated = kept.simulated if kept is not None else study.simulated
+    def searched(gate: GateResult) -> tuple[Study, Found]:
+        study = case.study(gate)
         calibrate(study, progress=progress)
         return study, search(study, progress, most_effects)
 
@@ -106,6 +99,37 @@ def diagnose(recordings: Sequence[Recording], *, baseline: Sequence[Recording] =
     material = _material(study, found, gate, loaded.name, (profile, next_run), progress)
     told = answer(material)
     return told, diagnosed_values(material, packed, told.verdict)
+
+
+@dataclass(frozen=True, eq=False)
+class _Case:
+    """What is diagnosed, ready to be cut into runs once the instruments are known."""
+
+    recordings: Sequence[Recording]
+    baseline: Sequence[Recording]
+    holdout: Sequence[Recording]
+    packed: Packed
+    rules: Settings
+    step_s: float
+    impose_speed: bool | None
+    workers: int
+    refits: tuple[int, int]
+    kept: Keeps | None
+
+    def study(self, gate: GateResult) -> Study:
+        """All runs, corrected for what the gate found."""
+        study = Study((*(self._cut(r, "baseline", gate) for r in self.baseline),
+                       *(self._cut(r, "train", gate) for r in self.recordings)),
+                      tuple(self._cut(r, "holdout", gate) for r in self.holdout),
+                      self.packed, self.rules, self.workers, self.refits)
+        if self.kept is not None:
+            study.simulated = self.kept.simulated
+        return study
+
+    def _cut(self, recording: Recording, role: Role, gate: GateResult) -> Run:
+        findings = [f for f in gate.findings if f.in_baseline or role != "baseline"]
+        return prepare_run(correct(recording, findings), role, self.packed, self.rules,
+                           step_s=self.step_s, impose_speed=self.impose_speed)
 
 
 def _material(study: Study, found: Found, gate: GateResult, vehicle: str,
