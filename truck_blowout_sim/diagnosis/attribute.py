@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from truck_blowout_sim.diagnosis.hypothesis import Hypothesis
-from truck_blowout_sim.diagnosis.linear import score
+from truck_blowout_sim.diagnosis.linear import Projector, Score, score
+from truck_blowout_sim.diagnosis.runs import Run
 from truck_blowout_sim.diagnosis.study import Progress, Study
 from truck_blowout_sim.vehicle import Packed
 
@@ -90,3 +91,21 @@ def rank_steady(study: Study, candidates: Sequence[Hypothesis],
         ranked.append(Ranked(candidate.at(at + found.amount), fall, found.sigma, evidence=fall,
                              promise=found.delta))
     return tuple(sorted(ranked, key=lambda r: (-r.promise, r.hypothesis.key)))
+
+
+def score_channel(study: Study, projector: Projector, removed: Floats, channel: str,
+                  change: Callable[[Run, Floats], Floats]) -> Score:
+    """What a change of one channel alone buys in training, where it is recorded.
+
+    ``removed``: what is left, as :meth:`Projector.remove` gives it; ``change``: by run and its bin
+    means of the channel, what these would change by for each unit of the amount.
+    """
+    parts = {}
+    for i in study.train:
+        run = study.runs[i]
+        column = np.zeros(run.measured.shape)
+        if channel in run.channels:
+            k = run.channels.index(channel)
+            column[:, k] = np.nan_to_num(change(run, run.measured[:, k]) / run.sigma[:, k])
+        parts[i] = column.ravel()
+    return score(projector, study.residual(), removed, study.stack(parts))

@@ -82,7 +82,6 @@ def diagnose(recordings: Sequence[Recording], *, baseline: Sequence[Recording] =
     if kept is not None:
         kept.begin(case_parts({"train": recordings, "baseline": baseline, "holdout": holdout},
                               packed, rules, (most_effects, refits, step_s, profile, impose_speed)))
-
     case = _Case(recordings, baseline, holdout, packed, rules, step_s, impose_speed,
                  workers or os.cpu_count() or 1, refits, kept)
 

@@ -12,9 +12,10 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from truck_blowout_sim.diagnosis.attribute import Ranked, with_effects
+from truck_blowout_sim.diagnosis.attribute import Ranked
 from truck_blowout_sim.diagnosis.holdout import Prediction, predict
 from truck_blowout_sim.diagnosis.hypothesis import Hypothesis
+from truck_blowout_sim.diagnosis.refit import models_of
 from truck_blowout_sim.diagnosis.sensors import GateResult, SensorFinding
 from truck_blowout_sim.diagnosis.study import Study
 
@@ -121,14 +122,16 @@ def note(found: Found, one: Ranked, reason: str) -> None:
                    for r, why in found.tried]
 
 
+def models_with(study: Study, named: Sequence[Hypothesis]) -> list[Floats]:
+    """The study's models, those of training with effects in force."""
+    changed = models_of(study, [named])[0]
+    return [changed.get(i, model) for i, model in enumerate(study.models)]
+
+
 def predict_with(study: Study, named: Sequence[Hypothesis]
                   ) -> tuple[list[Floats], tuple[Prediction, ...]]:
     """Training models and holdout predictions with effects in force."""
-    jobs = [(study.runs[i], with_effects(study.packed, named, study.runs[i].recording.name))
-            for i in study.train]
-    models = list(study.models)
-    for i, model in zip(study.train, study.simulate(jobs), strict=True):
-        models[i] = model
+    models = models_with(study, named)
     residual = study.residual(dict(enumerate(models)))
     return models, predict(study, residual, named)
 

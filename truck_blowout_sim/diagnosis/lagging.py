@@ -20,12 +20,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from truck_blowout_sim.diagnosis.attribute import score_channel
 from truck_blowout_sim.diagnosis.hypothesis import Hypothesis
+from truck_blowout_sim.diagnosis.profile import NINETY
 from truck_blowout_sim.diagnosis.runs import Run
 from truck_blowout_sim.diagnosis.study import Study
 from truck_blowout_sim.diagnosis.trust import BRAKES_ON_PA
 
-Floats = NDArray[np.float64]
 _BRAKES = slice(2, None)  # columns of a drive's inputs
 
 
@@ -47,7 +48,7 @@ class Lag:
     def equation(self) -> str:
         """For an engineer."""
         return (f"omega({self.hub}) = (1 - {self.slip:.5f}) * omega of the model  "
-                f"(+- {1.645 * self.sigma:.5f}, 90 %)")
+                f"(+- {NINETY * self.sigma:.5f}, 90 %)")
 
     @property
     def sentence(self) -> str:
@@ -75,30 +76,12 @@ def lagging_wheel(study: Study, named: Sequence[Hypothesis]) -> Lag | None:
         vehicle.hub_of_tire(tire) for i in study.train
         for event in study.runs[i].recording.blowouts for tire in event.tires}
     removed = projector.remove(study.residual())
-    lags = []
-    for hub in (hub for hub in vehicle.hubs if hub not in taken):
-        column = _share(study, f"hub_speed_{hub}_radps")
-        information = float(column @ projector.remove(column))
-        if information > 0.0:
-            slope = float(column @ removed)
-            lags.append(Lag(hub, -slope / information, information ** -0.5,
-                            slope**2 / information))
-    behind = [lag for lag in lags if lag.slip > 0.0
-              and lag.evidence > study.settings.lag_delta]
+    scores = {hub: score_channel(study, projector, removed, f"hub_speed_{hub}_radps",
+                                 lambda run, mean: mean * _free(run))
+              for hub in vehicle.hubs if hub not in taken}
+    behind = [Lag(hub, -one.amount, one.sigma, one.delta) for hub, one in scores.items()
+              if one.amount < 0.0 and one.delta > study.settings.lag_delta]
     return max(behind, key=lambda lag: lag.evidence, default=None)
-
-
-def _share(study: Study, channel: str) -> Floats:
-    """Whitened change of the training runs if the hub, unbraked, turned twice as fast."""
-    parts = {}
-    for i in study.train:
-        run = study.runs[i]
-        change = np.zeros(run.measured.shape)
-        if channel in run.channels:
-            k = run.channels.index(channel)
-            change[:, k] = np.nan_to_num(run.measured[:, k] / run.sigma[:, k]) * _free(run)
-        parts[i] = change.ravel()
-    return study.stack(parts)
 
 
 def _free(run: Run) -> NDArray[np.bool_]:

@@ -21,6 +21,7 @@ from truck_blowout_sim.diagnosis.attribute import Ranked
 from truck_blowout_sim.diagnosis.holdout import Prediction
 from truck_blowout_sim.diagnosis.judging import (
     Found,
+    models_with,
     predict_with,
     predicts_better,
     weakness,
@@ -73,7 +74,7 @@ def pair_with(study: Study, found: Found, disbelieved: Sequence[Ranked], most: i
         return pair
     before = study.models
     named = [*(r.hypothesis for r in found.named), first.hypothesis]
-    study.models, _ = predict_with(study, named)
+    study.models = models_with(study, named)
     ranked = shortlist(study, named, progress)
     study.models = before
     seconds = [one for one in ranked if not weakness(study, one, 0.0)]

@@ -18,12 +18,12 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from truck_blowout_sim.diagnosis.attribute import score_channel
 from truck_blowout_sim.diagnosis.hypothesis import Hypothesis
+from truck_blowout_sim.diagnosis.profile import NINETY
 from truck_blowout_sim.diagnosis.study import Study
 
-Floats = NDArray[np.float64]
 _ANGLES = {"roll": ("right", "left"), "pitch": ("nose", "tail")}  # lower where it is positive
 
 
@@ -46,7 +46,7 @@ class Posture:
     def equation(self) -> str:
         """For an engineer."""
         return (f"{self.angle}({self.body}) = that of the model {self.turned_rad:+.5f} rad  "
-                f"(+- {1.645 * self.sigma:.5f}, 90 %), at all times")
+                f"(+- {NINETY * self.sigma:.5f}, 90 %), at all times")
 
     @property
     def sentence(self) -> str:
@@ -78,26 +78,8 @@ def postures(study: Study, named: Sequence[Hypothesis]) -> list[Posture]:
         return []
     projector = study.projector(named)
     removed = projector.remove(study.residual())
-    found = []
-    for body in study.packed.vehicle.units:
-        for angle in _ANGLES:
-            column = _constant(study, f"{body}_{angle}_rad")
-            information = float(column @ projector.remove(column))
-            if information > 0.0:
-                slope = float(column @ removed)
-                found.append(Posture(body, angle, slope / information, information ** -0.5,
-                                     slope**2 / information))
-    return found
-
-
-def _constant(study: Study, channel: str) -> Floats:
-    """Whitened change of the training runs if the channel read one radian more all the time."""
-    parts = {}
-    for i in study.train:
-        run = study.runs[i]
-        change = np.zeros(run.measured.shape)
-        if channel in run.channels:
-            k = run.channels.index(channel)
-            change[:, k] = np.where(np.isfinite(run.measured[:, k]), 1.0 / run.sigma[:, k], 0.0)
-        parts[i] = change.ravel()
-    return study.stack(parts)
+    scores = {(body, angle): score_channel(study, projector, removed, f"{body}_{angle}_rad",
+                                           lambda _, mean: np.ones_like(mean))
+              for body in study.packed.vehicle.units for angle in _ANGLES}
+    return [Posture(*key, one.amount, one.sigma, one.delta) for key, one in scores.items()
+            if np.isfinite(one.sigma)]

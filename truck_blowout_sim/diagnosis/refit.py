@@ -36,6 +36,14 @@ def models_at(study: Study, hypotheses: Sequence[Hypothesis], named: Sequence[Hy
             for k in range(len(hypotheses))]
 
 
+def models_of(study: Study, cases: Sequence[Sequence[Hypothesis]]) -> list[dict[int, Floats]]:
+    """Training models of each set of hypotheses, all of a set in force from the start."""
+    results = iter(study.simulate([
+        (study.runs[i], with_effects(study.packed, case, study.runs[i].recording.name))
+        for case in cases for i in study.train]))
+    return [{i: next(results) for i in study.train} for _ in cases]
+
+
 def chi2_of(study: Study, projector: Projector, models: Mapping[int, Floats]) -> float:
     """Sum of squares with some runs' models replaced, nuisances refitted."""
     return projector.chi2(study.residual(models))

@@ -1,7 +1,6 @@
 """Look for what is missing, one effect after another, until nothing passes.
 
-A hypothesis is accepted only if it buys enough (threshold calibrated on nulls), is strong enough to
-matter, is far from zero for its standard error, and predicts the holdout runs better.
+What a hypothesis must pass is in `judging.py`, what holds only together in `pairing.py`.
 """
 
 from __future__ import annotations

@@ -16,10 +16,10 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from truck_blowout_sim.diagnosis.attribute import Ranked, with_effects
+from truck_blowout_sim.diagnosis.attribute import Ranked
 from truck_blowout_sim.diagnosis.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.linear import joint_score
-from truck_blowout_sim.diagnosis.refit import chi2_of, difference_step
+from truck_blowout_sim.diagnosis.refit import chi2_of, difference_step, models_of
 from truck_blowout_sim.diagnosis.study import Study
 
 Floats = NDArray[np.float64]
@@ -31,7 +31,7 @@ def fit_together(study: Study, named: Sequence[Ranked]) -> tuple[list[Ranked], f
     """The same hypotheses at the amounts that fit together, and the sum of squares left."""
     hypotheses = [one.hypothesis for one in named]
     projector = study.projector(hypotheses)
-    models = _models(study, [hypotheses])[0]
+    models = models_of(study, [hypotheses])[0]
     least = chi2_of(study, projector, models)
     sigmas = np.array([one.sigma for one in named])
     for _ in range(_ROUNDS):
@@ -42,7 +42,7 @@ def fit_together(study: Study, named: Sequence[Ranked]) -> tuple[list[Ranked], f
         # the whole way, part of it, or one amount alone: near a limit they do not move as one
         ways = [move, 0.5 * move, 0.2 * move, *np.diag(move)]
         trials = [_moved(hypotheses, way) for way in ways]
-        found = _models(study, trials)
+        found = models_of(study, trials)
         sums = [chi2_of(study, projector, one) for one in found]
         best = int(np.argmin(sums))
         if not sums[best] < least:
@@ -54,20 +54,12 @@ def fit_together(study: Study, named: Sequence[Ranked]) -> tuple[list[Ranked], f
             for one, h, s in zip(named, hypotheses, sigmas, strict=True)], least
 
 
-def _models(study: Study, cases: Sequence[Sequence[Hypothesis]]) -> list[dict[int, Floats]]:
-    """Training models of each set of hypotheses."""
-    jobs = [(study.runs[i], with_effects(study.packed, case, study.runs[i].recording.name))
-            for case in cases for i in study.train]
-    results = iter(study.simulate(jobs))
-    return [{i: next(results) for i in study.train} for _ in cases]
-
-
 def _columns(study: Study, hypotheses: Sequence[Hypothesis], models: Mapping[int, Floats]
              ) -> Floats:
     """[rows, k] whitened change per unit of each amount."""
     steps = [difference_step(h.effect.amount.step, h.amount, h.effect.amount.low,
                              h.effect.amount.high) for h in hypotheses]
-    ahead = _models(study, [[h.at(h.amount + step) if j == k else h
+    ahead = models_of(study, [[h.at(h.amount + step) if j == k else h
                              for j, h in enumerate(hypotheses)] for k, step in enumerate(steps)])
     return np.stack([study.stack({i: study.runs[i].change(one[i], models[i])
                                   for i in study.train}) / step

@@ -73,8 +73,8 @@ def _unseen(law: Law) -> str:
 
 def next_look(law: Law, signs: Sequence[Beat | Lag | Posture]) -> str:
     """Where nothing is named: what would show the cause of a sign, or else of the force."""
-    for sign in signs:
-        return sign.next_test
+    if signs:
+        return signs[0].next_test
     return (f"Repeat the run at another speed, then with another load: whether the force on the "
             f"{law.body} follows speed, load or the place on the road tells what makes it.")
 
