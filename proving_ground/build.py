@@ -22,6 +22,7 @@ from proving_ground.instruments import Mounting, apply_fault, measure, without_g
 from proving_ground.layout import FloatArray
 from proving_ground.manoeuvres import make
 from proving_ground.run import Rig, Truth, drive, replay
+from proving_ground.seal import LIBRARY
 from proving_ground.switches import NEVER_S, neutral
 from proving_ground.task import Manoeuvre
 from proving_ground.writer import write_csv
@@ -113,6 +114,9 @@ class CaseBuilder:
         """Write all recordings of the case into `folder` and return the answer."""
         found, faulty = self.calibrate()
         folder.mkdir(parents=True, exist_ok=True)
+        if self.spec.without:
+            (folder / LIBRARY).write_text(
+                json.dumps({"without": list(self.spec.without)}) + "\n", encoding="utf-8")
         onsets: list[dict[str, float]] = [{} for _ in found]
         strengths: list[dict[str, Any]] = [{} for _ in found]
         for name, manoeuvre, seed in self.runs:
@@ -157,7 +161,7 @@ class CaseBuilder:
         for spec, c, when, strength in zip(self.spec.effects, found, onsets, strengths,
                                            strict=True):
             effects.append({
-                "name": spec.name, "kind": "physics" if spec.name in LISTED else "unlisted",
+                "name": spec.name, "kind": _kind(spec.name, self.spec.without),
                 "where": spec.where.as_dict(), "onset_s": when or None, "strength": strength,
                 "sign": spec.sign, "wanted_sigma": spec.sigma, **asdict(c)})
         for fault, c in zip(self.spec.faults, faulty, strict=True):
@@ -169,6 +173,13 @@ class CaseBuilder:
                 "effects": effects, "runs": {name: m.kind for name, m, _ in self.runs},
                 "blown": {name: list(m.blown) for name, m, _ in self.runs if m.blown},
                 "missing_channels": list(self.spec.missing), "dropouts": self.spec.dropouts}
+
+
+def _kind(name: str, without: tuple[str, ...]) -> str:
+    """What an effect is to a diagnosis that must do without some names."""
+    if name not in LISTED:
+        return "unlisted"
+    return "taken_out" if name in without else "physics"
 
 
 def _fault_answer(spec: FaultSpec, found: Calibrated) -> dict[str, Any]:

@@ -13,7 +13,7 @@ from typing import Any
 
 import yaml
 
-from proving_ground.effects import LISTED, UNLISTED
+from proving_ground.effects import FAMILIES, LISTED, UNLISTED
 from proving_ground.effects.base import EffectKind, Place
 from proving_ground.faults import FAULTS
 from proving_ground.manoeuvres import MANOEUVRES
@@ -58,7 +58,10 @@ class FaultSpec:
 
 @dataclass(frozen=True)
 class CaseSpec:
-    """All that defines a case; everything else follows from `seed`."""
+    """All that defines a case; everything else follows from `seed`.
+
+    `without` names what the diagnosis must do without: effects taken out of its library.
+    """
 
     id: str
     group: str
@@ -70,6 +73,7 @@ class CaseSpec:
     faults: tuple[FaultSpec, ...] = ()
     missing: tuple[str, ...] = ()
     dropouts: bool = False
+    without: tuple[str, ...] = ()
 
     def runs(self) -> list[tuple[str, str, int]]:
         """(name, manoeuvre kind, seed) of every run."""
@@ -100,7 +104,7 @@ def _from_mapping(raw: dict[str, Any]) -> CaseSpec:
     values = dict(raw)
     values["effects"] = tuple(EffectSpec(**item) for item in raw.get("effects", ()))
     values["faults"] = tuple(FaultSpec(**item) for item in raw.get("faults", ()))
-    for key in ("baseline", "train", "holdout", "missing"):
+    for key in ("baseline", "train", "holdout", "missing", "without"):
         values[key] = tuple(raw.get(key, ()))
     return CaseSpec(**values)
 
@@ -121,6 +125,7 @@ def check(spec: CaseSpec) -> CaseSpec:
     _names("train", spec.train + spec.baseline + spec.holdout, MANOEUVRES)
     _names("faults", [fault.name for fault in spec.faults], FAULTS)
     _names("effects", [effect.name for effect in spec.effects], {**LISTED, **UNLISTED})
+    _names("without", spec.without, LISTED | dict.fromkeys(sum(FAMILIES.values(), ())))
     if not spec.train or not spec.holdout:
         raise ValueError("train and holdout: at least one manoeuvre each")
     return spec

@@ -10,6 +10,7 @@ from collections.abc import Callable
 
 import numpy as np
 
+from proving_ground import manoeuvres_fresh as fresh
 from proving_ground import manoeuvres_more as more
 from proving_ground.task import Braking, Manoeuvre, Program
 
@@ -213,9 +214,13 @@ MANOEUVRES: dict[str, Maker] = {maker.__name__: maker for maker in (
     random_steer, hard_ramp, hard_slow_ramp, hard_double, speed_step, braking_ramp,
     more.j_turn, more.slalom, more.sine_dwell, more.there_and_back, more.weave, more.hard_slalom,
     more.hard_there_and_back, more.coast_then_brake, more.late_release, more.braking_pulses,
-    more.braking_release, more.blowout_hold, more.blowout_coast)}
+    more.braking_release, more.blowout_hold, more.blowout_coast, fresh.fishhook,
+    fresh.hard_fishhook, fresh.s_bend, fresh.hard_s_bend, fresh.stairs_steer, fresh.pulse_steer,
+    fresh.small_pulses, fresh.roll_out, fresh.dab_and_roll, fresh.braking_swap,
+    fresh.braking_growing, fresh.blowout_slow_hands, fresh.blowout_dab)}
 _WITH_BLOWOUT = {maker.__name__: maker for maker in (
-    blowout, blowout_free, blowout_brake, more.blowout_hold, more.blowout_coast)}
+    blowout, blowout_free, blowout_brake, more.blowout_hold, more.blowout_coast,
+    fresh.blowout_slow_hands, fresh.blowout_dab)}
 
 
 def make(kind: str, seed: int, tires: tuple[str, ...] = ("steer_left",)) -> Manoeuvre:

@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Any
 
 MANIFEST = "manifest.json"
+LIBRARY = "library.json"
 
 
 def file_hash(path: Path) -> str:
@@ -21,9 +22,9 @@ def file_hash(path: Path) -> str:
 
 
 def folder_hash(folder: Path) -> str:
-    """SHA-256 over names and hashes of a folder's CSV files, in order of name."""
+    """SHA-256 over names and hashes of a folder's files, in order of name: all that a case is."""
     total = hashlib.sha256()
-    for path in sorted(folder.glob("*.csv")):
+    for path in sorted([*folder.glob("*.csv"), *folder.glob(LIBRARY)]):
         total.update(f"{path.name} {file_hash(path)}\n".encode())
     return total.hexdigest()
 

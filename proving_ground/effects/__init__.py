@@ -1,12 +1,14 @@
 """Concealed effects by name: what each sets in the truck, how strong, and where it may sit.
 
-`LISTED` holds the canonical names; `UNLISTED` holds effects that no list names.
+`LISTED` holds the canonical names, `FAMILIES` which of them belong together; `UNLISTED` holds
+effects that no list names.
 """
 
 from __future__ import annotations
 
 from proving_ground.effects.base import Active, EffectKind, Place
 from proving_ground.effects.brakes import BRAKES
+from proving_ground.effects.families import FAMILIES, family_of
 from proving_ground.effects.outside import OUTSIDE
 from proving_ground.effects.running_gear import RUNNING_GEAR
 from proving_ground.effects.tires import TIRES_EFFECTS
@@ -16,4 +18,4 @@ LISTED: dict[str, EffectKind] = {
     kind.name: kind for kind in (*TIRES_EFFECTS, *RUNNING_GEAR, *BRAKES, *OUTSIDE)
 }
 
-__all__ = ["LISTED", "UNLISTED", "Active", "EffectKind", "Place"]
+__all__ = ["FAMILIES", "LISTED", "UNLISTED", "Active", "EffectKind", "Place", "family_of"]

@@ -124,6 +124,7 @@ def test_bad_input_is_one_line_and_status_2(
     assert "steering_wheel_angle_rad" in refused(capsys, str(tmp_path / "blind.csv"), *out)
     assert "no_truck" in refused(capsys, path, "--vehicle", "no_truck", *out)
     assert "no_file" in refused(capsys, path, "--settings", "no_file", *out)
+    assert "no effect is called 'wind'" in refused(capsys, path, "--without", "wind", *out)
     assert "--output" in refused(capsys, path)
     assert not (tmp_path / "out" / "diagnosis.json").exists()
 
@@ -146,5 +147,5 @@ def test_help_names_every_option(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["diagnose", "--help"]) == 0
     text = capsys.readouterr().out
     for option in ("--baseline", "--holdout", "--vehicle", "--output", "--settings",
-                   "--quick", "--thorough"):
+                   "--without", "--quick", "--thorough"):
         assert option in text

@@ -28,6 +28,7 @@ from truck_blowout_sim.diagnosis.outcome import (
     pulled,
 )
 from truck_blowout_sim.diagnosis.posture import Posture
+from truck_blowout_sim.diagnosis.restless import Restless
 from truck_blowout_sim.diagnosis.result_evidence import BeatScores, ForceHistory
 from truck_blowout_sim.diagnosis.sensors import GateResult
 from truck_blowout_sim.diagnosis.study import Study
@@ -200,6 +201,27 @@ def test_a_wheel_that_lags_is_no_drag_of_the_air(calm: Study, truck: Packed) -> 
     assert told.verdict == "unknown"
     assert "hub trailer_1_left" in told.sentence
     assert told.next_test == lag.next_test
+
+
+def test_a_channel_that_moves_on_is_of_no_list(calm: Study, truck: Packed) -> None:
+    moving = Restless("trailer", "trailer_yaw_rate_radps", 0.003, 0.001, 900.0)
+    told = answer(replace(material(calm), restless=moving))
+    assert told.verdict == "unknown"
+    assert "trailer's yaw rate" in told.sentence
+    assert told.next_test == moving.next_test
+    assert moving.equation in told.evidence.equations
+    lag = ranked(truck, "tire_relaxation", 2.0, delta=300.0)
+    assert decide(replace(material(calm, (lag,)), restless=moving)) == "unknown"
+
+
+def test_what_an_inexact_law_leaves_in_a_channel_is_no_other_effect(
+    calm: Study, truck: Packed
+) -> None:
+    lost = ranked(truck, "secondary_blowout", 0.1, delta=1e6, start_s=2.0)
+    moving = Restless("trailer", "trailer_yaw_rate_radps", 0.003, 0.001, 900.0)
+    told = answer(replace(material(calm, (lost,)), restless=moving))
+    assert told.verdict == "missing_physics"
+    assert "moves in a way" not in told.sentence
 
 
 def test_what_is_unknown_is_to_be_looked_for(calm: Study) -> None:

@@ -11,7 +11,7 @@ import pytest
 
 from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.proof.cases import find_cases, read_truth, spread
-from truck_blowout_sim.proof.seal import check_seals, find_manifest
+from truck_blowout_sim.proof.seal import check_seals, find_manifest, folder_hash
 
 WriteCase = Callable[..., Path]
 
@@ -118,3 +118,16 @@ def test_published_seals_come_before_those_beside_the_cases(
     assert find_manifest(tmp_path) == published
     assert find_manifest(tmp_path, "dev") == published
     assert find_manifest(tmp_path, "other") == beside
+
+
+def test_what_a_case_must_do_without_is_part_of_it(tmp_path: Path, write_case: WriteCase) -> None:
+    write_case(tmp_path, "a")
+    case, = find_cases(tmp_path)
+    whole = folder_hash(case.folder)
+    assert case.without() == ()
+    (case.folder / "library.json").write_text(json.dumps({"without": ["crosswind"]}))
+    assert case.without() == ("crosswind",)
+    assert folder_hash(case.folder) != whole
+    (case.folder / "library.json").write_text("[]")
+    with pytest.raises(InputError, match="not a list of effects"):
+        case.without()

@@ -11,6 +11,7 @@ from typer.testing import CliRunner
 import proving_ground
 from proving_ground.__main__ import app
 from proving_ground.cases import CaseSpec, EffectSpec, read_case, write_case
+from proving_ground.effects import FAMILIES, LISTED, UNLISTED, family_of
 from proving_ground.generate import generate, interleaved, pending
 from proving_ground.seal import broken_seals, write_manifest
 from proving_ground.table import SETS, Table, cases_of
@@ -72,6 +73,23 @@ def test_singles_cover_every_name_and_four_severities(
     singles = [spec.effects[0] for spec in tables["test"] if spec.group == "single"]
     assert len({effect.name for effect in singles}) == 21
     assert {effect.sigma for effect in singles} == {5.0, 10.0, 20.0, 50.0}
+
+
+def test_every_name_has_one_family() -> None:
+    names = [name for family in FAMILIES.values() for name in family]
+    assert len(names) == len(set(names))
+    assert set(names) >= set(LISTED)
+    assert set(names) - set(LISTED) == {"steering_angle_offset"}  # an instrument's, looks alike
+
+
+def test_half_of_the_unknown_are_of_families_taken_out(tables: dict[str, list[CaseSpec]]) -> None:
+    unknown = [spec for spec in tables["test"] if spec.group == "unknown"]
+    out = [spec for spec in unknown if spec.without]
+    assert len(out) == len(unknown) / 2
+    assert {spec.without for spec in out} == set(FAMILIES.values())
+    assert all(spec.effects[0].name in spec.without for spec in out)
+    never = {spec.effects[0].name for spec in unknown if not spec.without}
+    assert never == set(UNLISTED)
 
 
 def test_tables_repeat(tables: dict[str, list[CaseSpec]]) -> None:
@@ -136,6 +154,19 @@ def test_case_is_made_once_and_the_same_each_time(tmp_path: Path) -> None:
     assert told["effects"][0]["onset_s"].keys() == {"train_1", "holdout_1"}
     answer.write_text(json.dumps({**told, "group": "null"}), encoding="utf-8")
     assert broken_seals(tmp_path / "two", manifest) == ["small-1"]
+
+
+def test_a_case_says_what_the_diagnosis_must_do_without(tmp_path: Path) -> None:
+    spec = replace(SMALL, id="small-3", group="unknown", without=family_of("blown_tire_drag"))
+    list(generate([spec], tmp_path, 1))
+    told = json.loads((tmp_path / "cases" / "small-3" / "library.json").read_text("utf-8"))
+    assert told == {"without": list(spec.without)}
+    answer = json.loads((tmp_path / "answers" / "small-3.json").read_text(encoding="utf-8"))
+    assert answer["verdicts"] == ["unknown"]
+    assert answer["effects"][0]["kind"] == "taken_out"
+    manifest = write_manifest(tmp_path, "small")
+    (tmp_path / "cases" / "small-3" / "library.json").unlink()
+    assert broken_seals(tmp_path, manifest) == ["small-3"]
 
 
 def test_severity_is_calibrated_to_the_wanted_sigma(tmp_path: Path) -> None:

@@ -46,6 +46,10 @@ def command(
         None, "--impose-speed/--no-impose-speed",
         help="Follow the recorded speed. By default only where throttle or brakes are missing."
     ),
+    without: list[str] = typer.Option(
+        [], "--without", metavar="NAME", help="Effect that is known not to be the cause, as "
+        "crosswind on a calm day; repeat for more."
+    ),
     quick: bool = typer.Option(
         False, "--quick", help="One effect at most, fewer candidates fitted, coarser step."
     ),
@@ -72,7 +76,7 @@ def command(
             impose_speed=impose_speed, step_s=step_s,
             most_effects=1 if quick else 4 if thorough else 3,
             refits=_QUICK_REFITS if quick else REFITS, profile=thorough,
-            coarse=quick, next_run=not quick, kept=kept,
+            coarse=quick, next_run=not quick, without=without, kept=kept,
             progress=_reporter(progress, task, thorough))
         progress.update(task, description="drawing", completed=1.0)
         _write(answer, loaded, vehicle, values, output, _QUICK_PANELS if quick else None)

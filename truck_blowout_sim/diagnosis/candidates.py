@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,16 +11,36 @@ from truck_blowout_sim.diagnosis.effects import LIBRARY, Effect, secondary_blowo
 from truck_blowout_sim.diagnosis.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.result_parts import Place
 from truck_blowout_sim.diagnosis.study import Study
+from truck_blowout_sim.errors import InputError
 
 Floats = NDArray[np.float64]
 _PRESSURE_SEEN = 0.03  # share that stands out of a gauge's noise
 _PRESSURE_LOST = 0.3  # share of its pressure a tire must lose to count as failed by itself
 
 
+def known_names(names: Collection[str]) -> tuple[str, ...]:
+    """The same names in order, each once.
+
+    Raises:
+        InputError: one is no name of an effect.
+    """
+    known = {effect.name for effect in LIBRARY}
+    for name in names:
+        if name not in known:
+            raise InputError(f"no effect is called {name!r}",
+                             expected="one of " + ", ".join(sorted(known)))
+    return tuple(sorted(set(names)))
+
+
+def considered(study: Study) -> tuple[Effect, ...]:
+    """The library, less what was asked not to be considered."""
+    return tuple(effect for effect in LIBRARY if effect.name not in study.settings.without)
+
+
 def steady_candidates(study: Study) -> tuple[Hypothesis, ...]:
     """All hypotheses without an onset of their own that the training runs could show."""
     found = []
-    for effect in LIBRARY:
+    for effect in considered(study):
         if effect.timing != "always":
             continue
         if not any(study.runs[i].shows(effect.applies) for i in study.train):
@@ -45,17 +65,21 @@ def _can_show(study: Study, effect: Effect, place: Place) -> bool:
     return True
 
 
-def timed_effects() -> tuple[Effect, ...]:
+def timed_effects(study: Study) -> tuple[Effect, ...]:
     """Effects that begin at an instant of their own."""
-    return tuple(effect for effect in LIBRARY if effect.timing != "always")
+    return tuple(effect for effect in considered(study) if effect.timing != "always")
 
 
 def failed_tires(study: Study, runs: Sequence[int]) -> Mapping[str, Mapping[str, float]]:
     """Tires whose recorded pressure falls without a command: {tire: {run: instant}}.
 
+    None where that is not to be considered.
+
     The instant is where the line through two early levels of the pressure leaves the first one.
     """
     found: dict[str, dict[str, float]] = {}
+    if secondary_blowout.EFFECT not in considered(study):
+        return found
     for i in runs:
         run = study.runs[i]
         told = {tire for event in run.recording.blowouts for tire in event.tires}

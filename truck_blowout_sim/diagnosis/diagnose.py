@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from truck_blowout_sim.diagnosis.calibration import calibrate
+from truck_blowout_sim.diagnosis.candidates import known_names
 from truck_blowout_sim.diagnosis.fingerprints import case_parts
 from truck_blowout_sim.diagnosis.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.intervals import Timing, time_intervals
@@ -24,6 +25,7 @@ from truck_blowout_sim.diagnosis.outcome import Material, answer, joint_amounts,
 from truck_blowout_sim.diagnosis.periodic import find_beat
 from truck_blowout_sim.diagnosis.posture import turned_body
 from truck_blowout_sim.diagnosis.profile import Arms, arms_of
+from truck_blowout_sim.diagnosis.restless import restless
 from truck_blowout_sim.diagnosis.result import Diagnosis, Role, Verdict
 from truck_blowout_sim.diagnosis.resume import Keeps
 from truck_blowout_sim.diagnosis.runs import Run, prepare_run
@@ -45,7 +47,8 @@ def diagnose(recordings: Sequence[Recording], *, baseline: Sequence[Recording] =
              most_effects: int = 3, refits: tuple[int, int] = REFITS, step_s: float = STEP_S,
              coarse: bool = False, profile: bool = False, next_run: bool = True,
              workers: int | None = None, impose_speed: bool | None = None,
-             progress: Progress | None = None, kept: Keeps | None = None
+             without: Collection[str] = (), progress: Progress | None = None,
+             kept: Keeps | None = None
              ) -> tuple[Diagnosis, Mapping[str, float]]:
     """Diagnose recordings that a model does not reproduce.
 
@@ -61,6 +64,7 @@ def diagnose(recordings: Sequence[Recording], *, baseline: Sequence[Recording] =
         profile: intervals of amounts by profile likelihood and block jackknife, not by curvature.
         next_run: simulate which run would best tell apart what fits alike; else words only.
         impose_speed: follow the recorded speed; None: only where throttle or brakes are missing.
+        without: names of effects that are known not to be the cause.
         step_s: integration step; ``workers``: threads; ``progress``: called with (stage, share).
         kept: knows simulations made before, as :func:`keeping` does those of an interrupted call.
 
@@ -69,7 +73,8 @@ def diagnose(recordings: Sequence[Recording], *, baseline: Sequence[Recording] =
         given one's.
 
     Raises:
-        InputError: a recording cannot drive the model, or none is given.
+        InputError: a recording cannot drive the model, or none is given; ``without`` holds what is
+            no name of an effect.
         OSError: the folder of ``kept`` cannot be written.
     """
     if not recordings:
@@ -77,7 +82,7 @@ def diagnose(recordings: Sequence[Recording], *, baseline: Sequence[Recording] =
     loaded = load_vehicle(vehicle) if isinstance(vehicle, str) else vehicle
     packed = pack(loaded)
     gate = sensor_gate(list(recordings), list(baseline), vehicle_geometry(loaded))
-    rules = load_settings(packed, settings)
+    rules = replace(load_settings(packed, settings), without=known_names(without))
     rules = replace(rules, trial_step_s=rules.coarsest_step_s) if coarse else rules
     if kept is not None:
         kept.begin(case_parts({"train": recordings, "baseline": baseline, "holdout": holdout},
@@ -144,7 +149,8 @@ def _material(study: Study, found: Found, gate: GateResult, vehicle: str,
     material = Material(study, found, gate, before, after, law, _timings(study, found), vehicle,
                         _separation(study, found, progress) if next_run else None,
                         _arms(study, found, progress) if profile else {}, find_beat(study, named),
-                        lagging_wheel(study, named), turned_body(study, named))
+                        lagging_wheel(study, named), turned_body(study, named),
+                        restless(study, named))
     if unexplained(material):
         material = replace(material, law=checked(study, law, named))
     return material

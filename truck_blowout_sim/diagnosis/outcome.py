@@ -18,6 +18,7 @@ from truck_blowout_sim.diagnosis.locate import Wrenches
 from truck_blowout_sim.diagnosis.next_test import Separation
 from truck_blowout_sim.diagnosis.posture import Posture
 from truck_blowout_sim.diagnosis.profile import NINETY, Arms
+from truck_blowout_sim.diagnosis.restless import Restless
 from truck_blowout_sim.diagnosis.result import (
     AliasSet,
     ChannelSigma,
@@ -50,7 +51,7 @@ class Material:
         separation: the run that would best tell apart what these cannot, if any could.
         arms: of each effect's amount by profile likelihood and jackknife, by key, if asked for.
         beat: a periodic force too fast for the bins; ``lag``: a wheel that a drag holds back;
-            ``posture``: a body that stands turned.
+            ``posture``: a body that stands turned; ``restless``: a channel that nothing calms.
     """
 
     study: Study
@@ -66,11 +67,13 @@ class Material:
     beat: Beat | None = None
     lag: Lag | None = None
     posture: Posture | None = None
+    restless: Restless | None = None
 
     @property
-    def signs(self) -> tuple[Beat | Lag | Posture, ...]:
+    def signs(self) -> tuple[words.Sign, ...]:
         """What shows beside a force."""
-        return tuple(one for one in (self.beat, self.lag, self.posture) if one is not None)
+        moving = self.restless if _moves_on(self) else None
+        return tuple(one for one in (self.beat, self.lag, self.posture, moving) if one is not None)
 
 
 def answer(material: Material) -> Diagnosis:
@@ -100,7 +103,8 @@ def decide(material: Material) -> Verdict:
     """Which of the five verdicts the evidence supports."""
     found, gate = material.found, material.gate
     physics = [r for r in found.named if r.hypothesis.effect.kind == "physics"]
-    if unexplained(material) or _beats(material) or _stands_turned(material) or material.lag:
+    if unexplained(material) or any(sign(material) for sign in (
+            _beats, _stands_turned, _moves_on)) or material.lag:
         return "unknown"
     if physics:
         return "missing_physics"
@@ -119,6 +123,13 @@ def _stands_turned(material: Material) -> bool:
     """Whether a body stands turned by more than the law of something named leaves."""
     posture = material.posture
     return posture is not None and posture.evidence > _LEFT_BY_LAW * _bought(material)
+
+
+def _moves_on(material: Material) -> bool:
+    """Whether more is left of one channel than everything named explains of all."""
+    moving = material.restless
+    return (moving is not None and not material.gate.findings
+            and moving.evidence > _bought(material))
 
 
 def unexplained(material: Material) -> bool:
@@ -168,8 +179,10 @@ def locate(material: Material) -> Location:
         return Location(channels=channels)
     # along the course both bodies move as one: what turns or beats says which it is, or what was
     # named, by its wheels
-    turned: list[str | None] = [one.body for one in (material.posture, material.beat) if one]
-    bodies = turned or [r.hypothesis.place.body for r in material.found.named[:1]]
+    shown: list[str | None] = [one.body for one in (material.posture, material.beat) if one]
+    if material.restless and _moves_on(material):
+        shown.append(material.restless.body)
+    bodies = shown or [r.hypothesis.place.body for r in material.found.named[:1]]
     best = max(material.wrenches, key=lambda w: (w.history.body in bodies, w.delta))
     history = best.history
     z = (np.abs(history.fx_n / history.fx_sigma_n) + np.abs(history.fy_n / history.fy_sigma_n)

@@ -20,7 +20,7 @@ _KINDS = ("scale", "add")
 _ONLY = ("", "blowout", "brakes")
 _EVENT_FACTOR = 2.0  # more that an event must bring, because its instant was searched
 _LEAST_SCALE = 0.1  # a number of the sheet never shrinks below this share
-_CHANNEL_KEYS = {"floor", "relative", "bias", "gain", "source"}
+_CHANNEL_KEYS = {"floor", "relative", "bias", "gain", "most", "source"}
 _NUISANCE_KEYS = {"kind", "sigma", "step", "sign", "targets", "opposite", "only", "source"}
 
 
@@ -59,12 +59,16 @@ class Nuisance:
 
 @dataclass(frozen=True)
 class ChannelRule:
-    """How far good models of one truck differ in a channel, and how a normal instrument errs."""
+    """How far good models of one truck differ in a channel, and how a normal instrument errs.
+
+    ``most``: rms, in units of that difference, that runs with nothing missing leave at most.
+    """
 
     floor: float
     relative: float
     bias: float = 0.0
     gain: float = 0.0
+    most: float = math.inf
 
 
 @dataclass(frozen=True)
@@ -96,6 +100,7 @@ class Settings:
         lag_delta: what one wheel's lag must buy to show where a drag acts; posture_delta: what a
             body's stand must buy to be the truck's own.
         beat_turn, beat_tone: score from which on something beats once per wheel turn, or steadily.
+        without: names of effects that are not considered; asked for, not read from the file.
     """
 
     nuisances: tuple[Nuisance, ...]
@@ -123,6 +128,7 @@ class Settings:
     null_tail: float
     harder: Mapping[str, float] = field(default_factory=dict)
     forms: Mapping[str, float] = field(default_factory=dict)
+    without: tuple[str, ...] = ()
 
     def form(self, effect: str) -> float:
         """1 sigma of what another form of law does to an amount, as a share of it."""
@@ -166,12 +172,12 @@ def load_settings(packed: Packed, name: str = "default") -> Settings:
     for part in ("nuisances", "channels"):
         _check(path, part, tree[part], set(tree[part] or ()))
     method_keys = {f.name for f in fields(Settings)} - {
-        "nuisances", "channels", "harder", "forms"}
+        "nuisances", "channels", "harder", "forms", "without"}
     _check(path, "method", tree["method"], method_keys, method_keys)
     nuisances = [_nuisance(path, key, entry, packed) for key, entry in tree["nuisances"].items()]
     nuisances += _brake_gains(packed, _number(path, "brake_gain_sigma", tree["brake_gain_sigma"],
                                               "value"))
-    method = {key: _number(path, f"method.{key}", entry, "value")
+    method: dict[str, Any] = {key: _number(path, f"method.{key}", entry, "value")
               for key, entry in tree["method"].items()}
     channels = {key: _rule(path, key, entry) for key, entry in tree["channels"].items()}
     harder = {key: _number(path, f"harder.{key}", entry, "delta")

@@ -111,7 +111,7 @@ def _event_places(study: Study, named: Sequence[Hypothesis], steady: Sequence[Ra
         r.hypothesis.effect.name for r in steady
         if r.promise > _WORTH_REFITTING * settings.accept_delta}
     tried: list[tuple[Effect, Place]] = []
-    for effect in timed_effects():
+    for effect in timed_effects(study):
         places = effect.places(study.packed.vehicle)
         if effect.name == secondary_blowout.EFFECT.name:
             places = unwatched_tires(study) if _large(study, steady) else ()

@@ -12,11 +12,13 @@ from truck_blowout_sim.diagnosis.lagging import Lag
 from truck_blowout_sim.diagnosis.law import Law
 from truck_blowout_sim.diagnosis.next_test import Separation
 from truck_blowout_sim.diagnosis.posture import Posture
+from truck_blowout_sim.diagnosis.restless import Restless
 from truck_blowout_sim.diagnosis.result import Effect, Verdict
 from truck_blowout_sim.diagnosis.result_parts import Interval
 from truck_blowout_sim.diagnosis.sensors import GateResult
 from truck_blowout_sim.diagnosis.study import Study
 
+Sign = Beat | Lag | Posture | Restless  # what shows beside a force
 _SPLITTERS = (
     ("hub_speed_", "wheel speeds", "which wheel drags, brakes or slips"),
     ("tire_pressure_", "tire pressures", "a failing tire from a moving load or a dragging brake"),
@@ -46,7 +48,7 @@ def open_ends(ends: Interval) -> str:
 
 def verdict_sentence(verdict: Verdict, effects: Sequence[Effect],
                      pulled: Sequence[tuple[str, float]], law: Law | None,
-                     signs: Sequence[Beat | Lag | Posture] = ()) -> str:
+                     signs: Sequence[Sign] = ()) -> str:
     """The verdict in words; ``law``: of a force left unexplained, ``signs``: what else shows."""
     if verdict == "consistent":
         return ("The model explains these recordings within what instruments and trucks of one "
@@ -71,7 +73,7 @@ def _unseen(law: Law) -> str:
             "; unseen runs are not predicted better with it, so it is not added")
 
 
-def next_look(law: Law, signs: Sequence[Beat | Lag | Posture]) -> str:
+def next_look(law: Law, signs: Sequence[Sign]) -> str:
     """Where nothing is named: what would show the cause of a sign, or else of the force."""
     if signs:
         return signs[0].next_test
@@ -112,6 +114,8 @@ def assumptions(study: Study) -> tuple[str, ...]:
         base.append("What is missing is not at work in the baseline recordings.")
     else:
         base.append("Without baseline recordings, the effect may be at work in every run.")
+    if study.settings.without:
+        base.append("Not the cause, as was told: " + ", ".join(study.settings.without) + ".")
     if any(run.drive.speed_imposed for run in study.runs):
         base.append("Speed is imposed where throttle or brakes were not recorded.")
     return tuple(base)

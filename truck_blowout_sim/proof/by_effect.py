@@ -20,12 +20,13 @@ Row = dict[str, Any]
 
 
 def effect_rows(scores: Sequence[CaseScore]) -> list[Row]:
-    """One row for each concealed effect, listed physics first, then instruments, then the rest."""
+    """One row for each concealed effect: physics, instruments, what is in no list or not now."""
     alone = [s for s in scores if len(s.causes) == 1]
-    names = {s.causes[0].name: s.causes[0].kind for s in alone}
-    order = ("physics", "sensor", "unlisted")
-    return [_row(name, kind, [s for s in alone if s.causes[0].name == name])
-            for name, kind in sorted(names.items(), key=lambda item: (order.index(item[1]), item))]
+    names = {(s.causes[0].name, s.causes[0].kind) for s in alone}
+    order = ("physics", "sensor", "unlisted", "taken_out")
+    return [_row(name, kind, [s for s in alone if (s.causes[0].name, s.causes[0].kind)
+                              == (name, kind)])
+            for name, kind in sorted(names, key=lambda item: (order.index(item[1]), item))]
 
 
 def _row(name: str, kind: str, scores: Sequence[CaseScore]) -> Row:
@@ -64,7 +65,8 @@ def effect_table(rows: Sequence[Mapping[str, Any]]) -> list[str]:
         cells = [f"{p['hits']}/{p['trials']}" if p["trials"] else "" for p in row["by_sigma"]]
         wrong = ", ".join(f"{name} {count}" for name, count in row["taken_for"].items())
         whole = Proportion(row["found"]["hits"], row["found"]["trials"])
-        lines.append(f"| {row['name']} | {' | '.join(cells)} | {whole} | {wrong} |")
+        name = row["name"] + (", taken out" if row["kind"] == "taken_out" else "")
+        lines.append(f"| {name} | {' | '.join(cells)} | {whole} | {wrong} |")
     return lines
 
 

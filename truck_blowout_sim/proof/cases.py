@@ -16,6 +16,7 @@ from typing import Any
 
 from truck_blowout_sim.errors import InputError
 
+LIBRARY = "library.json"  # beside the recordings: what the diagnosis must do without
 ROLES = ("train", "baseline", "holdout")
 NOTHING_MISSING = ("consistent", "miscalibrated")
 
@@ -32,13 +33,29 @@ class Case:
         """Recordings of one role, in order of name."""
         return sorted(self.folder.glob(f"{role}*.csv"))
 
+    def without(self) -> tuple[str, ...]:
+        """Names of effects that the diagnosis must do without in this case.
+
+        Raises:
+            InputError: the file that says so is not what it should be.
+        """
+        path = self.folder / LIBRARY
+        if not path.is_file():
+            return ()
+        try:
+            return tuple(map(str, json.loads(path.read_text(encoding="utf-8"))["without"]))
+        except (KeyError, TypeError, json.JSONDecodeError) as error:
+            raise InputError(f"not a list of effects: {error!r}", file=path,
+                             expected='{"without": ["crosswind"]}') from error
+
 
 @dataclass(frozen=True)
 class Cause:
     """One concealed effect, as its answer gives it.
 
     Attributes:
-        name, kind: what; kind is ``physics``, ``sensor`` or ``unlisted``.
+        name, kind: what; kind is ``physics``, ``sensor``, ``unlisted``, or ``taken_out`` where its
+            family was taken out of the library.
         where: body, axle, hub, tire; None where it does not apply.
         sigma: how visible it is in the training runs; None if not calibrated.
         onset_s: instant in each run, empty for what is always there.

@@ -18,7 +18,7 @@ from pathlib import Path
 from typing import Any
 
 from truck_blowout_sim.errors import InputError
-from truck_blowout_sim.proof.cases import Case
+from truck_blowout_sim.proof.cases import LIBRARY, Case
 
 MANIFEST = "manifest.json"
 
@@ -64,9 +64,9 @@ def file_hash(path: Path) -> str:
 
 
 def folder_hash(folder: Path) -> str:
-    """SHA-256 over names and hashes of the folder's CSV files, in order of name."""
+    """SHA-256 over names and hashes of the folder's files, in order of name: all that a case is."""
     total = hashlib.sha256()
-    for path in sorted(folder.glob("*.csv")):
+    for path in sorted([*folder.glob("*.csv"), *folder.glob(LIBRARY)]):
         total.update(f"{path.name} {file_hash(path)}\n".encode())
     return total.hexdigest()
 

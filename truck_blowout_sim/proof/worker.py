@@ -29,7 +29,7 @@ def diagnose_case(case: Case, *, step_s: float, with_baselines: bool) -> dict[st
     memory = Memory()
     try:
         answer, _ = diagnose(train, baseline=baseline, holdout=holdout, workers=1, step_s=step_s,
-                             kept=memory)
+                             without=case.without(), kept=memory)
         line["answer"] = answer.as_json()
         line["cpu_s"] = round(time.process_time() - cpu, 1)
         if with_baselines:

@@ -1,0 +1,24 @@
+"""Effects that look alike, or act through the same parts: a family.
+
+Where a whole family is taken out of a diagnosis's library, what is concealed of it has no name left
+and no look-alike: the diagnosis must say that it does not know.
+"""
+
+from __future__ import annotations
+
+FAMILIES: dict[str, tuple[str, ...]] = {
+    "along the course": ("aerodynamic_drag", "driveline_drag", "road_grade"),
+    "brakes": ("brake_lag", "brake_imbalance", "brake_fade"),
+    "the flat tire": ("blown_tire_drag", "blown_tire_cornering", "slow_deflation"),
+    "across the course": ("crosswind", "road_bank", "payload_shift"),
+    "steering": ("steering_compliance", "steering_lash", "roll_steer", "axle_misalignment",
+                 "steering_angle_offset"),
+    "another tire lost": ("secondary_blowout",),
+    "grip": ("tire_saturation", "friction_change", "tire_relaxation"),
+    "the coupling": ("fifth_wheel_friction",),
+}
+
+
+def family_of(name: str) -> tuple[str, ...]:
+    """All names of the family that a listed effect belongs to."""
+    return next(names for names in FAMILIES.values() if name in names)

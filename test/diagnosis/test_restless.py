@@ -1,0 +1,67 @@
+"""A channel that moves on by itself is noticed; one that does so in baseline runs too is not."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from truck_blowout_sim.diagnosis.restless import restless
+from truck_blowout_sim.diagnosis.runs import Run
+from truck_blowout_sim.diagnosis.settings import load_settings
+from truck_blowout_sim.diagnosis.study import Study
+from truck_blowout_sim.vehicle import Packed
+
+Studies = Callable[..., Study]
+CHANNEL, SWING_RADPS = "trailer_yaw_rate_radps", 0.006
+
+
+def swinging(run: Run) -> Run:
+    """The trailer sways once in 1.7 s, whatever is done to the truck."""
+    middles = 0.5 * (run.edges_s[1:] + run.edges_s[:-1])
+    moved = run.measured.copy()
+    moved[:, run.channels.index(CHANNEL)] += SWING_RADPS * np.sin(2.0 * np.pi * middles / 1.7)
+    return replace(run, measured=moved)
+
+
+def with_swing(study: Study, *roles: str) -> Study:
+    runs = tuple(swinging(run) if run.role in roles else run for run in study.runs)
+    return replace(study, runs=runs)
+
+
+def test_a_trailer_that_sways_by_itself_is_noticed(study_of: Studies) -> None:
+    found = restless(with_swing(study_of(baseline=True), "train"), [])
+    assert found is not None
+    assert (found.body, found.channel) == ("trailer", CHANNEL)
+    assert found.left == pytest.approx(SWING_RADPS / np.sqrt(2.0), rel=0.25)
+    assert found.left > found.usual > 0.0
+    assert found.evidence > 0.0
+    assert "trailer's yaw rate" in found.sentence
+    assert f"{found.left:.3g} rad/s" in found.equation
+
+
+def test_a_calm_truck_has_no_restless_channel(study_of: Studies) -> None:
+    assert restless(study_of(baseline=True), []) is None
+
+
+def test_what_the_baseline_runs_have_too_is_how_the_model_errs(study_of: Studies) -> None:
+    assert restless(with_swing(study_of(baseline=True), "train", "baseline"), []) is None
+
+
+def test_hard_turns_are_allowed_more(study_of: Studies) -> None:
+    study = with_swing(study_of(baseline=True), "train")
+    found = restless(study, [])
+    assert found is not None
+    harder = replace(study)
+    harder.demand = 4.0 * study.demand
+    allowed = restless(harder, [])
+    assert allowed is None or allowed.usual == pytest.approx(2.0 * found.usual)
+
+
+def test_every_limit_is_beyond_the_width_that_is_usually_filled(truck: Packed) -> None:
+    rules = load_settings(truck).channels
+    limits = [rule.most for rule in rules.values() if np.isfinite(rule.most)]
+    assert limits
+    assert min(limits) ** 2 > 2.0 * load_settings(truck).expected_level
