@@ -48,8 +48,7 @@ def diagnose(recordings: Sequence[Recording], *, baseline: Sequence[Recording] =
              coarse: bool = False, profile: bool = False, next_run: bool = True,
              workers: int | None = None, impose_speed: bool | None = None,
              without: Collection[str] = (), progress: Progress | None = None,
-             kept: Keeps | None = None
-             ) -> tuple[Diagnosis, Mapping[str, float]]:
+             kept: Keeps | None = None) -> tuple[Diagnosis, Mapping[str, float]]:
     """Diagnose recordings that a model does not reproduce.
 
     Args:
@@ -58,23 +57,21 @@ def diagnose(recordings: Sequence[Recording], *, baseline: Sequence[Recording] =
         holdout: runs that are predicted only.
         vehicle: the model's vehicle, by name, path or loaded.
         settings: name of a file in ``config/diagnosis``.
-        most_effects: how many effects may be named.
-        refits: how many steady candidates are fitted anew for each effect, and how many events.
+        most_effects: how many effects may be named; ``refits``: how many steady candidates are
+            fitted anew for each, and how many events.
         coarse: simulate what is tried on the coarsest step that the settings allow.
         profile: intervals of amounts by profile likelihood and block jackknife, not by curvature.
         next_run: simulate which run would best tell apart what fits alike; else words only.
         impose_speed: follow the recorded speed; None: only where throttle or brakes are missing.
-        without: names of effects that are known not to be the cause.
+        without: effects that are known not to be the cause.
         step_s: integration step; ``workers``: threads; ``progress``: called with (stage, share).
         kept: knows simulations made before, as :func:`keeping` does those of an interrupted call.
 
     Returns:
-        The diagnosis, and the packed parameters of the diagnosed vehicle that differ from the
-        given one's.
+        The diagnosis, and the diagnosed vehicle's packed parameters that differ from the given.
 
     Raises:
-        InputError: a recording cannot drive the model, or none is given; ``without`` holds what is
-            no name of an effect.
+        InputError: no recording, one that cannot drive the model, or no effect of such a name.
         OSError: the folder of ``kept`` cannot be written.
     """
     if not recordings:
