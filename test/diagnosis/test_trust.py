@@ -11,7 +11,7 @@ import pytest
 from truck_blowout_sim.diagnosis.effects import road_bank, tire_saturation
 from truck_blowout_sim.diagnosis.settings import Settings
 from truck_blowout_sim.diagnosis.study import Study
-from truck_blowout_sim.diagnosis.trust import demand
+from truck_blowout_sim.diagnosis.trust import calm, demand
 from truck_blowout_sim.recordings import Recording, Series
 
 
@@ -55,3 +55,10 @@ def test_what_only_hard_turns_show_needs_no_more_there(rules: Settings) -> None:
     needed = [Study.needed(study, effect) / rules.needed(effect.name)  # type: ignore[arg-type]
               for effect in (tire_saturation.EFFECT, road_bank.EFFECT)]
     assert needed == [1.0, 2.5]
+
+
+def test_on_a_straight_course_a_smaller_force_is_one(rules: Settings) -> None:
+    strict = replace(rules, calm_below_mps2=2.0, calm_share=0.35)
+    shares = [calm([turning(hard)], "tractor", strict) for hard in (0.0, 1.0, 2.5)]
+    assert shares == pytest.approx([0.35, 0.675, 1.0], rel=0.01)
+    assert calm([turning(0.0)], "tractor", replace(rules, calm_share=1.0)) == 1.0

@@ -141,7 +141,8 @@ def unexplained(material: Material) -> bool:
     excess = found.chi2_after + bought - rules.expected_level * rows
     demand = material.study.demand
     left = found.chi2_after > rules.unknown_level * demand * rows
-    return (left and bought < 0.5 * excess) or unnamed > max(rules.unknown_delta * demand, bought)
+    needed = rules.unknown_delta * demand * material.study.calm
+    return (left and bought < 0.5 * excess) or unnamed > max(needed, bought)
 
 
 def _bought(material: Material) -> float:

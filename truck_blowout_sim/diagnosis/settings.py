@@ -86,6 +86,8 @@ class Settings:
         flat_braked: how much wider the difference between models is once a flat tire was braked.
         hard_from_mps2, hard_demand_s2pm: lateral acceleration from which on more evidence is asked
             for, and by what factor more with each 1 m/s2 beyond.
+        calm_below_mps2, calm_share: on straighter courses less than ``unknown_delta`` is asked
+            for, down to that share where nothing turns.
         null_median, null_tail: best evidence where nothing is missing, as a share of what is
             needed: half of such cases reach the one, and all of what is needed the share of the
             other.
@@ -123,6 +125,8 @@ class Settings:
     flat_braked: float
     hard_from_mps2: float
     hard_demand_s2pm: float
+    calm_below_mps2: float
+    calm_share: float
     same_truck: float
     null_median: float
     null_tail: float

@@ -18,7 +18,7 @@ from truck_blowout_sim.diagnosis.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.linear import Projector
 from truck_blowout_sim.diagnosis.runs import Run, simulate_bins
 from truck_blowout_sim.diagnosis.settings import Settings
-from truck_blowout_sim.diagnosis.trust import demand
+from truck_blowout_sim.diagnosis.trust import calm, demand
 from truck_blowout_sim.simulation.course import Course, drive_course
 from truck_blowout_sim.vehicle import Packed
 
@@ -79,6 +79,12 @@ class Study:
         """Factor on the evidence asked of what does not need hard turns to show."""
         return demand([self.runs[i].recording for i in self.train], self.packed.vehicle.units[0],
                       self.settings)
+
+    @cached_property
+    def calm(self) -> float:
+        """Share of what a force that nothing explains must buy in runs so straight."""
+        return calm([self.runs[i].recording for i in self.train], self.packed.vehicle.units[0],
+                    self.settings)
 
     def needed(self, effect: Effect, event: bool = False) -> float:
         """Evidence that an effect must have in these runs."""

@@ -2,7 +2,8 @@
 
 The flat tire widens the difference that good models of one truck are allowed, bin by bin. Hard
 turns ask more evidence of every effect but those that only such turns show: widened there, the
-difference would hide these.
+difference would hide these. On a straight course two models differ least: there a smaller force
+that nothing named explains is already one.
 
 Known limits: lateral acceleration is that of the first unit's yaw rate and speed; without both
 channels no turn counts as hard.
@@ -58,6 +59,13 @@ def demand(recordings: Sequence[Recording], unit: str, settings: Settings) -> fl
     """
     hardest = max((_hardest_mps2(recording, unit) for recording in recordings), default=0.0)
     return 1.0 + settings.hard_demand_s2pm * max(hardest - settings.hard_from_mps2, 0.0)
+
+
+def calm(recordings: Sequence[Recording], unit: str, settings: Settings) -> float:
+    """Share of what a force that nothing explains must buy, by the hardest turn of all."""
+    hardest = max((_hardest_mps2(recording, unit) for recording in recordings), default=0.0)
+    least = settings.calm_share
+    return min(least + (1.0 - least) * hardest / settings.calm_below_mps2, 1.0)
 
 
 def _hardest_mps2(recording: Recording, unit: str) -> float:
