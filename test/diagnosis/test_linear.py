@@ -64,7 +64,7 @@ def test_the_sum_of_squares_is_that_of_the_best_nuisances_with_their_priors(seed
 def test_score_is_twice_the_rise_of_the_log_marginal_likelihood(seed: int) -> None:
     nuisances, columns, residual = problem(seed)
     projector, column = Projector.of(nuisances), columns[:, 0]
-    found = score(projector, residual, projector.remove(residual), column)
+    found = score(projector, projector.remove(residual), column)
     law = multivariate_normal(np.zeros(residual.size), dense(nuisances))
     best = minimize_scalar(lambda a: -2.0 * law.logpdf(residual - a * column))
     assert found.amount == pytest.approx(best.x, abs=1e-4)
@@ -80,8 +80,8 @@ def test_a_limited_amount_is_worth_what_it_buys_at_its_limit(
 ) -> None:
     nuisances, columns, residual = problem(seed)
     projector, column = Projector.of(nuisances), columns[:, 0]
-    free = score(projector, residual, projector.remove(residual), column)
-    found = score(projector, residual, projector.remove(residual), column, low, high)
+    free = score(projector, projector.remove(residual), column)
+    found = score(projector, projector.remove(residual), column, low, high)
     assert found.amount == pytest.approx(min(max(free.amount, low), high))
     bought = projector.chi2(residual) - projector.chi2(residual - found.amount * column)
     assert found.delta == pytest.approx(bought, abs=1e-7)
@@ -91,7 +91,7 @@ def test_a_limited_amount_is_worth_what_it_buys_at_its_limit(
 def test_a_column_that_changes_nothing_is_worth_nothing() -> None:
     nuisances, _, residual = problem(0)
     projector = Projector.of(nuisances)
-    found = score(projector, residual, projector.remove(residual), np.zeros(residual.size))
+    found = score(projector, projector.remove(residual), np.zeros(residual.size))
     assert (found.amount, found.delta, found.sigma) == (0.0, 0.0, np.inf)
 
 
@@ -113,7 +113,7 @@ def test_one_column_alone_has_the_same_answer_either_way() -> None:
     projector = Projector.of(nuisances)
     removed = projector.remove(residual)
     amounts, covariance = joint_score(projector, removed, columns)
-    alone = score(projector, residual, removed, columns[:, 0])
+    alone = score(projector, removed, columns[:, 0])
     assert amounts[0] == pytest.approx(alone.amount, rel=1e-6)
     assert covariance[0, 0] == pytest.approx(alone.sigma**2, rel=1e-6)
 
@@ -130,7 +130,7 @@ def drawn(seed: int, truth: float) -> tuple[Projector, Floats, Floats, Floats]:
 
 def test_evidence_of_nothing_is_chi_square_with_one_degree() -> None:
     projector, column, residuals, _ = drawn(1, truth=0.0)
-    deltas = [score(projector, r, projector.remove(r), column).delta for r in residuals]
+    deltas = [score(projector, projector.remove(r), column).delta for r in residuals]
     assert kstest(deltas, "chi2", args=(1,)).pvalue > 0.01
     # and would be far from it if the nuisances were not projected out
     plain = [float((column @ r) ** 2 / (column @ column)) for r in residuals]
@@ -139,7 +139,7 @@ def test_evidence_of_nothing_is_chi_square_with_one_degree() -> None:
 
 def test_ninety_percent_intervals_hold_the_truth_nine_times_in_ten() -> None:
     projector, column, residuals, hidden = drawn(2, truth=0.7)
-    found = [score(projector, r, projector.remove(r), column) for r in residuals]
+    found = [score(projector, projector.remove(r), column) for r in residuals]
     hits = sum(abs(f.amount - 0.7) < 1.645 * f.sigma for f in found)
     assert binomtest(hits, len(found), 0.9).pvalue > 0.01
     spread = np.sqrt(np.diag(projector.covariance()))

@@ -86,7 +86,7 @@ def rank_steady(study: Study, candidates: Sequence[Hypothesis],
         held = study.meaning(candidate)
         removed = cleaned[held] if held in cleaned else projector.remove(residual)
         cleaned[held] = removed
-        found = score(projector, residual, removed, column, amount.low - at, amount.high - at)
+        found = score(projector, removed, column, amount.low - at, amount.high - at)
         fall = max(found.delta - (float(residual @ removed) - free), 0.0)
         ranked.append(Ranked(candidate.at(at + found.amount), fall, found.sigma, evidence=fall,
                              promise=found.delta))
@@ -108,4 +108,4 @@ def score_channel(study: Study, projector: Projector, removed: Floats, channel: 
             k = run.channels.index(channel)
             column[:, k] = np.nan_to_num(change(run, run.measured[:, k]) / run.sigma[:, k])
         parts[i] = column.ravel()
-    return score(projector, study.residual(), removed, study.stack(parts))
+    return score(projector, removed, study.stack(parts))

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from truck_blowout_sim.diagnosis.judging import Found
+from truck_blowout_sim.diagnosis.quantiles import NINETY
 from truck_blowout_sim.diagnosis.result import Calibrated, Candidate, ChannelTimeMap, Overlay
 from truck_blowout_sim.diagnosis.runs import Run
 from truck_blowout_sim.diagnosis.study import Study, row_ranges
@@ -104,8 +105,8 @@ def candidates(found: Found) -> tuple[Candidate, ...]:
     for ranked, reason in found.tried[:25]:
         h = ranked.hypothesis
         amount = h.effect.amount
-        low, high = sorted((amount.report(h.amount - 1.645 * ranked.sigma),
-                            amount.report(h.amount + 1.645 * ranked.sigma)))
+        low, high = sorted((amount.report(h.amount - NINETY * ranked.sigma),
+                            amount.report(h.amount + NINETY * ranked.sigma)))
         result.append(Candidate(
             name=h.effect.name, where=h.place, delta_chi2=ranked.delta,
             accepted=h.key in named, aliased=h.key in aliased,

@@ -20,12 +20,12 @@ from numpy.typing import NDArray
 from truck_blowout_sim.diagnosis.attribute import Ranked
 from truck_blowout_sim.diagnosis.event_fit import event_columns, event_information, runs_with
 from truck_blowout_sim.diagnosis.hypothesis import Hypothesis
+from truck_blowout_sim.diagnosis.quantiles import NINETY
 from truck_blowout_sim.diagnosis.result_parts import Interval
 from truck_blowout_sim.diagnosis.runs import Run
 from truck_blowout_sim.diagnosis.study import Study
 
 Floats = NDArray[np.float64]
-_NINETY = 1.645
 _GRID_SIGMA_S = 0.02  # the descent stops where half a unit of the sum of squares is left
 _OPEN = 0.25  # share of a run's length from which on nothing is known of an instant
 
@@ -66,6 +66,6 @@ def _timing(run: Run, event: Hypothesis, covariance: Floats) -> Timing:
 
 def _interval(value: float, variance: float, run: Run) -> Interval:
     """90 % about a value, open where the data say nothing."""
-    wide = _NINETY * float(np.sqrt(variance + _GRID_SIGMA_S**2))
+    wide = NINETY * float(np.sqrt(variance + _GRID_SIGMA_S**2))
     wide = wide if wide < _OPEN * run.length_s else float("inf")
     return value - wide, value + wide

@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 
 from truck_blowout_sim.diagnosis.attribute import score_channel
 from truck_blowout_sim.diagnosis.hypothesis import Hypothesis
-from truck_blowout_sim.diagnosis.profile import NINETY
+from truck_blowout_sim.diagnosis.quantiles import NINETY
 from truck_blowout_sim.diagnosis.runs import Run
 from truck_blowout_sim.diagnosis.study import Study
 from truck_blowout_sim.diagnosis.trust import BRAKES_ON_PA

@@ -84,9 +84,9 @@ class Score:
     delta: float
 
 
-def score(projector: Projector, residual: Floats, removed: Floats, column: Floats,
-          low: float = -np.inf, high: float = np.inf) -> Score:
-    """Score of a candidate column; ``removed`` is ``projector.remove(residual)``.
+def score(projector: Projector, removed: Floats, column: Floats, low: float = -np.inf,
+          high: float = np.inf) -> Score:
+    """Score of a candidate column; ``removed`` is what :meth:`Projector.remove` leaves.
 
     The amount is limited to [low, high]; the fall is that of the limited amount.
     """

@@ -17,7 +17,8 @@ from truck_blowout_sim.diagnosis.law import Law
 from truck_blowout_sim.diagnosis.locate import Wrenches
 from truck_blowout_sim.diagnosis.next_test import Separation
 from truck_blowout_sim.diagnosis.posture import Posture
-from truck_blowout_sim.diagnosis.profile import NINETY, Arms
+from truck_blowout_sim.diagnosis.profile import Arms
+from truck_blowout_sim.diagnosis.quantiles import NINETY
 from truck_blowout_sim.diagnosis.restless import Restless
 from truck_blowout_sim.diagnosis.result import (
     AliasSet,

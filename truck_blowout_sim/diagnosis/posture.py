@@ -21,7 +21,7 @@ import numpy as np
 
 from truck_blowout_sim.diagnosis.attribute import score_channel
 from truck_blowout_sim.diagnosis.hypothesis import Hypothesis
-from truck_blowout_sim.diagnosis.profile import NINETY
+from truck_blowout_sim.diagnosis.quantiles import NINETY
 from truck_blowout_sim.diagnosis.study import Study
 
 _ANGLES = {"roll": ("right", "left"), "pitch": ("nose", "tail")}  # lower where it is positive

@@ -22,11 +22,11 @@ from numpy.typing import NDArray
 
 from truck_blowout_sim.diagnosis.attribute import Ranked
 from truck_blowout_sim.diagnosis.hypothesis import Hypothesis
+from truck_blowout_sim.diagnosis.quantiles import NINETY
 from truck_blowout_sim.diagnosis.refit import chi2_of, models_at
 from truck_blowout_sim.diagnosis.study import Study, row_ranges
 
 Floats = NDArray[np.float64]
-NINETY = 1.645
 _RISE = NINETY**2
 _DOUBLINGS, _ROUNDS = 5, 4
 _CLOSE = 0.02  # of the rise sought

@@ -66,7 +66,7 @@ def refit(study: Study, start: Ranked, chi2_null: float,
         ahead = models_at(study, [start.hypothesis.at(value + step)], named)[0]
         column = study.stack({i: study.runs[i].change(ahead[i], model[i]) for i in study.train})
         residual = study.residual(model)
-        found = score(projector, residual, projector.remove(residual), column / step,
+        found = score(projector, projector.remove(residual), column / step,
                       amount.low - value, amount.high - value)
         sigma = found.sigma
         value, fall, model, moved = _advance(study, projector, start.hypothesis, named, chi2_null,

@@ -58,11 +58,10 @@ def scan(study: Study, projector: Projector, effect: Effect, place: Place,
             jobs.append(study.job(run, truck, trial))
             keys.append((i, k))
     results = dict(zip(keys, study.simulate(jobs), strict=True))
-    residual = study.residual()
-    removed = projector.remove(residual)
+    removed = projector.remove(study.residual())
     best: Ranked | None = None
     for sign in (1.0, -1.0):
-        found = _best_of_sign(study, projector, effect, place, results, residual, removed, sign)
+        found = _best_of_sign(study, projector, effect, place, results, removed, sign)
         if best is None or found.delta > best.delta:
             best = found
     assert best is not None
@@ -70,22 +69,22 @@ def scan(study: Study, projector: Projector, effect: Effect, place: Place,
 
 
 def _best_of_sign(study: Study, projector: Projector, effect: Effect, place: Place,
-                  results: Mapping[tuple[int, int], Floats], residual: Floats, removed: Floats,
-                  sign: float) -> Ranked:
+                  results: Mapping[tuple[int, int], Floats], removed: Floats, sign: float
+                  ) -> Ranked:
     """Choose the instants for a positive or a negative amount, run by run, then join them."""
     low = max(effect.amount.low, 0.0) if sign > 0 else effect.amount.low
     high = effect.amount.high if sign > 0 else min(effect.amount.high, 0.0)
     times: dict[str, tuple[float, float]] = {}
-    total: Floats = np.zeros(residual.size)
+    total: Floats = np.zeros(removed.size)
     for i in study.train:
         run = study.runs[i]
         grid, single = _responses(study, effect, i, results)
-        delta, span, column = _best_span(study, projector, effect, i, grid, single, residual,
-                                         removed, low, high)
+        delta, span, column = _best_span(study, projector, effect, i, grid, single, removed, low,
+                                         high)
         if delta > 4.0:
             times[run.recording.name] = span
             total = total + study.stack({i: column})
-    found = score(projector, residual, removed, total, low, high)
+    found = score(projector, removed, total, low, high)
     return Ranked(Hypothesis(effect, place, found.amount, times), found.delta, found.sigma,
                   evidence=found.delta)
 
@@ -123,7 +122,7 @@ def bins_between(effect: Effect, run: Run, bin_s: float) -> range:
 
 
 def _best_span(study: Study, projector: Projector, effect: Effect, i: int, grid: Floats,
-               single: Sequence[Floats], residual: Floats, removed: Floats, low: float, high: float
+               single: Sequence[Floats], removed: Floats, low: float, high: float
                ) -> tuple[float, tuple[float, float], Floats]:
     """Best instant (or interval, for pulses) in one run."""
     rows = row_ranges(study)[i]

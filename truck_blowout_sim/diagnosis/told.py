@@ -13,7 +13,8 @@ from truck_blowout_sim.diagnosis import words
 from truck_blowout_sim.diagnosis.attribute import Ranked
 from truck_blowout_sim.diagnosis.effects.base import Amount
 from truck_blowout_sim.diagnosis.intervals import Timing
-from truck_blowout_sim.diagnosis.profile import NINETY, Arms
+from truck_blowout_sim.diagnosis.profile import Arms
+from truck_blowout_sim.diagnosis.quantiles import NINETY
 from truck_blowout_sim.diagnosis.result import AliasSet, Effect, Parameter, Place
 from truck_blowout_sim.diagnosis.result_parts import Interval
 from truck_blowout_sim.diagnosis.sensors import SensorFinding

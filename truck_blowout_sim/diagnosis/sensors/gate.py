@@ -14,6 +14,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from truck_blowout_sim.diagnosis.quantiles import NINETY
 from truck_blowout_sim.diagnosis.sensors.case import Case, make_case, undone
 from truck_blowout_sim.diagnosis.sensors.findings import Amount, GateResult, SensorFinding
 from truck_blowout_sim.diagnosis.sensors.geometry import Geometry
@@ -26,7 +27,6 @@ from truck_blowout_sim.recordings import Recording
 
 FloatArray = NDArray[np.float64]
 
-_Z90 = 1.645
 
 
 def sensor_gate(
@@ -89,7 +89,7 @@ def _finding(found: Found, *, knows_roll: bool) -> SensorFinding:
     sigmas = np.sqrt(np.diag(found.covariance))
     shown = determined(found.amounts, sigmas)
     parameters = {
-        name: Amount(value, unit, (value - _Z90 * sigma, value + _Z90 * sigma))
+        name: Amount(value, unit, (value - NINETY * sigma, value + NINETY * sigma))
         for k, ((name, unit), value, sigma) in enumerate(
             zip(distortion.parameters, found.amounts, sigmas.tolist(), strict=True)
         )
@@ -136,7 +136,7 @@ def _mounting(case: Case, result: SearchResult) -> Mapping[str, Amount]:
             value = float(result.usual[k])
             label = f"{item.distortion.name} of {item.distortion.instrument} ({name})"
             sigma = min(usual, float(result.usual_sigma[k]))
-            out[label] = Amount(value, unit, (value - _Z90 * sigma, value + _Z90 * sigma))
+            out[label] = Amount(value, unit, (value - NINETY * sigma, value + NINETY * sigma))
             k += 1
     return out
 

@@ -23,6 +23,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.stats import norm
 
+from truck_blowout_sim.diagnosis.quantiles import NINETY
 from truck_blowout_sim.diagnosis.sensors.distortions import Bias
 from truck_blowout_sim.diagnosis.sensors.findings import Amount, SensorFinding, SteeringZero
 from truck_blowout_sim.diagnosis.sensors.identities import channel_names
@@ -124,7 +125,7 @@ def _judge(
 def _finding(offset: float, sigma: float) -> SensorFinding:
     distortion = Bias("steering_angle_offset", "", "hand wheel", (_WHEEL,), "offset", "rad")
     aliases = ("steering_angle_offset", "axle_misalignment")
-    half = 1.645 * sigma
+    half = NINETY * sigma
     return SensorFinding(
         name="steering_angle_offset",
         body="tractor",

@@ -9,6 +9,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from truck_blowout_sim.diagnosis.quantiles import NINETY
 from truck_blowout_sim.diagnosis.sensors.distortions import Distortion
 
 _EQUATIONS = {
@@ -89,4 +90,4 @@ def _shown(value: float, sigma: float, unit: str) -> str:
         "rad/s": (float(np.degrees(1.0)), "deg/s"), "rad": (float(np.degrees(1.0)), "deg"),
         "1": (100.0, "%"), "s": (1000.0, "ms"), "m": (1.0, "m"),
     }[unit]  # fmt: skip
-    return f"{factor * value:.3g} {name} (90 %: +-{1.645 * factor * sigma:.2g})"
+    return f"{factor * value:.3g} {name} (90 %: +-{NINETY * factor * sigma:.2g})"
