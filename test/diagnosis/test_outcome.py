@@ -224,6 +224,17 @@ def test_what_an_inexact_law_leaves_in_a_channel_is_no_other_effect(
     assert "moves in a way" not in told.sentence
 
 
+def test_on_a_straight_course_less_is_unknown_but_not_beside_a_faulty_instrument(
+    calm: Study,
+) -> None:
+    calm.calm = 0.5
+    left = 0.7 * calm.settings.unknown_delta * calm.demand + 2.0 * wrench(0.0).degrees
+    assert decide(material(calm, unnamed=left)) == "unknown"
+    assert decide(material(calm, faults=1, unnamed=left)) == "sensor_artefact"
+    calm.calm = 1.0
+    assert decide(material(calm, unnamed=left)) == "consistent"
+
+
 def test_what_is_unknown_is_to_be_looked_for(calm: Study) -> None:
     told = answer(material(calm, unnamed=1e5))
     assert told.verdict == "unknown"

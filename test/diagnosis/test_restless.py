@@ -4,12 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
+from types import SimpleNamespace
+from typing import cast
 
 import numpy as np
 import pytest
 
+from truck_blowout_sim.diagnosis.diagnose import _material
+from truck_blowout_sim.diagnosis.judging import Found
 from truck_blowout_sim.diagnosis.restless import restless
 from truck_blowout_sim.diagnosis.runs import Run
+from truck_blowout_sim.diagnosis.sensors import GateResult
 from truck_blowout_sim.diagnosis.settings import load_settings
 from truck_blowout_sim.diagnosis.study import Study
 from truck_blowout_sim.vehicle import Packed
@@ -65,3 +70,15 @@ def test_every_limit_is_beyond_the_width_that_is_usually_filled(truck: Packed) -
     limits = [rule.most for rule in rules.values() if np.isfinite(rule.most)]
     assert limits
     assert min(limits) ** 2 > 2.0 * load_settings(truck).expected_level
+
+
+@pytest.mark.parametrize("faults", [0, 1])
+def test_beside_a_faulty_instrument_no_stand_and_no_unrest_is_asked_for(
+    study_of: Studies, faults: int
+) -> None:
+    study = with_swing(study_of(baseline=True), "train")
+    found = Found(models_null=list(study.models))
+    gate = cast(GateResult, SimpleNamespace(findings=("a faulty gyro",) * faults, notes=()))
+    told = _material(study, found, gate, "a truck", (False, False), None)
+    assert (told.restless is None) == bool(faults)
+    assert told.posture is None

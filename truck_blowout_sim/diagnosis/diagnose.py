@@ -137,6 +137,7 @@ def _material(study: Study, found: Found, gate: GateResult, vehicle: str,
               asked: tuple[bool, bool], progress: Progress | None) -> Material:
     """Everything else an answer needs, once the search has ended; ``asked``: profile, next run."""
     profile, next_run = asked
+    sound = not gate.findings  # what was corrected shows no more how a body stands or moves
     named = [r.hypothesis for r in found.named]
     before = _wrenches(study, found.models_null, (), progress)
     after = _wrenches(study, study.models, named, progress) if named else before
@@ -146,8 +147,8 @@ def _material(study: Study, found: Found, gate: GateResult, vehicle: str,
     material = Material(study, found, gate, before, after, law, _timings(study, found), vehicle,
                         _separation(study, found, progress) if next_run else None,
                         _arms(study, found, progress) if profile else {}, find_beat(study, named),
-                        lagging_wheel(study, named), turned_body(study, named),
-                        restless(study, named))
+                        lagging_wheel(study, named), turned_body(study, named) if sound else None,
+                        restless(study, named) if sound else None)
     if unexplained(material):
         material = replace(material, law=checked(study, law, named))
     return material

@@ -129,8 +129,7 @@ def _stands_turned(material: Material) -> bool:
 def _moves_on(material: Material) -> bool:
     """Whether more is left of one channel than everything named explains of all."""
     moving = material.restless
-    return (moving is not None and not material.gate.findings
-            and moving.evidence > _bought(material))
+    return moving is not None and moving.evidence > _bought(material)
 
 
 def unexplained(material: Material) -> bool:
@@ -140,9 +139,10 @@ def unexplained(material: Material) -> bool:
     bought = _bought(material)
     unnamed = max((w.delta - 2.0 * w.degrees for w in material.unnamed), default=0.0)
     excess = found.chi2_after + bought - rules.expected_level * rows
-    demand = material.study.demand
+    demand, calm = material.study.demand, material.study.calm
     left = found.chi2_after > rules.unknown_level * demand * rows
-    needed = rules.unknown_delta * demand * material.study.calm
+    # a faulty instrument, once corrected, leaves more of itself than two models differ by
+    needed = rules.unknown_delta * demand * (1.0 if material.gate.findings else calm)
     return (left and bought < 0.5 * excess) or unnamed > max(needed, bought)
 
 

@@ -7,7 +7,7 @@ or broke, a frame that bent. No known effect turns a body without the forces tha
 
 References: score test of `linear.py`.
 Known limits: without baseline runs a lean is how the instrument is mounted, and nothing is said;
-angles that were not recorded show none.
+angles that were not recorded show none; nothing is asked where an instrument was found faulty.
 Validated with: test/diagnosis/test_posture.py (a body that leans is named, and by how much).
 """
 
