@@ -125,7 +125,7 @@ def check(spec: CaseSpec) -> CaseSpec:
     _names("train", spec.train + spec.baseline + spec.holdout, MANOEUVRES)
     _names("faults", [fault.name for fault in spec.faults], FAULTS)
     _names("effects", [effect.name for effect in spec.effects], {**LISTED, **UNLISTED})
-    _names("without", spec.without, LISTED | dict.fromkeys(sum(FAMILIES.values(), ())))
+    _names("without", spec.without, dict.fromkeys(n for names in FAMILIES.values() for n in names))
     if not spec.train or not spec.holdout:
         raise ValueError("train and holdout: at least one manoeuvre each")
     return spec

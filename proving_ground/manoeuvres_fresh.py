@@ -18,41 +18,46 @@ def _bumps(at_s: tuple[float, ...], width_s: float, amplitudes_rad: tuple[float,
     return program
 
 
+def _hook(kind: str, speed: float, times_s: tuple[float, ...], first: float, second: float
+          ) -> Manoeuvre:
+    """Steered to one side by the first angle, then to the other by the second, which is held."""
+    return Manoeuvre(kind, "steered to one side, then to the other and held", speed, 12.0,
+                     through(times_s, (0.0, first, first, -second)), (2.4, 1.0e9))
+
+
+def _two_bends(kind: str, speed: float, angle: float, times_s: tuple[float, ...]) -> Manoeuvre:
+    """Into one bend and through it, over into the other, and out."""
+    return Manoeuvre(kind, "through two bends", speed, 13.0,
+                     through(times_s, (0.0, angle, angle, -angle, -angle, 0.0)), (1.7, 1.0e9))
+
+
 def fishhook(rng: np.random.Generator) -> Manoeuvre:
     """A quick steer to one side, then to the other, which is held."""
     speed, dwell = mph(rng, 28, 36), float(rng.uniform(0.6, 1.2))
     angle = sign_of(rng) * float(rng.uniform(1.3, 1.9)) * (14.0 / speed) ** 2
     turn = 3.1 + dwell
-    return Manoeuvre("fishhook", "steered to one side, then to the other and held", speed, 12.0,
-                     through((2.5, 3.1, turn, turn + 1.2), (0.0, angle, angle, -angle)),
-                     (2.4, 1.0e9))
+    return _hook("fishhook", speed, (2.5, 3.1, turn, turn + 1.2), angle, angle)
 
 
 def hard_fishhook(rng: np.random.Generator) -> Manoeuvre:
     """The same until the truck corners hard."""
     speed = mph(rng, 29, 35)
     angle = sign_of(rng) * float(rng.uniform(3.6, 4.1)) * (13.0 / speed) ** 2
-    return Manoeuvre("hard_fishhook", "steered to one side, then to the other and held", speed,
-                     12.0, through((2.5, 3.4, 4.4, 6.4), (0.0, 0.8 * angle, 0.8 * angle, -angle)),
-                     (2.4, 1.0e9))
+    return _hook("hard_fishhook", speed, (2.5, 3.4, 4.4, 6.4), 0.8 * angle, angle)
 
 
 def s_bend(rng: np.random.Generator) -> Manoeuvre:
     """Through a bend to one side and one to the other."""
     speed = mph(rng, 34, 44)
     angle = sign_of(rng) * float(rng.uniform(1.2, 1.7)) * (16.0 / speed) ** 2
-    return Manoeuvre("s_bend", "through two bends", speed, 13.0,
-                     through((1.8, 3.2, 5.2, 8.0, 10.0, 11.4),
-                             (0.0, angle, angle, -angle, -angle, 0.0)), (1.7, 1.0e9))
+    return _two_bends("s_bend", speed, angle, (1.8, 3.2, 5.2, 8.0, 10.0, 11.4))
 
 
 def hard_s_bend(rng: np.random.Generator) -> Manoeuvre:
     """Through two narrow bends, fast."""
     speed = mph(rng, 31, 37)
     angle = sign_of(rng) * float(rng.uniform(3.3, 3.7)) * (14.0 / speed) ** 2
-    return Manoeuvre("hard_s_bend", "through two bends", speed, 13.0,
-                     through((1.8, 3.6, 5.2, 8.4, 10.0, 11.6),
-                             (0.0, angle, angle, -angle, -angle, 0.0)), (1.7, 1.0e9))
+    return _two_bends("hard_s_bend", speed, angle, (1.8, 3.6, 5.2, 8.4, 10.0, 11.6))
 
 
 def stairs_steer(rng: np.random.Generator) -> Manoeuvre:

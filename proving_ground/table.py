@@ -89,8 +89,8 @@ class Table:
         listed, unlisted, faults = list(LISTED), list(UNLISTED), list(FAULTS)
         rows = [self._null(i) for i in range(counts.null)]
         for i in range(counts.single):
-            sigma = self._sigmas[(i // len(listed) + i) % len(self._sigmas)]
-            rows.append(self._physics("single", [listed[i % len(listed)]], sigma))
+            rows.append(self._physics("single", [listed[i % len(listed)]],
+                                      self._turn(i, len(listed))))
         for i in range(counts.pair):
             first = listed[(3 * i) % len(listed)]
             second = listed[(3 * i + 5 + i // len(listed)) % len(listed)]
@@ -139,16 +139,20 @@ class Table:
         blind = names == ["secondary_blowout"] and self._seed % 2 == 0
         return self._build(group, effects[0].kind.needs, effects, blind=blind)
 
+    def _turn(self, number: int, count: int) -> float:
+        """The severity whose turn it is, shifted by one each time all names have been met."""
+        return self._sigmas[(number // count + number) % len(self._sigmas)]
+
     def _unknown(self, number: int, names: list[str]) -> CaseSpec:
         """An effect that no list ever held."""
-        sigma = max(self._sigmas[(number // len(names) + number) % len(self._sigmas)], 10.0)
+        sigma = max(self._turn(number, len(names)), 10.0)
         return self._physics("unknown", [names[number % len(names)]], sigma)
 
     def _taken_out(self, number: int) -> CaseSpec:
         """An effect whose whole family the diagnosis must do without."""
         family = list(FAMILIES.values())[number % len(FAMILIES)]
         listed = [name for name in family if name in LISTED]
-        sigma = max(self._sigmas[(number // len(FAMILIES) + number) % len(self._sigmas)], 10.0)
+        sigma = max(self._turn(number, len(FAMILIES)), 10.0)
         case = self._physics("unknown", [listed[(number // len(FAMILIES)) % len(listed)]], sigma)
         return replace(case, without=family)
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from proving_ground.effects.base import Active, EffectKind, Place
 from proving_ground.effects.brakes import BRAKES
-from proving_ground.effects.families import FAMILIES, family_of
+from proving_ground.effects.families import FAMILIES
 from proving_ground.effects.outside import OUTSIDE
 from proving_ground.effects.running_gear import RUNNING_GEAR
 from proving_ground.effects.tires import TIRES_EFFECTS
@@ -18,4 +18,4 @@ LISTED: dict[str, EffectKind] = {
     kind.name: kind for kind in (*TIRES_EFFECTS, *RUNNING_GEAR, *BRAKES, *OUTSIDE)
 }
 
-__all__ = ["FAMILIES", "LISTED", "UNLISTED", "Active", "EffectKind", "Place", "family_of"]
+__all__ = ["FAMILIES", "LISTED", "UNLISTED", "Active", "EffectKind", "Place"]

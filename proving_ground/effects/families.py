@@ -17,8 +17,3 @@ FAMILIES: dict[str, tuple[str, ...]] = {
     "grip": ("tire_saturation", "friction_change", "tire_relaxation"),
     "the coupling": ("fifth_wheel_friction",),
 }
-
-
-def family_of(name: str) -> tuple[str, ...]:
-    """All names of the family that a listed effect belongs to."""
-    return next(names for names in FAMILIES.values() if name in names)

@@ -62,7 +62,8 @@ def test_hard_turns_are_allowed_more(study_of: Studies) -> None:
     harder = replace(study)
     harder.demand = 4.0 * study.demand
     allowed = restless(harder, [])
-    assert allowed is None or allowed.usual == pytest.approx(2.0 * found.usual)
+    assert allowed is not None
+    assert allowed.usual == pytest.approx(2.0 * found.usual)
 
 
 def test_every_limit_is_beyond_the_width_that_is_usually_filled(truck: Packed) -> None:

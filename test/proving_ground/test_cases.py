@@ -11,7 +11,7 @@ from typer.testing import CliRunner
 import proving_ground
 from proving_ground.__main__ import app
 from proving_ground.cases import CaseSpec, EffectSpec, read_case, write_case
-from proving_ground.effects import FAMILIES, LISTED, UNLISTED, family_of
+from proving_ground.effects import FAMILIES, LISTED, UNLISTED
 from proving_ground.generate import generate, interleaved, pending
 from proving_ground.seal import broken_seals, write_manifest
 from proving_ground.table import SETS, Table, cases_of
@@ -157,7 +157,7 @@ def test_case_is_made_once_and_the_same_each_time(tmp_path: Path) -> None:
 
 
 def test_a_case_says_what_the_diagnosis_must_do_without(tmp_path: Path) -> None:
-    spec = replace(SMALL, id="small-3", group="unknown", without=family_of("blown_tire_drag"))
+    spec = replace(SMALL, id="small-3", group="unknown", without=FAMILIES["the flat tire"])
     list(generate([spec], tmp_path, 1))
     told = json.loads((tmp_path / "cases" / "small-3" / "library.json").read_text("utf-8"))
     assert told == {"without": list(spec.without)}

@@ -73,8 +73,8 @@ class Material:
     @property
     def signs(self) -> tuple[words.Sign, ...]:
         """What shows beside a force."""
-        moving = self.restless if _moves_on(self) else None
-        return tuple(one for one in (self.beat, self.lag, self.posture, moving) if one is not None)
+        shown = (self.beat, self.lag, self.posture, _moving_on(self))
+        return tuple(one for one in shown if one is not None)
 
 
 def answer(material: Material) -> Diagnosis:
@@ -104,8 +104,8 @@ def decide(material: Material) -> Verdict:
     """Which of the five verdicts the evidence supports."""
     found, gate = material.found, material.gate
     physics = [r for r in found.named if r.hypothesis.effect.kind == "physics"]
-    if unexplained(material) or any(sign(material) for sign in (
-            _beats, _stands_turned, _moves_on)) or material.lag:
+    if (unexplained(material) or _beats(material) or _stands_turned(material)
+            or _moving_on(material) or material.lag):
         return "unknown"
     if physics:
         return "missing_physics"
@@ -126,10 +126,10 @@ def _stands_turned(material: Material) -> bool:
     return posture is not None and posture.evidence > _LEFT_BY_LAW * _bought(material)
 
 
-def _moves_on(material: Material) -> bool:
-    """Whether more is left of one channel than everything named explains of all."""
+def _moving_on(material: Material) -> Restless | None:
+    """The restless channel, if more is left of it than everything named explains of all."""
     moving = material.restless
-    return moving is not None and moving.evidence > _bought(material)
+    return moving if moving is not None and moving.evidence > _bought(material) else None
 
 
 def unexplained(material: Material) -> bool:
@@ -181,9 +181,8 @@ def locate(material: Material) -> Location:
         return Location(channels=channels)
     # along the course both bodies move as one: what turns or beats says which it is, or what was
     # named, by its wheels
-    shown: list[str | None] = [one.body for one in (material.posture, material.beat) if one]
-    if material.restless and _moves_on(material):
-        shown.append(material.restless.body)
+    shown: list[str | None] = [
+        one.body for one in (material.posture, material.beat, _moving_on(material)) if one]
     bodies = shown or [r.hypothesis.place.body for r in material.found.named[:1]]
     best = max(material.wrenches, key=lambda w: (w.history.body in bodies, w.delta))
     history = best.history

@@ -182,7 +182,7 @@ def load_settings(packed: Packed, name: str = "default") -> Settings:
     nuisances += _brake_gains(packed, _number(path, "brake_gain_sigma", tree["brake_gain_sigma"],
                                               "value"))
     method: dict[str, Any] = {key: _number(path, f"method.{key}", entry, "value")
-              for key, entry in tree["method"].items()}
+                              for key, entry in tree["method"].items()}
     channels = {key: _rule(path, key, entry) for key, entry in tree["channels"].items()}
     harder = {key: _number(path, f"harder.{key}", entry, "delta")
               for key, entry in tree.get("harder", {}).items()}

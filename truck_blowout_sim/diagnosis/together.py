@@ -60,7 +60,7 @@ def _columns(study: Study, hypotheses: Sequence[Hypothesis], models: Mapping[int
     steps = [difference_step(h.effect.amount.step, h.amount, h.effect.amount.low,
                              h.effect.amount.high) for h in hypotheses]
     ahead = models_of(study, [[h.at(h.amount + step) if j == k else h
-                             for j, h in enumerate(hypotheses)] for k, step in enumerate(steps)])
+                               for j, h in enumerate(hypotheses)] for k, step in enumerate(steps)])
     return np.stack([study.stack({i: study.runs[i].change(one[i], models[i])
                                   for i in study.train}) / step
                      for one, step in zip(ahead, steps, strict=True)], axis=1)

@@ -57,15 +57,19 @@ def demand(recordings: Sequence[Recording], unit: str, settings: Settings) -> fl
 
     Near the limit each model's tire has its own curve.
     """
-    hardest = max((_hardest_mps2(recording, unit) for recording in recordings), default=0.0)
+    hardest = _hardest_of_all_mps2(recordings, unit)
     return 1.0 + settings.hard_demand_s2pm * max(hardest - settings.hard_from_mps2, 0.0)
 
 
 def calm(recordings: Sequence[Recording], unit: str, settings: Settings) -> float:
     """Share of what a force that nothing explains must buy, by the hardest turn of all."""
-    hardest = max((_hardest_mps2(recording, unit) for recording in recordings), default=0.0)
+    hardest = _hardest_of_all_mps2(recordings, unit)
     least = settings.calm_share
     return min(least + (1.0 - least) * hardest / settings.calm_below_mps2, 1.0)
+
+
+def _hardest_of_all_mps2(recordings: Sequence[Recording], unit: str) -> float:
+    return max((_hardest_mps2(recording, unit) for recording in recordings), default=0.0)
 
 
 def _hardest_mps2(recording: Recording, unit: str) -> float:

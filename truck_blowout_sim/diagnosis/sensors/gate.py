@@ -27,8 +27,6 @@ from truck_blowout_sim.recordings import Recording
 
 FloatArray = NDArray[np.float64]
 
-
-
 def sensor_gate(
     recordings: Sequence[Recording],
     baseline: Sequence[Recording] = (),
