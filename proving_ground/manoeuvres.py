@@ -10,6 +10,7 @@ from collections.abc import Callable
 
 import numpy as np
 
+from proving_ground import manoeuvres_fourth as fourth
 from proving_ground import manoeuvres_fresh as fresh
 from proving_ground import manoeuvres_more as more
 from proving_ground.task import Braking, Manoeuvre, Program
@@ -217,10 +218,15 @@ MANOEUVRES: dict[str, Maker] = {maker.__name__: maker for maker in (
     more.braking_release, more.blowout_hold, more.blowout_coast, fresh.fishhook,
     fresh.hard_fishhook, fresh.s_bend, fresh.hard_s_bend, fresh.stairs_steer, fresh.pulse_steer,
     fresh.small_pulses, fresh.roll_out, fresh.dab_and_roll, fresh.braking_swap,
-    fresh.braking_growing, fresh.blowout_slow_hands, fresh.blowout_dab)}
+    fresh.braking_growing, fresh.blowout_slow_hands, fresh.blowout_dab, fourth.tightening_turn,
+    fourth.hard_tightening, fourth.swerve_and_return, fourth.hard_swerve, fourth.lift_in_turn,
+    fourth.growing_triangles, fourth.slow_drift, fourth.dragging_brake, fourth.roll_and_dabs,
+    fourth.braking_taper, fourth.braking_added, fourth.blowout_pull_over,
+    fourth.blowout_quick_hands)}
 _WITH_BLOWOUT = {maker.__name__: maker for maker in (
     blowout, blowout_free, blowout_brake, more.blowout_hold, more.blowout_coast,
-    fresh.blowout_slow_hands, fresh.blowout_dab)}
+    fresh.blowout_slow_hands, fresh.blowout_dab, fourth.blowout_pull_over,
+    fourth.blowout_quick_hands)}
 
 
 def make(kind: str, seed: int, tires: tuple[str, ...] = ("steer_left",)) -> Manoeuvre:

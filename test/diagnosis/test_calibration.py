@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 import numpy as np
 import pytest
 
-from truck_blowout_sim.diagnosis.study import Study
+from truck_blowout_sim.diagnosis.study import Study, build_columns
 from truck_blowout_sim.vehicle import Packed
 
 Studies = Callable[..., Study]
@@ -42,6 +42,30 @@ def test_moving_the_reference_explains_no_worse_than_the_columns(
     assert per_row < 1.1
     clean = study.residual() - study.columns @ np.array([posterior(study)[n] for n in study.names])
     assert np.sqrt(np.mean(clean**2)) < 1.1
+
+
+def test_sensitivities_are_those_of_the_truck_that_baseline_runs_show(study_of: Studies) -> None:
+    study = study_of(baseline=True)
+    assert max(abs(amount) for amount in study.amounts.values()) > 0.1
+    before = study.columns
+    build_columns(study)
+    np.testing.assert_allclose(study.columns, before, atol=1e-9)
+
+
+def test_a_sensitivity_counts_in_sigmas_of_the_sheet_wherever_the_truck_is(
+    study_of: Studies, truck: Packed
+) -> None:
+    study, name, here, little = study_of(), "trailer_mass", 4.0, 0.5
+    number = next(n for n in study.settings.nuisances if n.name == name)
+    study.packed = truck.with_values(number.values(truck, here * number.sigma))
+    study.amounts = {name: here}
+    study.update_models()
+    build_columns(study)
+    run = study.runs[0]
+    near = truck.with_values(number.values(truck, (here + little) * number.sigma))
+    change = run.change(run.simulated(near), study.models[0])
+    column = study.columns[:run.measured.size, study.names.index(name)]
+    assert np.linalg.norm(change - little * column) < 0.02 * np.linalg.norm(change)
 
 
 def test_only_baseline_runs_say_what_is_usual(study_of: Studies, truck: Packed) -> None:

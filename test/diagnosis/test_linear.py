@@ -155,3 +155,21 @@ def test_posterior_of_the_nuisances_covers_what_they_were() -> None:
     for k in range(spread.size):
         hits = int((np.abs(errors[:, k]) < 1.645 * spread[k]).sum())
         assert binomtest(hits, len(errors), 0.9).pvalue > 1e-3
+
+
+@FEW
+@given(st.integers(0, 10_000), st.floats(0.01, 3.0))
+def test_bounded_amounts_keep_their_bounds_and_the_others_are_best_given_them(
+    seed: int, bound: float
+) -> None:
+    nuisances, _, residual = problem(seed, k=6)
+    projector = Projector.of(nuisances)
+    limit = np.full(6, bound)
+    found = projector.amounts_within(residual, -limit, limit)
+    assert np.all(np.abs(found) <= bound * (1.0 + 1e-9))
+    slope = found - nuisances.T @ (residual - nuisances @ found)
+    inside = np.abs(found) < bound * (1.0 - 1e-9)
+    scale = 1.0 + np.linalg.norm(nuisances, axis=0) * np.linalg.norm(residual)
+    np.testing.assert_allclose((slope / scale)[inside], 0.0, atol=1e-7)
+    free = projector.amounts_within(residual, -1e6 * limit, 1e6 * limit)
+    np.testing.assert_allclose(free, projector.amounts(residual), rtol=1e-9)

@@ -49,7 +49,7 @@ def predict(study: Study, residual: Floats, named: Sequence[Hypothesis]
     """
     projector, kept = study.projector(named), study.kept(named)
     usual = np.array([study.expected(study.names[k]) for k in kept])
-    amounts = np.clip(projector.amounts(residual), usual - FURTHEST, usual + FURTHEST)
+    amounts = projector.amounts_within(residual, usual - FURTHEST, usual + FURTHEST)
     spread = cholesky(projector.covariance() + 1e-12 * np.eye(amounts.size), lower=True)
     found = []
     for run, every, null in zip(study.holdout, study.holdout_columns, study.holdout_models,

@@ -56,6 +56,23 @@ class Projector:
         """Posterior mean of the nuisances, in prior sigmas."""
         return np.asarray(cho_solve(self.factor, self.reach(vector)))
 
+    def amounts_within(self, vector: Floats, low: Floats, high: Floats) -> Floats:
+        """The same with each kept between bounds [m]: those at a bound stay, the others follow.
+
+        One that has reached its bound is not let go again.
+        """
+        common, held = self.reach(vector), np.zeros(self.kept.size, dtype=np.bool_)
+        found = np.asarray(cho_solve(self.factor, common))
+        upper = np.triu(self.factor[0])
+        information = upper.T @ upper
+        while np.any(beyond := ~held & ((found < low) | (found > high))):
+            held |= beyond
+            found = np.clip(found, low, high)
+            free = ~held
+            rest = common[free] - information[np.ix_(free, held)] @ found[held]
+            found[free] = np.linalg.solve(information[np.ix_(free, free)], rest)
+        return found
+
     def explained(self, amounts: Floats) -> Floats:
         """What the nuisances kept do at these amounts."""
         everything = np.zeros(self.columns.shape[1])

@@ -49,6 +49,11 @@ class Nuisance:
             return (1.0 + there * self.sigma) / least - 1.0
         return (there - here) * self.sigma
 
+    def moved(self, here: float) -> float:
+        """Amount by which ``step`` moves a truck that is at a number of prior sigmas."""
+        scale = max(1.0 + here * self.sigma, _LEAST_SCALE) if self.kind == "scale" else 1.0
+        return self.step * scale
+
     def values(self, packed: Packed, amount: float) -> Mapping[str, float]:
         """Packed parameters at an amount, starting from ``packed``."""
         if self.kind == "scale":
@@ -83,24 +88,21 @@ class Settings:
         bin_s, skip_s, correlation_s: averaging time, start left out, duration of a difference.
         accept_delta: fall of the sum of squares that a named effect must buy.
         form_share: 1 sigma of what another form of law does to an amount, as a share of it.
-        flat_braked: how much wider the difference between models is once a flat tire was braked.
-        hard_from_mps2, hard_demand_s2pm: lateral acceleration from which on more evidence is asked
-            for, and by what factor more with each 1 m/s2 beyond.
+        flat_braked: how much wider models differ once a flat tire was braked.
+        hard_from_mps2, hard_demand_s2pm: lateral acceleration from which on more evidence is asked,
+            by what factor more with each 1 m/s2.
         calm_below_mps2, calm_share: on straighter courses less than ``unknown_delta`` is asked
             for, down to that share where nothing turns.
         null_median, null_tail: best evidence where nothing is missing, as a share of what is
             needed: half of such cases reach the one, and all of what is needed the share of the
             other.
-        same_truck: share of what trucks of one kind differ by that is worth naming where baseline
-            runs show this truck.
+        same_truck: share of what trucks differ by that is worth naming beside baseline runs.
         harder: by effect, for those that what is left between good models imitates.
         forms: by effect, instead of ``form_share``, where laws of its kind differ more.
         keep_within: share of the evidence within which explanations count as aliases.
-        expected_level, unknown_level: sum of squares a row when nothing is missing, and from which
-            on something must be.
+        expected_level, unknown_level: sum of squares a row if nothing, if something is missing.
         unknown_delta: what a wrench that nothing named explains must buy to be a missing effect.
-        lag_delta: what one wheel's lag must buy to show where a drag acts; posture_delta: what a
-            body's stand must buy to be the truck's own.
+        lag_delta, posture_delta: what one wheel's lag, a body's stand must buy to be told.
         beat_turn, beat_tone: score from which on something beats once per wheel turn, or steadily.
         without: names of effects that are not considered; asked for, not read from the file.
     """

@@ -80,11 +80,12 @@ def _events(study: Study, named: Sequence[Hypothesis], chi2: float, worth: float
         if progress:
             progress("events", (k + 1) / len(tried))
     scanned.sort(key=lambda r: -r.delta)
+    large = _large(study, steady) or _large(study, scanned)
     keys: set[tuple[str, str]] = set()
     for one in scanned:
         cost = _TIMED_COST * len(one.hypothesis.times) + _TIMED_SHARE * one.delta
         # what acts only near a limit shows little to a linear scan: looked at where much is open
-        curved = bool(one.hypothesis.effect.amount.grid) and _large(study, steady) and (
+        curved = bool(one.hypothesis.effect.amount.grid) and large and (
             max((r.delta for r in found), default=0.0) < _MUCH * excess)
         among = one.hypothesis.key in keys or len(keys) < study.refits[1]
         worth = max(worth, _HALF * max((r.delta for r in found), default=0.0))
@@ -97,9 +98,9 @@ def _events(study: Study, named: Sequence[Hypothesis], chi2: float, worth: float
     return found
 
 
-def _large(study: Study, steady: Sequence[Ranked]) -> bool:
+def _large(study: Study, ranked: Sequence[Ranked]) -> bool:
     """Whether the mismatch is large enough to look where it costs more."""
-    return max((r.promise for r in steady), default=0.0) > (
+    return max((max(r.promise, r.delta) for r in ranked), default=0.0) > (
         _LARGE * study.settings.accept_delta)
 
 

@@ -76,7 +76,7 @@ class Study:
 
     @cached_property
     def demand(self) -> float:
-        """Factor on the evidence asked of what does not need hard turns to show."""
+        """Factor on the evidence asked of what shows without hard turns."""
         return demand([self.runs[i].recording for i in self.train], self.packed.vehicle.units[0],
                       self.settings)
 
@@ -123,6 +123,11 @@ class Study:
         kept: list[int] = self.projector(hypotheses).kept.tolist()
         return kept
 
+    def forget(self) -> None:
+        """Drop what was made of columns that are no longer these."""
+        self._projectors.clear()
+        self._gram = np.zeros((0, 0))
+
     def simulate(self, jobs: Sequence[tuple[Run, Packed]]) -> list[Floats]:
         """Bin means of many (run, truck) pairs."""
         self.simulations += len(jobs)
@@ -159,8 +164,7 @@ class Study:
 
     def update_models(self, trucks: Mapping[int, Packed] | None = None) -> None:
         """Simulate every run at the reference, or at the given trucks."""
-        trucks = trucks or {}
-        self.models = self.simulate([(run, trucks.get(i, self.packed))
+        self.models = self.simulate([(run, (trucks or {}).get(i, self.packed))
                                      for i, run in enumerate(self.runs)])
 
 
@@ -178,15 +182,14 @@ def build_columns(study: Study, progress: Progress | None = None) -> None:
     results = iter(_with_progress(study, jobs, "sensitivities", progress))
     blocks = []
     for k, (run, flags, base) in enumerate(zip(everything, shown, bases, strict=True)):
-        own = [run.change(next(results), base) * (n.sigma / n.step) if flag
-               else np.zeros(base.size) for n, flag in zip(sheet, flags, strict=True)]
+        own = [run.change(next(results), base) * (n.sigma / n.moved(study.amounts.get(n.name, 0.0)))
+               if flag else np.zeros(base.size) for n, flag in zip(sheet, flags, strict=True)]
         start = run.change(next(results), base) * (_START_SPEED_SIGMA_MPS / _START_SPEED_STEP_MPS)
         starts = [start if j == k else np.zeros(base.size) for j in range(len(everything))]
         blocks.append(np.stack([*own, *starts, *instrument_columns(study, run)], axis=1))
     n_runs = len(study.runs)
     study.columns = np.concatenate(blocks[:n_runs], axis=0)
-    study._projectors.clear()
-    study._gram = np.zeros((0, 0))
+    study.forget()
     study.holdout_columns = blocks[n_runs:]
     study.names = (*(n.name for n in sheet), *(f"start speed of {r.recording.name}"
                                                for r in everything), *instrument_names(study))
