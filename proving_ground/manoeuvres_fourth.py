@@ -1,4 +1,4 @@
-"""What a driver sets out to do in the present test set: kinds that nobody developed against."""
+"""Kinds of the next draw: in no set so far, so that nobody has developed against them."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Still more of what a driver can set out to do: the kinds of the third lot."""
+"""What a driver sets out to do in the present test set: kinds that nobody developed against."""
 
 from __future__ import annotations
 
