@@ -15,8 +15,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from truck_blowout_sim.diagnosis.linear import Projector
+from truck_blowout_sim.diagnosis.nuisance import Nuisance
 from truck_blowout_sim.diagnosis.runs import Run
-from truck_blowout_sim.diagnosis.settings import Nuisance
 from truck_blowout_sim.diagnosis.study import (
     FURTHEST,
     Progress,
@@ -41,8 +41,7 @@ def calibrate(study: Study, rounds: int = 2, progress: Progress | None = None) -
     Without baseline runs it stays at the sheet: nothing else tells the truck from what is missing.
     """
     warm_up(study)
-    study.update_models()
-    study.holdout_models = study.simulate([(run, study.packed) for run in study.holdout])
+    _drive_all(study)
     build_columns(study, progress)
     study.amounts = {number.name: 0.0 for number in study.settings.nuisances}
     if not study.baseline:
@@ -54,6 +53,11 @@ def calibrate(study: Study, rounds: int = 2, progress: Progress | None = None) -
                        for run, part in zip(study.runs, rows, strict=True))
     study.holdout = tuple(run.shifted(part[:, :n_sheet] @ kept)
                           for run, part in zip(study.holdout, study.holdout_columns, strict=True))
+    _drive_all(study)
+
+
+def _drive_all(study: Study) -> None:
+    """Models of all runs, holdout too, of the truck at the reference."""
     study.update_models()
     study.holdout_models = study.simulate([(run, study.packed) for run in study.holdout])
 
@@ -67,23 +71,22 @@ def _asked_for(study: Study, rounds: int) -> Floats:
     projector = Projector.of(columns)
     n_sheet = len(sheet)
     instruments = Projector.of(columns, range(n_sheet, columns.shape[1]))
+    runs = [study.runs[i] for i in study.baseline]
 
-    def left_at(amounts: Floats) -> tuple[float, Floats]:
-        truck = apply_amounts(study.packed, sheet, amounts)
-        runs = [study.runs[i] for i in study.baseline]
-        models = study.simulate([(run, truck) for run in runs])
+    def left_by(models: Sequence[Floats], amounts: Floats) -> tuple[float, Floats]:
         residual = np.concatenate([run.residual(model)
                                    for run, model in zip(runs, models, strict=True)])
         return instruments.chi2(residual) + float(amounts @ amounts), residual
 
     kept: Floats = np.zeros(n_sheet)
-    least, residual = left_at(kept)
+    least, residual = left_by([study.models[i] for i in study.baseline], kept)
     for _ in range(rounds):
         wanted = np.clip(projector.amounts(residual + columns[:, :n_sheet] @ kept)[:n_sheet],
                          -FURTHEST, FURTHEST)
         for share in _STEPS:
             tried = kept + share * (wanted - kept)
-            left, there = left_at(tried)
+            truck = apply_amounts(study.packed, sheet, tried)
+            left, there = left_by(study.simulate([(run, truck) for run in runs]), tried)
             if left < least:
                 least, kept, residual = left, tried, there
                 break
@@ -105,8 +108,7 @@ def _moved(study: Study, wanted: Floats, progress: Progress | None) -> Floats:
         kept = share * wanted
         study.packed = apply_amounts(given, sheet, kept)
         study.amounts = dict(zip((n.name for n in sheet), kept.tolist(), strict=True))
-        study.update_models()
-        study.holdout_models = study.simulate([(run, study.packed) for run in study.holdout])
+        _drive_all(study)
         build_columns(study, progress)
         shift = study.columns[:, :n_sheet] @ kept
         if Projector.of(study.columns).chi2(study.residual() + shift) < least:

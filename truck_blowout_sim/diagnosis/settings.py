@@ -11,6 +11,7 @@ from typing import Any
 
 import yaml
 
+from truck_blowout_sim.diagnosis.nuisance import Nuisance
 from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.resources import config_file
 from truck_blowout_sim.vehicle import Packed
@@ -19,47 +20,8 @@ _TOP_KEYS = {"nuisances", "brake_gain_sigma", "channels", "method"}
 _KINDS = ("scale", "add")
 _ONLY = ("", "blowout", "brakes")
 _EVENT_FACTOR = 2.0  # more that an event must bring, because its instant was searched
-_LEAST_SCALE = 0.1  # a number of the sheet never shrinks below this share
 _CHANNEL_KEYS = {"floor", "relative", "bias", "gain", "most", "source"}
 _NUISANCE_KEYS = {"kind", "sigma", "step", "sign", "targets", "opposite", "only", "source"}
-
-
-@dataclass(frozen=True)
-class Nuisance:
-    """A number of the spec sheet that strays from truck to truck.
-
-    Attributes:
-        name: of the number; ``scale`` or ``add`` says how the amount enters.
-        sigma: 1 sigma of the amount; ``step`` its finite difference.
-        targets: packed names with the factor (+1 or -1) of the amount.
-        only: kind of run that shows it, or empty.
-    """
-
-    name: str
-    kind: str
-    sigma: float
-    step: float
-    targets: tuple[tuple[str, float], ...]
-    only: str = ""
-
-    def between(self, here: float, there: float) -> float:
-        """Amount that takes a truck from one number of prior sigmas to another."""
-        if self.kind == "scale":
-            least = max(1.0 + here * self.sigma, _LEAST_SCALE)
-            return (1.0 + there * self.sigma) / least - 1.0
-        return (there - here) * self.sigma
-
-    def moved(self, here: float) -> float:
-        """Amount by which ``step`` moves a truck that is at a number of prior sigmas."""
-        scale = max(1.0 + here * self.sigma, _LEAST_SCALE) if self.kind == "scale" else 1.0
-        return self.step * scale
-
-    def values(self, packed: Packed, amount: float) -> Mapping[str, float]:
-        """Packed parameters at an amount, starting from ``packed``."""
-        if self.kind == "scale":
-            return {n: packed[n] * max(1.0 + sign * amount, _LEAST_SCALE)
-                    for n, sign in self.targets}
-        return {n: packed[n] + sign * amount for n, sign in self.targets}
 
 
 @dataclass(frozen=True)

@@ -80,7 +80,7 @@ def _events(study: Study, named: Sequence[Hypothesis], chi2: float, worth: float
         if progress:
             progress("events", (k + 1) / len(tried))
     scanned.sort(key=lambda r: -r.delta)
-    large = _large(study, steady) or _large(study, scanned)
+    large = _large(study, [*steady, *scanned])
     keys: set[tuple[str, str]] = set()
     for one in scanned:
         cost = _TIMED_COST * len(one.hypothesis.times) + _TIMED_SHARE * one.delta

@@ -162,10 +162,9 @@ class Study:
         return self.stack({i: run.residual(models.get(i, self.models[i]))
                            for i, run in enumerate(self.runs)})
 
-    def update_models(self, trucks: Mapping[int, Packed] | None = None) -> None:
-        """Simulate every run at the reference, or at the given trucks."""
-        self.models = self.simulate([(run, (trucks or {}).get(i, self.packed))
-                                     for i, run in enumerate(self.runs)])
+    def update_models(self) -> None:
+        """Simulate every run at the reference."""
+        self.models = self.simulate([(run, self.packed) for run in self.runs])
 
 
 def build_columns(study: Study, progress: Progress | None = None) -> None:

@@ -1,0 +1,49 @@
+"""A number of the spec sheet that is not known exactly, and what moving it does to a truck."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from truck_blowout_sim.vehicle import Packed
+
+_LEAST_SCALE = 0.1  # a number of the sheet never shrinks below this share
+
+
+@dataclass(frozen=True)
+class Nuisance:
+    """A number of the spec sheet that strays from truck to truck.
+
+    Attributes:
+        name: of the number; ``scale`` or ``add`` says how the amount enters.
+        sigma: 1 sigma of the amount; ``step`` its finite difference.
+        targets: packed names with the factor (+1 or -1) of the amount.
+        only: kind of run that shows it, or empty.
+    """
+
+    name: str
+    kind: str
+    sigma: float
+    step: float
+    targets: tuple[tuple[str, float], ...]
+    only: str = ""
+
+    def between(self, here: float, there: float) -> float:
+        """Amount that takes a truck from one number of prior sigmas to another."""
+        if self.kind == "scale":
+            return (1.0 + there * self.sigma) / self._scale(here) - 1.0
+        return (there - here) * self.sigma
+
+    def moved(self, here: float) -> float:
+        """Amount by which ``step`` moves a truck that is at a number of prior sigmas."""
+        return self.step * (self._scale(here) if self.kind == "scale" else 1.0)
+
+    def _scale(self, here: float) -> float:
+        return max(1.0 + here * self.sigma, _LEAST_SCALE)
+
+    def values(self, packed: Packed, amount: float) -> Mapping[str, float]:
+        """Packed parameters at an amount, starting from ``packed``."""
+        if self.kind == "scale":
+            return {n: packed[n] * max(1.0 + sign * amount, _LEAST_SCALE)
+                    for n, sign in self.targets}
+        return {n: packed[n] + sign * amount for n, sign in self.targets}
