@@ -43,6 +43,7 @@ def test_an_unknown_key_is_refused_with_its_place(refusal: Callable[[Edit], str]
     assert "channels._vx_mps" in refusal(lambda tree: tree["channels"]["_vx_mps"].update(flor=1.0))
     assert "'bin_seconds'" in refusal(
         lambda tree: tree["method"].update(bin_seconds={"value": 1.0}))
+    assert "'blow'" in refusal(lambda tree: tree["harder"]["roll_steer"].update(blow=1.0))
     assert "'metod'" in refusal(lambda tree: tree.update(metod={}))
 
 

@@ -21,6 +21,7 @@ _KINDS = ("scale", "add")
 _ONLY = ("", "blowout", "brakes")
 _EVENT_FACTOR = 2.0  # more that an event must bring, because its instant was searched
 _CHANNEL_KEYS = {"floor", "relative", "bias", "gain", "most", "source"}
+_HARDER_KEYS = {"delta", "blown", "source"}
 _NUISANCE_KEYS = {"kind", "sigma", "step", "sign", "targets", "opposite", "only", "source"}
 
 
@@ -59,7 +60,8 @@ class Settings:
             needed: half of such cases reach the one, and all of what is needed the share of the
             other.
         same_truck: share of what trucks differ by that is worth naming beside baseline runs.
-        harder: by effect, for those that what is left between good models imitates.
+        harder: by effect, for those that what is left between good models imitates;
+            ``harder_blown``: the same where a tire is lost in training, if that differs.
         forms: by effect, instead of ``form_share``, where laws of its kind differ more.
         keep_within: share of the evidence within which explanations count as aliases.
         expected_level, unknown_level: sum of squares a row if nothing, if something is missing.
@@ -95,6 +97,7 @@ class Settings:
     null_median: float
     null_tail: float
     harder: Mapping[str, float] = field(default_factory=dict)
+    harder_blown: Mapping[str, float] = field(default_factory=dict)
     forms: Mapping[str, float] = field(default_factory=dict)
     without: tuple[str, ...] = ()
 
@@ -102,9 +105,14 @@ class Settings:
         """1 sigma of what another form of law does to an amount, as a share of it."""
         return self.forms.get(effect, self.form_share)
 
-    def needed(self, effect: str, event: bool = False) -> float:
-        """Evidence that an effect of this name must have, more if its instant was searched."""
-        return self.harder.get(effect, self.accept_delta) * (_EVENT_FACTOR if event else 1.0)
+    def needed(self, effect: str, event: bool = False, blown: bool = False) -> float:
+        """Evidence that an effect of this name must have, more if its instant was searched.
+
+        ``blown``: whether a tire is lost in the training runs.
+        """
+        usual = self.harder.get(effect, self.accept_delta)
+        usual = self.harder_blown.get(effect, usual) if blown else usual
+        return usual * (_EVENT_FACTOR if event else 1.0)
 
     def null_p_value(self, share: float) -> float:
         """Chance of this share of what is needed where nothing is missing.
@@ -140,7 +148,7 @@ def load_settings(packed: Packed, name: str = "default") -> Settings:
     for part in ("nuisances", "channels"):
         _check(path, part, tree[part], set(tree[part] or ()))
     method_keys = {f.name for f in fields(Settings)} - {
-        "nuisances", "channels", "harder", "forms", "without"}
+        "nuisances", "channels", "harder", "harder_blown", "forms", "without"}
     _check(path, "method", tree["method"], method_keys, method_keys)
     nuisances = [_nuisance(path, key, entry, packed) for key, entry in tree["nuisances"].items()]
     nuisances += _brake_gains(packed, _number(path, "brake_gain_sigma", tree["brake_gain_sigma"],
@@ -148,12 +156,22 @@ def load_settings(packed: Packed, name: str = "default") -> Settings:
     method: dict[str, Any] = {key: _number(path, f"method.{key}", entry, "value")
                               for key, entry in tree["method"].items()}
     channels = {key: _rule(path, key, entry) for key, entry in tree["channels"].items()}
-    harder = {key: _number(path, f"harder.{key}", entry, "delta")
-              for key, entry in tree.get("harder", {}).items()}
+    harder, blown = _thresholds(path, tree.get("harder", {}))
     forms = {key: _number(path, f"forms.{key}", entry, "share")
              for key, entry in tree.get("forms", {}).items()}
-    return Settings(tuple(n for n in nuisances if n.targets), channels, harder=harder, forms=forms,
-                    **method)
+    return Settings(tuple(n for n in nuisances if n.targets), channels, harder=harder,
+                    harder_blown=blown, forms=forms, **method)
+
+
+def _thresholds(path: Path, tree: Mapping[str, Any]
+                ) -> tuple[Mapping[str, float], Mapping[str, float]]:
+    """What effects must buy, usually and where a tire is lost."""
+    for key, entry in tree.items():
+        _check(path, f"harder.{key}", entry, _HARDER_KEYS, {"delta"})
+    usual = {key: _number(path, f"harder.{key}", entry, "delta") for key, entry in tree.items()}
+    blown = {key: _number(path, f"harder.{key}", entry, "blown")
+             for key, entry in tree.items() if "blown" in entry}
+    return usual, blown
 
 
 def _nuisance(path: Path, name: str, entry: Mapping[str, Any], packed: Packed) -> Nuisance:

@@ -88,7 +88,8 @@ class Study:
 
     def needed(self, effect: Effect, event: bool = False) -> float:
         """Evidence that an effect must have in these runs."""
-        usual = self.settings.needed(effect.name, event)
+        blown = any(self.runs[i].has_blowout for i in self.train)
+        usual = self.settings.needed(effect.name, event, blown)
         return usual if effect.at_limit else usual * self.demand
 
     @property
