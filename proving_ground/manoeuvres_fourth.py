@@ -1,4 +1,4 @@
-"""Kinds of the next draw: in no set so far, so that nobody has developed against them."""
+"""What a driver sets out to do in the present test set: kinds that nobody developed against."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a driver sets out to do in the present test set: kinds that nobody developed against."""
+"""Still more of what a driver can set out to do: the kinds of the third lot."""
 
 from __future__ import annotations
 

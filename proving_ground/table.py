@@ -30,20 +30,24 @@ DEV_POOLS: Pools = {
     "any": (("straight", "lane_change"), ("sine_sweep", "coast_down")),
 }
 TEST_POOLS: Pools = {
-    "blowout": (("blowout_slow_hands", "blowout_dab"), ("blowout_dab", "blowout_slow_hands")),
-    "quick steer": (("fishhook", "pulse_steer"), ("stairs_steer", "s_bend")),
-    "hard steer": (("hard_fishhook", "hard_s_bend"), ("hard_s_bend", "hard_fishhook")),
-    "steer": (("stairs_steer", "s_bend"), ("fishhook", "pulse_steer")),
-    "small steer": (("small_pulses", "roll_out"), ("pulse_steer", "small_pulses")),
-    "kingpin": (("small_pulses", "s_bend", "blowout_dab"), ("pulse_steer", "blowout_slow_hands")),
-    "limit": (("braking_growing", "hard_s_bend"), ("braking_swap", "hard_fishhook")),
-    "brake": (("braking_swap", "braking_growing"), ("braking_growing", "braking_swap")),
-    "coast": (("dab_and_roll", "roll_out"), ("roll_out", "braking_growing")),
-    "straight": (("roll_out", "dab_and_roll"), ("dab_and_roll", "braking_growing")),
-    "any": (("roll_out", "small_pulses"), ("pulse_steer", "dab_and_roll")),
+    "blowout": (("blowout_pull_over", "blowout_quick_hands"),
+                ("blowout_quick_hands", "blowout_pull_over")),
+    "quick steer": (("swerve_and_return", "growing_triangles"),
+                    ("lift_in_turn", "tightening_turn")),
+    "hard steer": (("hard_tightening", "hard_swerve"), ("hard_swerve", "hard_tightening")),
+    "steer": (("tightening_turn", "lift_in_turn"), ("swerve_and_return", "growing_triangles")),
+    "small steer": (("slow_drift", "dragging_brake"), ("growing_triangles", "slow_drift")),
+    "kingpin": (("slow_drift", "tightening_turn", "blowout_pull_over"),
+                ("growing_triangles", "blowout_quick_hands")),
+    "limit": (("braking_taper", "hard_tightening"), ("braking_added", "hard_swerve")),
+    "brake": (("braking_added", "braking_taper"), ("braking_taper", "braking_added")),
+    "coast": (("roll_and_dabs", "dragging_brake"), ("dragging_brake", "roll_and_dabs")),
+    "straight": (("dragging_brake", "roll_and_dabs"), ("roll_and_dabs", "braking_taper")),
+    "any": (("dragging_brake", "growing_triangles"), ("slow_drift", "roll_and_dabs")),
 }
 BASELINES = {"dev": (("lane_change", "coast_down"), ("ramp_hold", "braking_all")),
-             "test": (("pulse_steer", "roll_out"), ("stairs_steer", "braking_growing"))}
+             "test": (("swerve_and_return", "roll_and_dabs"),
+                      ("tightening_turn", "braking_added"))}
 MISSING: tuple[tuple[str, ...], ...] = (
     (), (), (), ("hub_speed",), ("tire_pressure",), ("brake_chamber",),
     ("trailer_x_m", "trailer_y_m", "trailer_vx", "trailer_vy", "trailer_yaw_rad",
@@ -65,7 +69,7 @@ class Counts:
 
 
 COUNTS = {"dev": Counts(40, 84, 16, 16, 16), "test": Counts(120, 160, 40, 40, 40)}
-FIRST_SEED = {"dev": 10_000, "test": 1_300_000}
+FIRST_SEED = {"dev": 10_000, "test": 1_400_000}
 SETS = ("dev", "test", "ci")
 
 
