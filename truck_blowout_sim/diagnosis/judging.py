@@ -27,6 +27,7 @@ _ALIKE = 0.4  # less evidence than the best by more than this share is no alias
 _AT_BOUND = 0.002  # of the range
 _EVENT_WORTH = 0.8
 _NEXT_SHARE = 0.08  # three true second effects bought 8.5 to 10 %, a false one 7.4
+_NEXT_EVENT_SHARE = 0.12  # its instant was free to choose
 
 
 @dataclass(eq=False)
@@ -108,7 +109,7 @@ def weakness(study: Study, one: Ranked, strongest: float) -> str:
     if min(one.hypothesis.amount - amount.low, amount.high - one.hypothesis.amount) < _AT_BOUND * (
             amount.high - amount.low):
         return "its amount runs to the bound of what is physical"
-    if one.evidence < _NEXT_SHARE * strongest:
+    if one.evidence < (_NEXT_EVENT_SHARE if event else _NEXT_SHARE) * strongest:
         return f"buys {one.evidence:.0f}, which the stronger effect's own inexactness may leave"
     if abs(away) < _FAR_FROM_ZERO * one.sigma:
         return "its interval comes near zero"
