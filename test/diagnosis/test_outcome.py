@@ -112,6 +112,13 @@ def test_what_calibration_had_swallowed_counts_as_explained(calm: Study, truck: 
     assert decide(material(calm, (replace(named, evidence=2.0 * left),))) == "missing_physics"
 
 
+def test_what_a_corrected_instrument_leaves_is_nothing_unknown_but_a_force_is(calm: Study) -> None:
+    calm.settings = replace(calm.settings, expected_level=0.0, unknown_level=0.0)
+    assert decide(material(calm)) == "unknown"
+    assert decide(material(calm, faults=1)) == "sensor_artefact"
+    assert decide(material(calm, faults=1, unnamed=1e4)) == "unknown"
+
+
 def test_a_sheet_number_far_off_is_a_miscalibration_and_named(
     study_of: Studies, truck: Packed
 ) -> None:

@@ -140,9 +140,11 @@ def unexplained(material: Material) -> bool:
     unnamed = max((w.delta - 2.0 * w.degrees for w in material.unnamed), default=0.0)
     excess = found.chi2_after + bought - rules.expected_level * rows
     demand, calm = material.study.demand, material.study.calm
-    left = found.chi2_after > rules.unknown_level * demand * rows
-    # a faulty instrument, once corrected, leaves more of itself than two models differ by
-    needed = rules.unknown_delta * demand * (1.0 if material.gate.findings else calm)
+    # a faulty instrument, once corrected, leaves more of itself than two models differ by: then
+    # only a force counts, and no smaller one than in turns
+    sound = not material.gate.findings
+    left = sound and found.chi2_after > rules.unknown_level * demand * rows
+    needed = rules.unknown_delta * demand * (calm if sound else 1.0)
     return (left and bought < 0.5 * excess) or unnamed > max(needed, bought)
 
 
