@@ -13,10 +13,10 @@ from functools import cache
 import numpy as np
 import pytest
 
-from truck_blowout_sim.diagnosis.calibration import calibrate
-from truck_blowout_sim.diagnosis.runs import prepare_run
+from truck_blowout_sim.diagnosis.case.calibration import calibrate
+from truck_blowout_sim.diagnosis.case.runs import prepare_run
+from truck_blowout_sim.diagnosis.case.study import Study
 from truck_blowout_sim.diagnosis.settings import Settings, load_settings
-from truck_blowout_sim.diagnosis.study import Study
 from truck_blowout_sim.recordings import INPUT_NAMES, Recording, Series
 from truck_blowout_sim.simulation.drive import Drive, run_drive
 from truck_blowout_sim.simulation.equilibrium import InitialState

@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 import numpy as np
 import pytest
 
-from truck_blowout_sim.diagnosis.study import Study, build_columns
+from truck_blowout_sim.diagnosis.case.study import Study, build_columns
 from truck_blowout_sim.vehicle import Packed
 
 Studies = Callable[..., Study]

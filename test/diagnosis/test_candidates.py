@@ -10,14 +10,14 @@ from typing import cast
 import numpy as np
 import pytest
 
-from truck_blowout_sim.diagnosis.candidates import (
+from truck_blowout_sim.diagnosis.case.study import Study
+from truck_blowout_sim.diagnosis.name.candidates import (
     considered,
     failed_tires,
     known_names,
     steady_candidates,
     timed_effects,
 )
-from truck_blowout_sim.diagnosis.study import Study
 from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.recordings import Blowout, Recording, Series
 from truck_blowout_sim.vehicle import Packed

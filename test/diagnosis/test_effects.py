@@ -7,11 +7,11 @@ import string
 import numpy as np
 import pytest
 
+from truck_blowout_sim.diagnosis.answer.words import fill
 from truck_blowout_sim.diagnosis.effects import LIBRARY, Effect
-from truck_blowout_sim.diagnosis.hypothesis import Hypothesis
-from truck_blowout_sim.diagnosis.result_parts import Place
+from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
+from truck_blowout_sim.diagnosis.result.parts import Place
 from truck_blowout_sim.diagnosis.settings import load_settings
-from truck_blowout_sim.diagnosis.words import fill
 from truck_blowout_sim.resources import config_names
 from truck_blowout_sim.vehicle import Packed, load_vehicle, pack
 

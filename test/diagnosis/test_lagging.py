@@ -7,12 +7,12 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from truck_blowout_sim.diagnosis.attribute import Ranked
+from truck_blowout_sim.diagnosis.case.study import Study
 from truck_blowout_sim.diagnosis.effects import LIBRARY
-from truck_blowout_sim.diagnosis.hypothesis import Hypothesis
-from truck_blowout_sim.diagnosis.lagging import lagging_wheel
-from truck_blowout_sim.diagnosis.refit import models_at, refit
-from truck_blowout_sim.diagnosis.study import Study
+from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
+from truck_blowout_sim.diagnosis.fit.attribute import Ranked
+from truck_blowout_sim.diagnosis.fit.refit import models_at, refit
+from truck_blowout_sim.diagnosis.locate.lagging import lagging_wheel
 from truck_blowout_sim.vehicle import Packed
 
 HUB = "trailer_2_left"

@@ -9,12 +9,12 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from truck_blowout_sim.diagnosis.law import Law, _left_out, plainest_law
-from truck_blowout_sim.diagnosis.law_check import checked
-from truck_blowout_sim.diagnosis.locate import Wrenches
-from truck_blowout_sim.diagnosis.result_evidence import ForceHistory
-from truck_blowout_sim.diagnosis.study import Study
-from truck_blowout_sim.diagnosis.words import verdict_sentence
+from truck_blowout_sim.diagnosis.answer.words import verdict_sentence
+from truck_blowout_sim.diagnosis.case.study import Study
+from truck_blowout_sim.diagnosis.locate.wrench import Wrenches
+from truck_blowout_sim.diagnosis.model.law import Law, _left_out, plainest_law
+from truck_blowout_sim.diagnosis.model.law_check import checked
+from truck_blowout_sim.diagnosis.result.evidence import ForceHistory
 from truck_blowout_sim.recordings import Recording, Series
 from truck_blowout_sim.vehicle import Packed
 

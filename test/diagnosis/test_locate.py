@@ -7,8 +7,8 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from truck_blowout_sim.diagnosis.locate import missing_wrench
-from truck_blowout_sim.diagnosis.study import Study
+from truck_blowout_sim.diagnosis.case.study import Study
+from truck_blowout_sim.diagnosis.locate.wrench import missing_wrench
 
 Studies = Callable[..., Study]
 

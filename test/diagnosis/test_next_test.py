@@ -11,15 +11,15 @@ from typing import cast
 import numpy as np
 import pytest
 
-from truck_blowout_sim.diagnosis.attribute import Ranked
+from truck_blowout_sim.diagnosis.answer.words import next_test
+from truck_blowout_sim.diagnosis.case.study import Study
 from truck_blowout_sim.diagnosis.effects import LIBRARY
-from truck_blowout_sim.diagnosis.hypothesis import Hypothesis
-from truck_blowout_sim.diagnosis.judging import Found
-from truck_blowout_sim.diagnosis.manoeuvres import manoeuvres
-from truck_blowout_sim.diagnosis.next_test import Separation, best_test, pair_of
+from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
+from truck_blowout_sim.diagnosis.fit.attribute import Ranked
+from truck_blowout_sim.diagnosis.name.judging import Found
+from truck_blowout_sim.diagnosis.prove.manoeuvres import manoeuvres
+from truck_blowout_sim.diagnosis.prove.next_test import Separation, best_test, pair_of
 from truck_blowout_sim.diagnosis.sensors import GateResult
-from truck_blowout_sim.diagnosis.study import Study
-from truck_blowout_sim.diagnosis.words import next_test
 from truck_blowout_sim.vehicle import Packed
 
 Studies = Callable[..., Study]

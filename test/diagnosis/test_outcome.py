@@ -10,16 +10,7 @@ from typing import cast
 import numpy as np
 import pytest
 
-from truck_blowout_sim.diagnosis.attribute import Ranked
-from truck_blowout_sim.diagnosis.beat import Beat
-from truck_blowout_sim.diagnosis.effects import LIBRARY
-from truck_blowout_sim.diagnosis.hypothesis import Hypothesis
-from truck_blowout_sim.diagnosis.intervals import Timing
-from truck_blowout_sim.diagnosis.judging import Found
-from truck_blowout_sim.diagnosis.lagging import Lag
-from truck_blowout_sim.diagnosis.law import Law
-from truck_blowout_sim.diagnosis.locate import Wrenches
-from truck_blowout_sim.diagnosis.outcome import (
+from truck_blowout_sim.diagnosis.answer.outcome import (
     Material,
     answer,
     decide,
@@ -27,12 +18,21 @@ from truck_blowout_sim.diagnosis.outcome import (
     null_p_value,
     pulled,
 )
-from truck_blowout_sim.diagnosis.posture import Posture
-from truck_blowout_sim.diagnosis.restless import Restless
-from truck_blowout_sim.diagnosis.result_evidence import BeatScores, ForceHistory
+from truck_blowout_sim.diagnosis.answer.told import alias_set, physics_effect
+from truck_blowout_sim.diagnosis.case.study import Study
+from truck_blowout_sim.diagnosis.effects import LIBRARY
+from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
+from truck_blowout_sim.diagnosis.fit.attribute import Ranked
+from truck_blowout_sim.diagnosis.locate.beat import Beat
+from truck_blowout_sim.diagnosis.locate.lagging import Lag
+from truck_blowout_sim.diagnosis.locate.posture import Posture
+from truck_blowout_sim.diagnosis.locate.restless import Restless
+from truck_blowout_sim.diagnosis.locate.wrench import Wrenches
+from truck_blowout_sim.diagnosis.model.law import Law
+from truck_blowout_sim.diagnosis.name.judging import Found
+from truck_blowout_sim.diagnosis.prove.intervals import Timing
+from truck_blowout_sim.diagnosis.result.evidence import BeatScores, ForceHistory
 from truck_blowout_sim.diagnosis.sensors import GateResult
-from truck_blowout_sim.diagnosis.study import Study
-from truck_blowout_sim.diagnosis.told import alias_set, physics_effect
 from truck_blowout_sim.vehicle import Packed
 
 Studies = Callable[..., Study]

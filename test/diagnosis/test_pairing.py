@@ -7,14 +7,14 @@ from dataclasses import replace
 
 import pytest
 
-from truck_blowout_sim.diagnosis.attribute import Ranked
+from truck_blowout_sim.diagnosis.case.study import Study
 from truck_blowout_sim.diagnosis.effects import LIBRARY, Effect
-from truck_blowout_sim.diagnosis.holdout import predict
-from truck_blowout_sim.diagnosis.hypothesis import Hypothesis
-from truck_blowout_sim.diagnosis.judging import Found
-from truck_blowout_sim.diagnosis.pairing import pair_with, settled
-from truck_blowout_sim.diagnosis.refit import refit
-from truck_blowout_sim.diagnosis.study import Study
+from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
+from truck_blowout_sim.diagnosis.fit.attribute import Ranked
+from truck_blowout_sim.diagnosis.fit.refit import refit
+from truck_blowout_sim.diagnosis.name.judging import Found
+from truck_blowout_sim.diagnosis.name.pairing import pair_with, settled
+from truck_blowout_sim.diagnosis.prove.holdout import predict
 from truck_blowout_sim.vehicle import Packed
 
 TRUE = {"driveline_drag": 2500.0, "axle_misalignment": 0.006}

@@ -9,7 +9,7 @@ import pytest
 from numpy.typing import NDArray
 from scipy.signal import lfilter
 
-from truck_blowout_sim.diagnosis.periodic import Lines, clearest, tone_lines, turn_lines
+from truck_blowout_sim.diagnosis.locate.periodic import Lines, clearest, tone_lines, turn_lines
 from truck_blowout_sim.recordings import Recording, Series
 
 RATE_HZ = 100.0

@@ -7,12 +7,12 @@ from dataclasses import replace
 
 import pytest
 
-from truck_blowout_sim.diagnosis.attribute import Ranked
+from truck_blowout_sim.diagnosis.case.study import Study
 from truck_blowout_sim.diagnosis.effects import LIBRARY
-from truck_blowout_sim.diagnosis.hypothesis import Hypothesis
-from truck_blowout_sim.diagnosis.posture import postures, turned_body
-from truck_blowout_sim.diagnosis.refit import models_at, refit
-from truck_blowout_sim.diagnosis.study import Study
+from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
+from truck_blowout_sim.diagnosis.fit.attribute import Ranked
+from truck_blowout_sim.diagnosis.fit.refit import models_at, refit
+from truck_blowout_sim.diagnosis.locate.posture import postures, turned_body
 from truck_blowout_sim.vehicle import Packed
 
 Studies = Callable[..., Study]

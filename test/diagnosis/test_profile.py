@@ -8,13 +8,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from truck_blowout_sim.diagnosis.attribute import Ranked
+from truck_blowout_sim.diagnosis.answer.words import open_ends
+from truck_blowout_sim.diagnosis.case.study import Study
 from truck_blowout_sim.diagnosis.effects import LIBRARY
-from truck_blowout_sim.diagnosis.hypothesis import Hypothesis
-from truck_blowout_sim.diagnosis.profile import NINETY, Arms, arms_of, block_sigma
-from truck_blowout_sim.diagnosis.refit import models_at, refit
-from truck_blowout_sim.diagnosis.study import Study
-from truck_blowout_sim.diagnosis.words import open_ends
+from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
+from truck_blowout_sim.diagnosis.fit.attribute import Ranked
+from truck_blowout_sim.diagnosis.fit.refit import models_at, refit
+from truck_blowout_sim.diagnosis.prove.profile import NINETY, Arms, arms_of, block_sigma
 from truck_blowout_sim.vehicle import Packed
 
 Studies = Callable[..., Study]

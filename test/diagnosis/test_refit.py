@@ -6,11 +6,11 @@ from collections.abc import Callable, Mapping
 
 import pytest
 
-from truck_blowout_sim.diagnosis.attribute import Ranked, rank_steady
+from truck_blowout_sim.diagnosis.case.study import Study
 from truck_blowout_sim.diagnosis.effects import LIBRARY
-from truck_blowout_sim.diagnosis.hypothesis import Hypothesis
-from truck_blowout_sim.diagnosis.refit import refit
-from truck_blowout_sim.diagnosis.study import Study
+from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
+from truck_blowout_sim.diagnosis.fit.attribute import Ranked, rank_steady
+from truck_blowout_sim.diagnosis.fit.refit import refit
 from truck_blowout_sim.vehicle import Packed
 
 Studies = Callable[..., Study]

@@ -10,13 +10,13 @@ from typing import cast
 import numpy as np
 import pytest
 
+from truck_blowout_sim.diagnosis.case.runs import Run
+from truck_blowout_sim.diagnosis.case.study import Study
 from truck_blowout_sim.diagnosis.diagnose import _material
-from truck_blowout_sim.diagnosis.judging import Found
-from truck_blowout_sim.diagnosis.restless import restless
-from truck_blowout_sim.diagnosis.runs import Run
+from truck_blowout_sim.diagnosis.locate.restless import restless
+from truck_blowout_sim.diagnosis.name.judging import Found
 from truck_blowout_sim.diagnosis.sensors import GateResult
 from truck_blowout_sim.diagnosis.settings import load_settings
-from truck_blowout_sim.diagnosis.study import Study
 from truck_blowout_sim.vehicle import Packed
 
 Studies = Callable[..., Study]

@@ -16,9 +16,9 @@ import pytest
 import yaml
 
 from truck_blowout_sim.diagnosis import diagnose, keeping
-from truck_blowout_sim.diagnosis.fingerprints import simulation_key
-from truck_blowout_sim.diagnosis.resume import Kept
-from truck_blowout_sim.diagnosis.runs import Run, prepare_run
+from truck_blowout_sim.diagnosis.case.fingerprints import simulation_key
+from truck_blowout_sim.diagnosis.case.resume import Kept
+from truck_blowout_sim.diagnosis.case.runs import Run, prepare_run
 from truck_blowout_sim.diagnosis.settings import Settings
 from truck_blowout_sim.proof.memory import Memory
 from truck_blowout_sim.recordings import Recording, write_recording

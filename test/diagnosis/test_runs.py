@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from truck_blowout_sim.diagnosis.runs import Run, prepare_run, rms_sigma, simulate_bins
+from truck_blowout_sim.diagnosis.case.runs import Run, prepare_run, rms_sigma, simulate_bins
 from truck_blowout_sim.diagnosis.settings import Settings
 from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.recordings import Blowout, Recording, Series

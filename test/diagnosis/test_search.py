@@ -8,14 +8,14 @@ from typing import cast
 
 import pytest
 
-from truck_blowout_sim.diagnosis import candidates
-from truck_blowout_sim.diagnosis.attribute import Ranked
+from truck_blowout_sim.diagnosis.case.study import Study
 from truck_blowout_sim.diagnosis.effects import LIBRARY
-from truck_blowout_sim.diagnosis.hypothesis import Hypothesis
-from truck_blowout_sim.diagnosis.judging import Found, not_taken_back, slack
-from truck_blowout_sim.diagnosis.search import search
+from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
+from truck_blowout_sim.diagnosis.fit.attribute import Ranked
+from truck_blowout_sim.diagnosis.name import candidates
+from truck_blowout_sim.diagnosis.name.judging import Found, not_taken_back, slack
+from truck_blowout_sim.diagnosis.name.search import search
 from truck_blowout_sim.diagnosis.sensors import GateResult
-from truck_blowout_sim.diagnosis.study import Study
 from truck_blowout_sim.vehicle import Packed
 
 Studies = Callable[..., Study]

@@ -8,15 +8,15 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from truck_blowout_sim.diagnosis.attribute import Ranked
-from truck_blowout_sim.diagnosis.candidates import failed_tires, unwatched_tires
+from truck_blowout_sim.diagnosis.case.study import Study
 from truck_blowout_sim.diagnosis.effects import LIBRARY
-from truck_blowout_sim.diagnosis.event_fit import fit_event
-from truck_blowout_sim.diagnosis.hypothesis import Hypothesis
-from truck_blowout_sim.diagnosis.intervals import time_intervals
-from truck_blowout_sim.diagnosis.refit import refit
-from truck_blowout_sim.diagnosis.study import Study
-from truck_blowout_sim.diagnosis.timed import refine_times, scan
+from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
+from truck_blowout_sim.diagnosis.fit.attribute import Ranked
+from truck_blowout_sim.diagnosis.fit.event_fit import fit_event
+from truck_blowout_sim.diagnosis.fit.refit import refit
+from truck_blowout_sim.diagnosis.fit.timed import refine_times, scan
+from truck_blowout_sim.diagnosis.name.candidates import failed_tires, unwatched_tires
+from truck_blowout_sim.diagnosis.prove.intervals import time_intervals
 from truck_blowout_sim.recordings import Series
 from truck_blowout_sim.vehicle import Packed
 

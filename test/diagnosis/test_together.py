@@ -7,12 +7,12 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from truck_blowout_sim.diagnosis.attribute import Ranked
+from truck_blowout_sim.diagnosis.case.study import Study
 from truck_blowout_sim.diagnosis.effects import LIBRARY
-from truck_blowout_sim.diagnosis.hypothesis import Hypothesis
-from truck_blowout_sim.diagnosis.refit import refit
-from truck_blowout_sim.diagnosis.study import Study
-from truck_blowout_sim.diagnosis.together import fit_together
+from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
+from truck_blowout_sim.diagnosis.fit.attribute import Ranked
+from truck_blowout_sim.diagnosis.fit.refit import refit
+from truck_blowout_sim.diagnosis.fit.together import fit_together
 from truck_blowout_sim.vehicle import Packed
 
 TRUE = {"aerodynamic_drag": 4.0, "driveline_drag": 2500.0}

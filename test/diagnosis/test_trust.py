@@ -8,10 +8,10 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from truck_blowout_sim.diagnosis.case.study import Study
+from truck_blowout_sim.diagnosis.case.trust import calm, demand
 from truck_blowout_sim.diagnosis.effects import road_bank, roll_steer, tire_saturation
 from truck_blowout_sim.diagnosis.settings import Settings
-from truck_blowout_sim.diagnosis.study import Study
-from truck_blowout_sim.diagnosis.trust import calm, demand
 from truck_blowout_sim.recordings import Recording, Series
 
 

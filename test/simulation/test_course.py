@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from truck_blowout_sim.diagnosis.effects import LIBRARY, Effect
-from truck_blowout_sim.diagnosis.hypothesis import Hypothesis
+from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.simulation.course import Course, drive_course
 from truck_blowout_sim.simulation.drive import Drive, run_drive
 from truck_blowout_sim.simulation.equilibrium import InitialState

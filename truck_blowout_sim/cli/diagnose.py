@@ -59,8 +59,8 @@ def command(
 ) -> None:
     """Locate, name and fit what the model lacks to explain recordings."""
     from truck_blowout_sim.diagnosis import diagnose, keeping
+    from truck_blowout_sim.diagnosis.case.study import REFITS
     from truck_blowout_sim.diagnosis.diagnose import STEP_S
-    from truck_blowout_sim.diagnosis.study import REFITS
     from truck_blowout_sim.vehicle import load_vehicle
 
     loaded = load_vehicle(vehicle)

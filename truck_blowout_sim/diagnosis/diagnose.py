@@ -10,29 +10,29 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from truck_blowout_sim.diagnosis.calibration import calibrate
-from truck_blowout_sim.diagnosis.candidates import known_names
-from truck_blowout_sim.diagnosis.fingerprints import case_parts
-from truck_blowout_sim.diagnosis.hypothesis import Hypothesis
-from truck_blowout_sim.diagnosis.intervals import Timing, time_intervals
-from truck_blowout_sim.diagnosis.judging import Found, not_taken_back
-from truck_blowout_sim.diagnosis.lagging import lagging_wheel
-from truck_blowout_sim.diagnosis.law import plainest_law
-from truck_blowout_sim.diagnosis.law_check import checked
-from truck_blowout_sim.diagnosis.locate import Wrenches, missing_wrench
-from truck_blowout_sim.diagnosis.next_test import Separation, best_test
-from truck_blowout_sim.diagnosis.outcome import Material, answer, joint_amounts, unexplained
-from truck_blowout_sim.diagnosis.periodic import find_beat
-from truck_blowout_sim.diagnosis.posture import turned_body
-from truck_blowout_sim.diagnosis.profile import Arms, arms_of
-from truck_blowout_sim.diagnosis.restless import restless
+from truck_blowout_sim.diagnosis.answer.outcome import Material, answer, joint_amounts, unexplained
+from truck_blowout_sim.diagnosis.case.calibration import calibrate
+from truck_blowout_sim.diagnosis.case.fingerprints import case_parts
+from truck_blowout_sim.diagnosis.case.resume import Keeps
+from truck_blowout_sim.diagnosis.case.runs import Run, prepare_run
+from truck_blowout_sim.diagnosis.case.study import FURTHEST, REFITS, Progress, Study, row_ranges
+from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
+from truck_blowout_sim.diagnosis.locate.lagging import lagging_wheel
+from truck_blowout_sim.diagnosis.locate.periodic import find_beat
+from truck_blowout_sim.diagnosis.locate.posture import turned_body
+from truck_blowout_sim.diagnosis.locate.restless import restless
+from truck_blowout_sim.diagnosis.locate.wrench import Wrenches, missing_wrench
+from truck_blowout_sim.diagnosis.model.law import plainest_law
+from truck_blowout_sim.diagnosis.model.law_check import checked
+from truck_blowout_sim.diagnosis.name.candidates import known_names
+from truck_blowout_sim.diagnosis.name.judging import Found, not_taken_back
+from truck_blowout_sim.diagnosis.name.search import search
+from truck_blowout_sim.diagnosis.prove.intervals import Timing, time_intervals
+from truck_blowout_sim.diagnosis.prove.next_test import Separation, best_test
+from truck_blowout_sim.diagnosis.prove.profile import Arms, arms_of
 from truck_blowout_sim.diagnosis.result import Diagnosis, Role, Verdict
-from truck_blowout_sim.diagnosis.resume import Keeps
-from truck_blowout_sim.diagnosis.runs import Run, prepare_run
-from truck_blowout_sim.diagnosis.search import search
 from truck_blowout_sim.diagnosis.sensors import GateResult, correct, sensor_gate, vehicle_geometry
 from truck_blowout_sim.diagnosis.settings import Settings, load_settings
-from truck_blowout_sim.diagnosis.study import FURTHEST, REFITS, Progress, Study, row_ranges
 from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.recordings import Recording
 from truck_blowout_sim.vehicle import Packed, Vehicle, load_vehicle, pack, write_vehicle

@@ -11,7 +11,7 @@ from typing import Any
 
 import yaml
 
-from truck_blowout_sim.diagnosis.nuisance import Nuisance
+from truck_blowout_sim.diagnosis.case.nuisance import Nuisance
 from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.resources import config_file
 from truck_blowout_sim.vehicle import Packed

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from truck_blowout_sim.diagnosis import simulation_key
-from truck_blowout_sim.diagnosis.runs import Run
+from truck_blowout_sim.diagnosis.case.runs import Run
 from truck_blowout_sim.vehicle import Packed
 
 Floats = NDArray[np.float64]

@@ -12,7 +12,7 @@ from typing import Literal
 
 import numpy as np
 
-from truck_blowout_sim.diagnosis.result_parts import Kind, Place
+from truck_blowout_sim.diagnosis.result.parts import Kind, Place
 from truck_blowout_sim.vehicle import Packed, Vehicle
 
 Values = Mapping[str, float]

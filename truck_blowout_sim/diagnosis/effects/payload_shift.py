@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 
 from truck_blowout_sim.diagnosis.effects.base import Amount, Effect, Values
-from truck_blowout_sim.diagnosis.result_parts import Place
+from truck_blowout_sim.diagnosis.result.parts import Place
 from truck_blowout_sim.vehicle import Packed, Vehicle, movable_load
 
 _MOVES_FOR_S = 0.6  # at first; how long is fitted

@@ -14,7 +14,7 @@ from truck_blowout_sim.diagnosis.effects.base import (
     scaled,
 )
 from truck_blowout_sim.diagnosis.effects.tire_saturation_linear import is_linear
-from truck_blowout_sim.diagnosis.result_parts import Place
+from truck_blowout_sim.diagnosis.result.parts import Place
 from truck_blowout_sim.vehicle import Packed, Vehicle
 
 

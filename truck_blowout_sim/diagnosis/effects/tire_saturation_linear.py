@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from truck_blowout_sim.diagnosis.effects.base import Amount, Effect, each_axle
-from truck_blowout_sim.diagnosis.result_parts import Place
+from truck_blowout_sim.diagnosis.result.parts import Place
 from truck_blowout_sim.vehicle import Vehicle
 
 

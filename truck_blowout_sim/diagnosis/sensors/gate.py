@@ -14,7 +14,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from truck_blowout_sim.diagnosis.quantiles import NINETY
+from truck_blowout_sim.diagnosis.fit.quantiles import NINETY
 from truck_blowout_sim.diagnosis.sensors.case import Case, make_case, undone
 from truck_blowout_sim.diagnosis.sensors.findings import Amount, GateResult, SensorFinding
 from truck_blowout_sim.diagnosis.sensors.geometry import Geometry

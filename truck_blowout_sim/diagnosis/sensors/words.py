@@ -9,7 +9,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from truck_blowout_sim.diagnosis.quantiles import NINETY
+from truck_blowout_sim.diagnosis.fit.quantiles import NINETY
 from truck_blowout_sim.diagnosis.sensors.distortions import Distortion
 
 _EQUATIONS = {

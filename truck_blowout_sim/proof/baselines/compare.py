@@ -21,12 +21,12 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from truck_blowout_sim.diagnosis.calibration import calibrate
-from truck_blowout_sim.diagnosis.holdout import predict
+from truck_blowout_sim.diagnosis.case.calibration import calibrate
+from truck_blowout_sim.diagnosis.case.runs import Run, prepare_run
+from truck_blowout_sim.diagnosis.case.study import Study, row_ranges
+from truck_blowout_sim.diagnosis.prove.holdout import predict
 from truck_blowout_sim.diagnosis.result import Role
-from truck_blowout_sim.diagnosis.runs import Run, prepare_run
 from truck_blowout_sim.diagnosis.settings import load_settings
-from truck_blowout_sim.diagnosis.study import Study, row_ranges
 from truck_blowout_sim.proof.baselines.features import Stretch, inputs_of, motion_columns
 from truck_blowout_sim.proof.baselines.gaussian_process import predict_residual
 from truck_blowout_sim.proof.baselines.sparse_regression import fit_law, integrate

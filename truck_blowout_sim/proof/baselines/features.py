@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from truck_blowout_sim.diagnosis.runs import Run
+from truck_blowout_sim.diagnosis.case.runs import Run
 
 Floats = NDArray[np.float64]
 MOTION = ("_vx_mps", "_vy_mps", "_yaw_rate_radps")

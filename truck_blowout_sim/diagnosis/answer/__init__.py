@@ -1,0 +1,1 @@
+"""Verdict, words and what stands behind them."""

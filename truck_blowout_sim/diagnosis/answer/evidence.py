@@ -1,0 +1,127 @@
+"""What stands behind a diagnosis, as data for the page: maps, overlays, candidates, numbers."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from truck_blowout_sim.diagnosis.case.runs import Run
+from truck_blowout_sim.diagnosis.case.study import Study, row_ranges
+from truck_blowout_sim.diagnosis.fit.quantiles import NINETY
+from truck_blowout_sim.diagnosis.name.judging import Found
+from truck_blowout_sim.diagnosis.result import Calibrated, Candidate, ChannelTimeMap, Overlay
+
+Floats = NDArray[np.float64]
+Left = Sequence[tuple[Run, Floats]]  # run and its [n, m] residual in units of ``run.sigma``
+_MAP_BINS = 5
+_MOST_OVERLAYS = 8
+
+
+def left_before(study: Study, found: Found, role: str) -> Left:
+    """Residuals of the calibrated model without any effect."""
+    if role == "holdout":
+        return [(run, run.residual(model).reshape(run.measured.shape))
+                for run, model in zip(study.holdout, study.holdout_models, strict=True)]
+    return [(study.runs[i], study.runs[i].residual(found.models_null[i])
+             .reshape(study.runs[i].measured.shape)) for i in study.train]
+
+
+def left_after(study: Study, found: Found, role: str) -> Left:
+    """Residuals of the diagnosed model, with the calibration that goes with it."""
+    if role == "holdout":
+        return [(p.run, p.left) for p in found.after]
+    named = [r.hypothesis for r in found.named]
+    projector = study.projector(named)
+    residual = study.residual()
+    clean = residual - projector.explained(projector.amounts(residual))
+    rows = row_ranges(study)
+    return [(study.runs[i], clean[rows[i]].reshape(study.runs[i].measured.shape))
+            for i in study.train]
+
+
+def pooled(left: Left) -> Mapping[str, float]:
+    """Rms of each channel over all runs, in units of instrument noise."""
+    sums: dict[str, list[Floats]] = {}
+    for run, z in left:
+        noise = z * run.sigma / run.noise
+        for k, name in enumerate(run.channels):
+            seen = np.isfinite(run.measured[:, k])
+            if seen.any():
+                sums.setdefault(name, []).append(noise[seen, k])
+    return {name: float(np.sqrt(np.mean(np.concatenate(parts) ** 2)))
+            for name, parts in sums.items()}
+
+
+def maps(study: Study, found: Found) -> tuple[ChannelTimeMap, ...]:
+    """Channel-by-time maps of every training and holdout run, half a second a cell."""
+    result = []
+    for role in ("train", "holdout"):
+        pairs = zip(left_before(study, found, role), left_after(study, found, role), strict=True)
+        for (run, before), (_, after) in pairs:
+            n = before.shape[0] // _MAP_BINS
+            result.append(ChannelTimeMap(
+                run.recording.name, run.role, run.edges_s[:n * _MAP_BINS + 1:_MAP_BINS],
+                run.channels, _cells(run, before, n), _cells(run, after, n)))
+    return tuple(result)
+
+
+def _cells(run: Run, left: Floats, n: int) -> Floats:
+    """Mean residual of each cell in sigma of the mean, [m, n]."""
+    z = np.where(np.isfinite(run.measured), left, np.nan)[:n * _MAP_BINS]
+    cube = z.reshape(n, _MAP_BINS, z.shape[1])
+    count = np.isfinite(cube).sum(axis=1)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        return np.asarray((np.nansum(cube, axis=1) / np.sqrt(count)).T)
+
+
+def overlays(study: Study, found: Found) -> tuple[Overlay, ...]:
+    """Measured, before and after of the channels that changed most."""
+    before, after = (pooled(left_before(study, found, "train")),
+                     pooled(left_after(study, found, "train")))
+    names = sorted(before, key=lambda n: after.get(n, 0.0) - before[n])[:_MOST_OVERLAYS]
+    result = []
+    for role in ("train", "holdout"):
+        pairs = zip(left_before(study, found, role), left_after(study, found, role), strict=True)
+        for (run, first), (_, last) in pairs:
+            for name in (n for n in names if n in run.channels):
+                k = run.channels.index(name)
+                y = run.measured[:, k]
+                seen = np.isfinite(y)
+                result.append(Overlay(
+                    run.recording.name, run.role, name,
+                    (0.5 * (run.edges_s[1:] + run.edges_s[:-1]))[seen], y[seen],
+                    (y - first[:, k] * run.sigma[:, k])[seen],
+                    (y - last[:, k] * run.sigma[:, k])[seen], float(np.median(run.noise[:, k]))))
+    return tuple(result)
+
+
+def candidates(found: Found) -> tuple[Candidate, ...]:
+    """The first round's ranking with reasons."""
+    named = {r.hypothesis.key for r in found.named}
+    aliased = {r.hypothesis.key for rivals in found.rivals for r in rivals} - named
+    result = []
+    for ranked, reason in found.tried[:25]:
+        h = ranked.hypothesis
+        amount = h.effect.amount
+        low, high = sorted((amount.report(h.amount - NINETY * ranked.sigma),
+                            amount.report(h.amount + NINETY * ranked.sigma)))
+        result.append(Candidate(
+            name=h.effect.name, where=h.place, delta_chi2=ranked.delta,
+            accepted=h.key in named, aliased=h.key in aliased,
+            reason=reason or ("explains less" if ranked.delta > 0 else "explains nothing"),
+            amount=f"{amount.report(h.amount):.3g} ({low:.3g} to {high:.3g}) {amount.unit}"))
+    return tuple(result)
+
+
+def calibrated(study: Study, joint: Mapping[str, float]) -> tuple[Calibrated, ...]:
+    """Sheet numbers: what calibration and joint fit make of each, relative or in SI."""
+    spread = np.sqrt(np.diag(study.projector().covariance()))
+    sigma = dict(zip(study.names, spread.tolist(), strict=True))
+    result = []
+    for n in study.settings.nuisances:
+        value = joint.get(n.name, 0.0)
+        result.append(Calibrated(n.name, "1" if n.kind == "scale" else "SI", 0.0, n.sigma,
+                                 value * n.sigma, sigma.get(n.name, 1.0) * n.sigma))
+    return tuple(result)

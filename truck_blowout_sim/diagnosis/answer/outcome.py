@@ -1,0 +1,250 @@
+"""Put the answer together: verdict, effects in words, location, fit, evidence."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from truck_blowout_sim.diagnosis.answer import evidence, words
+from truck_blowout_sim.diagnosis.answer.told import alias_set, physics_effect, sensor_effect
+from truck_blowout_sim.diagnosis.case.study import Study
+from truck_blowout_sim.diagnosis.fit.quantiles import NINETY
+from truck_blowout_sim.diagnosis.locate.beat import Beat
+from truck_blowout_sim.diagnosis.locate.lagging import Lag
+from truck_blowout_sim.diagnosis.locate.posture import Posture
+from truck_blowout_sim.diagnosis.locate.restless import Restless
+from truck_blowout_sim.diagnosis.locate.wrench import Wrenches
+from truck_blowout_sim.diagnosis.model.law import Law
+from truck_blowout_sim.diagnosis.name.judging import Found
+from truck_blowout_sim.diagnosis.prove.intervals import Timing
+from truck_blowout_sim.diagnosis.prove.next_test import Separation
+from truck_blowout_sim.diagnosis.prove.profile import Arms
+from truck_blowout_sim.diagnosis.result import (
+    AliasSet,
+    ChannelSigma,
+    Diagnosis,
+    Evidence,
+    Fit,
+    Location,
+    Verdict,
+    Wrench,
+)
+from truck_blowout_sim.diagnosis.sensors import GateResult
+
+Floats = NDArray[np.float64]
+Key = tuple[str, str]  # of a hypothesis: name and place
+_LEFT_BY_LAW = 0.02  # of what was bought: another tire lost bought 1.7 million and left 93
+_PULLED = 2.9  # prior sigmas beyond which a sheet number is reported
+
+
+@dataclass(frozen=True, eq=False)
+class Material:
+    """Everything an answer is made of.
+
+    Attributes:
+        wrenches: missing on each body before anything was named; ``unnamed``: after.
+        law: plainest law of what is left unnamed.
+        timings: intervals of each timed effect's onset and duration, by key and run.
+        vehicle: name of the model's vehicle.
+        separation: the run that would best tell apart what these cannot, if any could.
+        arms: of each effect's amount by profile likelihood and jackknife, by key, if asked for.
+        beat: a periodic force too fast for the bins; ``lag``: a wheel that a drag holds back;
+            ``posture``: a body that stands turned; ``restless``: a channel that nothing calms.
+    """
+
+    study: Study
+    found: Found
+    gate: GateResult
+    wrenches: tuple[Wrenches, ...]
+    unnamed: tuple[Wrenches, ...]
+    law: Law
+    timings: Mapping[Key, Mapping[str, Timing]]
+    vehicle: str
+    separation: Separation | None = None
+    arms: Mapping[Key, Arms] = field(default_factory=dict)
+    beat: Beat | None = None
+    lag: Lag | None = None
+    posture: Posture | None = None
+    restless: Restless | None = None
+
+    @property
+    def signs(self) -> tuple[words.Sign, ...]:
+        """What shows beside a force."""
+        shown = (self.beat, self.lag, self.posture, _moving_on(self))
+        return tuple(one for one in shown if one is not None)
+
+
+def answer(material: Material) -> Diagnosis:
+    """The diagnosis."""
+    found, gate = material.found, material.gate
+    effects = [sensor_effect(f) for f in gate.findings]
+    verdict = decide(material)
+    # what explains less than half of a mismatch is no name for it; it stays among the candidates
+    named = [] if verdict == "unknown" else list(zip(found.named, found.rivals, strict=True))
+    effects += [physics_effect(r, material.study, material.timings.get(r.hypothesis.key),
+                               material.arms.get(r.hypothesis.key)) for r, _ in named]
+    aliases = [AliasSet(f.aliases or (f.name,), splits=f.next_test) for f in gate.findings]
+    aliases += [alias_set(rivals) for _, rivals in named]
+    next_test = (words.next_look(material.law, material.signs) if verdict == "unknown"
+                 else words.next_test(found, gate, material.separation))
+    return Diagnosis(
+        verdict=verdict, sentence=words.verdict_sentence(
+            verdict, effects, pulled(material), material.law if unexplained(material) else None,
+            material.signs),
+        effects=tuple(effects), alias_sets=tuple(aliases), location=locate(material),
+        train=fit(material, "train"), holdout=fit(material, "holdout"),
+        null_p_value=null_p_value(material), next_test=next_test,
+        evidence=gather(material))
+
+
+def decide(material: Material) -> Verdict:
+    """Which of the five verdicts the evidence supports."""
+    found, gate = material.found, material.gate
+    physics = [r for r in found.named if r.hypothesis.effect.kind == "physics"]
+    if (unexplained(material) or _beats(material) or _stands_turned(material)
+            or _moving_on(material) or material.lag):
+        return "unknown"
+    if physics:
+        return "missing_physics"
+    if gate.findings or found.named:
+        return "sensor_artefact"
+    return "miscalibrated" if pulled(material) else "consistent"
+
+
+def _beats(material: Material) -> bool:
+    """Whether a periodic force says more than everything named."""
+    beat = material.beat
+    return beat is not None and beat.evidence > _bought(material)
+
+
+def _stands_turned(material: Material) -> bool:
+    """Whether a body stands turned by more than the law of something named leaves."""
+    posture = material.posture
+    return posture is not None and posture.evidence > _LEFT_BY_LAW * _bought(material)
+
+
+def _moving_on(material: Material) -> Restless | None:
+    """The restless channel, if more is left of it than everything named explains of all."""
+    moving = material.restless
+    return moving if moving is not None and moving.evidence > _bought(material) else None
+
+
+def unexplained(material: Material) -> bool:
+    """Whether much is left, and what was named explains less than half of it."""
+    found, rules = material.found, material.study.settings
+    rows = material.study.columns.shape[0]
+    bought = _bought(material)
+    unnamed = max((w.delta - 2.0 * w.degrees for w in material.unnamed), default=0.0)
+    excess = found.chi2_after + bought - rules.expected_level * rows
+    demand, calm = material.study.demand, material.study.calm
+    # a faulty instrument, once corrected, leaves more of itself than two models differ by: then
+    # only a force counts, and no smaller one than in turns
+    sound = not material.gate.findings
+    left = sound and found.chi2_after > rules.unknown_level * demand * rows
+    needed = rules.unknown_delta * demand * (calm if sound else 1.0)
+    return (left and bought < 0.5 * excess) or unnamed > max(needed, bought)
+
+
+def _bought(material: Material) -> float:
+    """Fall of the sum of squares that the named effects brought.
+
+    With what calibration had ascribed to the sheet: a dragging flat tire is also a number of it.
+    """
+    found = material.found
+    return found.chi2_null - found.chi2_after + sum(
+        max(r.evidence - r.delta, 0.0) for r in found.named)
+
+
+def pulled(material: Material) -> list[tuple[str, float]]:
+    """Sheet numbers beyond three prior sigmas, with their pull, strongest first."""
+    study = material.study
+    own = joint_amounts(material)
+    total = {n.name: own.get(n.name, 0.0) for n in study.settings.nuisances}
+    return sorted(((n, a) for n, a in total.items() if abs(a) > _PULLED), key=lambda p: -abs(p[1]))
+
+
+def joint_amounts(material: Material) -> dict[str, float]:
+    """Each nuisance in the joint fit, in prior sigmas, the named effects in force."""
+    study, named = material.study, [r.hypothesis for r in material.found.named]
+    amounts = study.projector(named).amounts(study.residual())
+    return {study.names[k]: float(a) for k, a in zip(study.kept(named), amounts, strict=True)}
+
+
+def locate(material: Material) -> Location:
+    """Channels that differ before anything is named; where what is then left unnamed acts."""
+    study = material.study
+    before = fit(material, "train").before
+    channels = tuple(ChannelSigma(n, s) for n, s in sorted(before.items(), key=lambda p: -p[1])
+                     if s > 1.5)
+    if not material.wrenches:
+        return Location(channels=channels)
+    # along the course both bodies move as one: what turns or beats says which it is, or what was
+    # named, by its wheels
+    shown: list[str | None] = [
+        one.body for one in (material.posture, material.beat, _moving_on(material)) if one]
+    bodies = shown or [r.hypothesis.place.body for r in material.found.named[:1]]
+    best = max(material.wrenches, key=lambda w: (w.history.body in bodies, w.delta))
+    history = best.history
+    z = (np.abs(history.fx_n / history.fx_sigma_n) + np.abs(history.fy_n / history.fy_sigma_n)
+         + np.abs(history.mz_nm / history.mz_sigma_nm))
+    strong = np.flatnonzero(z > 0.5 * z.max()) if z.size else np.zeros(0, dtype=int)
+    if best.delta < study.settings.accept_delta or not strong.size:
+        return Location(channels=channels)
+    a, b = strong[0], strong[-1] + 1
+    wide = NINETY * best.x_sigma_m
+    known = np.isfinite(best.x_m)
+    return Location(
+        channels=channels,
+        interval_s=(float(history.time_s[a]) - 0.5 * best.window_s,
+                    float(history.time_s[b - 1]) + 0.5 * best.window_s),
+        body=history.body, line_of_action_x_m=best.x_m if known else None,
+        line_of_action_ci90_m=(best.x_m - wide, best.x_m + wide) if known else None,
+        wrench=Wrench(float(history.fx_n[a:b].mean()), float(history.fy_n[a:b].mean()),
+                      float(history.mz_nm[a:b].mean())))
+
+
+def fit(material: Material, role: str) -> Fit:
+    """Rms residual in units of instrument noise, before and after, pooled over runs."""
+    before = evidence.pooled(evidence.left_before(material.study, material.found, role))
+    after = evidence.pooled(evidence.left_after(material.study, material.found, role))
+    return Fit(before, after)
+
+
+def null_p_value(material: Material) -> float:
+    """Chance of the best evidence if nothing were missing, as calibrated on such cases.
+
+    Evidence counts in units of what an effect of its name needs.
+    """
+    study = material.study
+    return study.settings.null_p_value(max(
+        (r.evidence / study.needed(r.hypothesis.effect, bool(r.hypothesis.times))
+         for r, _ in material.found.tried), default=0.0))
+
+
+def gather(material: Material) -> Evidence:
+    """What stands behind the answer."""
+    study, found = material.study, material.found
+    rows = study.columns.shape[0]
+    law = (material.law.equation,) if unexplained(material) else ()
+    told = tuple(one.equation for one in material.signs)
+    return Evidence(
+        vehicle=material.vehicle,
+        recordings=tuple((r.recording.name, r.role) for r in (*study.runs, *study.holdout)),
+        candidates=evidence.candidates(found), maps=evidence.maps(study, found),
+        overlays=evidence.overlays(study, found),
+        forces=tuple(w.history for w in material.wrenches),
+        beats=material.beat.scores if material.beat else None,
+        calibrated=evidence.calibrated(study, joint_amounts(material)),
+        equations=tuple(words.fill(r.hypothesis, r.hypothesis.effect.amount.report(
+            r.hypothesis.amount), None)[1] for r in found.named) + law + told,
+        assumptions=words.assumptions(study), missing_channels=words.missing_channels(study),
+        notes=(*material.gate.notes, *(note for r in study.runs for note in r.recording.notes)),
+        facts=(*((f"unnamed wrench on the {w.history.body} buys", f"{w.delta:.0f} with {w.degrees}")
+                 for w in material.unnamed),
+               *(material.beat.facts if material.beat else ()),
+               ("simulations", str(study.simulations)),
+               ("sum of squares a row, calibrated", f"{found.chi2_null / rows:.3f}"),
+               ("sum of squares a row, diagnosed", f"{found.chi2_after / rows:.3f}")))

@@ -1,0 +1,82 @@
+"""What was found, as the answer tells it: effects of the truck, faults of instruments, aliases.
+
+Validated with: test/diagnosis/test_outcome.py.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from truck_blowout_sim.diagnosis.answer import words
+from truck_blowout_sim.diagnosis.case.study import Study
+from truck_blowout_sim.diagnosis.effects.base import Amount
+from truck_blowout_sim.diagnosis.fit.attribute import Ranked
+from truck_blowout_sim.diagnosis.fit.quantiles import NINETY
+from truck_blowout_sim.diagnosis.prove.intervals import Timing
+from truck_blowout_sim.diagnosis.prove.profile import Arms
+from truck_blowout_sim.diagnosis.result import AliasSet, Effect, Parameter, Place
+from truck_blowout_sim.diagnosis.result.parts import Interval
+from truck_blowout_sim.diagnosis.sensors import SensorFinding
+
+_OPEN = (-np.inf, np.inf)
+
+
+def physics_effect(ranked: Ranked, study: Study, timings: Mapping[str, Timing] | None = None,
+                   arms: Arms | None = None) -> Effect:
+    """An accepted hypothesis as the answer gives it.
+
+    Args:
+        timings: intervals of its instants, by run; ``arms``: of its amount; None: by curvature.
+    """
+    h = ranked.hypothesis
+    amount = h.effect.amount
+    # noise alone would give an interval far too narrow: the truth has another law than the model
+    form = study.settings.form(h.effect.name) * (h.amount - h.effect.neutral(study.packed))
+    wide = NINETY * float(np.hypot(ranked.sigma, form))
+    below, above = arms.wider(form) if arms else (wide, wide)
+    value = amount.report(h.amount)
+    ends = reported(amount, h.amount - below, h.amount + above)
+    first = min(h.times, key=lambda run: h.times[run][0], default="")
+    onset = h.times[first][0] if first else None
+    timings = timings or {}
+    interval = timings[first].onset_s if first in timings else None
+    parameters = {amount.name: Parameter(value, amount.unit, ends)}
+    for run, (start, end) in h.times.items():
+        if np.isfinite(end):
+            known = timings[run].duration_s if run in timings else None
+            parameters[f"duration_s in {run}"] = Parameter(end - start, "s", known or _OPEN)
+    sentence, equation = words.fill(h, value, onset)
+    sentence += words.open_ends(ends)
+    return Effect(name=h.effect.name, kind=h.effect.kind, where=h.place, parameters=parameters,
+                  equation=equation, sentence=sentence, onset_s=onset, onset_ci90_s=interval)
+
+
+def reported(amount: Amount, low: float, high: float) -> Interval:
+    """An interval as reported: within what is physical, infinite where the recordings say nothing.
+
+    A quantity that falls as the amount grows changes its ends round.
+    """
+    ends = [amount.report(float(np.clip(end, amount.low, amount.high))) for end in (low, high)]
+    order = 1.0 if ends[0] <= ends[1] else -1.0
+    told = [order * end if np.isinf(end) else value
+            for end, value in zip((low, high), ends, strict=True)]
+    return min(told), max(told)
+
+
+def sensor_effect(finding: SensorFinding) -> Effect:
+    """A faulty instrument as the answer gives it."""
+    return Effect(name=finding.name, kind="sensor", where=Place(body=finding.body or None),
+                  parameters={n: Parameter(a.value, a.unit, a.ci90)
+                              for n, a in finding.parameters.items()},
+                  equation=finding.equation, sentence=finding.sentence)
+
+
+def alias_set(rivals: Sequence[Ranked]) -> AliasSet:
+    """Names that explain as much, best first, each once."""
+    first: dict[str, Ranked] = {}
+    for r in rivals:
+        first.setdefault(r.hypothesis.effect.name, r)
+    return AliasSet(tuple(first), tuple(str(r.hypothesis.place) for r in first.values()),
+                    rivals[0].hypothesis.effect.splits)

@@ -1,0 +1,129 @@
+"""Sentences a driver could check and equations an engineer could."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from math import isfinite
+
+from truck_blowout_sim.diagnosis.case.study import Study
+from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
+from truck_blowout_sim.diagnosis.locate.beat import Beat
+from truck_blowout_sim.diagnosis.locate.lagging import Lag
+from truck_blowout_sim.diagnosis.locate.posture import Posture
+from truck_blowout_sim.diagnosis.locate.restless import Restless
+from truck_blowout_sim.diagnosis.model.law import Law
+from truck_blowout_sim.diagnosis.name.judging import Found
+from truck_blowout_sim.diagnosis.prove.next_test import Separation
+from truck_blowout_sim.diagnosis.result import Effect, Verdict
+from truck_blowout_sim.diagnosis.result.parts import Interval
+from truck_blowout_sim.diagnosis.sensors import GateResult
+
+Sign = Beat | Lag | Posture | Restless  # what shows beside a force
+_SPLITTERS = (
+    ("hub_speed_", "wheel speeds", "which wheel drags, brakes or slips"),
+    ("tire_pressure_", "tire pressures", "a failing tire from a moving load or a dragging brake"),
+    ("brake_chamber_", "brake chamber pressures", "late or weak pressure from weak brakes"),
+    ("trailer_yaw_rate_radps", "trailer yaw rate", "a force on the trailer from one ahead of it"),
+    ("trailer_ay_mps2", "trailer lateral acceleration", "where on the trailer a side force acts"),
+    ("tractor_roll_rad", "roll angle", "roll steer from steering compliance"),
+    ("throttle", "throttle", "driveline drag from drag of the truck"),
+)
+
+
+def fill(hypothesis: Hypothesis, value: float, onset_s: float | None) -> tuple[str, str]:
+    """Sentence and equation of an effect, the numbers filled in."""
+    where = str(hypothesis.place) or "truck"
+    onset = f"{onset_s:.2f} s" if onset_s is not None else "the start"
+    blanks = {"where": where, "value": f"{value:.3g}", "onset": onset,
+              "percent": f"{100.0 * value:.2g}", "percent_of": f"{100.0 * value:.0f}"}
+    effect = hypothesis.effect
+    return effect.sentence.format(**blanks), effect.equation.format(**blanks)
+
+
+def open_ends(ends: Interval) -> str:
+    """What to say where the recordings set no bound on one side, or on neither."""
+    open_ = [word for word, end in zip(("lower", "upper"), ends, strict=True) if not isfinite(end)]
+    return f" These recordings set no {' and no '.join(open_)} bound." if open_ else ""
+
+
+def verdict_sentence(verdict: Verdict, effects: Sequence[Effect],
+                     pulled: Sequence[tuple[str, float]], law: Law | None,
+                     signs: Sequence[Sign] = ()) -> str:
+    """The verdict in words; ``law``: of a force left unexplained, ``signs``: what else shows."""
+    if verdict == "consistent":
+        return ("The model explains these recordings within what instruments and trucks of one "
+                "kind differ; nothing is missing that they could show.")
+    if verdict == "miscalibrated":
+        names = ", ".join(f"{n.replace('_', ' ')} ({a:+.1f} sigma)" for n, a in pulled[:3])
+        return f"No physics is missing, but the sheet is off: {names}."
+    said = [] if verdict == "unknown" else [effect.sentence for effect in effects]
+    if law is not None:
+        said.append(f"Something acts on the {law.body} that no known effect explains; its plainest "
+                    f"law is {law.equation}, which left-out windows confirm to "
+                    f"{100.0 * law.explained:.0f} percent{_unseen(law)}.")
+    return " ".join((*said, *(sign.sentence for sign in signs)))
+
+
+def _unseen(law: Law) -> str:
+    """What runs that were never fitted say of a law."""
+    if law.unseen is None:
+        return "" if law.values else "; the model has no place for it"
+    change = 100.0 * (1.0 - law.unseen[1] / law.unseen[0])
+    return (f"; with it, unseen runs are predicted {change:.0f} percent better" if law.helps else
+            "; unseen runs are not predicted better with it, so it is not added")
+
+
+def next_look(law: Law, signs: Sequence[Sign]) -> str:
+    """Where nothing is named: what would show the cause of a sign, or else of the force."""
+    if signs:
+        return signs[0].next_test
+    return (f"Repeat the run at another speed, then with another load: whether the force on the "
+            f"{law.body} follows speed, load or the place on the road tells what makes it.")
+
+
+def next_test(found: Found, gate: GateResult, best: Separation | None = None) -> str:
+    """The run or channel that would decide, or confirm; ``best``: what simulation found."""
+    if best is not None:
+        return f"To tell {_names(best.pair)}: {best.pair[0].effect.splits}. {best}"
+    for rivals in found.rivals:
+        pair = [r.hypothesis for r in rivals[:2]]
+        if len(pair) > 1:
+            return f"To tell {_names(pair)}: {pair[0].effect.splits}."
+    for finding in gate.findings:
+        return finding.next_test
+    if found.named:
+        return f"To confirm: {found.named[0].hypothesis.effect.splits}."
+    return "None is needed for these manoeuvres; a harder one would test more of the model."
+
+
+def _names(pair: Sequence[Hypothesis]) -> str:
+    """Two explanations; with their places where the names are the same."""
+    names = [h.effect.name for h in pair]
+    if len(set(names)) == 1:
+        names = [f"{h.effect.name} at {h.place}" for h in pair]
+    return " from ".join(names)
+
+
+def assumptions(study: Study) -> tuple[str, ...]:
+    """Everything that was taken for granted."""
+    base = ["All recordings are of one truck with one set of instruments.",
+            "Hand wheel, throttle and brake pressures are as recorded.",
+            "Sheet numbers stray from truck to truck as config/diagnosis states.",
+            f"Model differences last about {study.settings.correlation_s:g} s."]
+    if study.baseline:
+        base.append("What is missing is not at work in the baseline recordings.")
+    else:
+        base.append("Without baseline recordings, the effect may be at work in every run.")
+    if study.settings.without:
+        base.append("Not the cause, as was told: " + ", ".join(study.settings.without) + ".")
+    if any(run.drive.speed_imposed for run in study.runs):
+        base.append("Speed is imposed where throttle or brakes were not recorded.")
+    return tuple(base)
+
+
+def missing_channels(study: Study) -> tuple[tuple[str, str], ...]:
+    """Channels no run has, and what each would have told apart."""
+    have = {c for run in study.runs for c in run.recording.channels}
+    return tuple((label, splits) for piece, label, splits in _SPLITTERS
+                 if not any(piece in c for c in have)
+                 and (not piece.startswith("trailer") or len(study.packed.vehicle.units) > 1))

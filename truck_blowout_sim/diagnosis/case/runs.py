@@ -1,0 +1,202 @@
+"""A recording prepared for the diagnosis: driven, cut into bins, weighed.
+
+Residuals are bin means of (measured - model) over the standard error that noise and the stated
+difference between good models leave in a bin. A difference lasts for about ``correlation_s``, so
+its share is widened by the number of bins it spans.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from truck_blowout_sim.diagnosis.case.trust import BRAKES_ON_PA, wider
+from truck_blowout_sim.diagnosis.result.evidence import Role
+from truck_blowout_sim.diagnosis.sensors import Noise, channel_noise
+from truck_blowout_sim.diagnosis.settings import Settings
+from truck_blowout_sim.recordings import Recording
+from truck_blowout_sim.simulation.course import Course
+from truck_blowout_sim.simulation.drive import Drive, names_of, run_drive
+from truck_blowout_sim.simulation.replay import drive_from
+from truck_blowout_sim.vehicle import Packed
+
+Floats = NDArray[np.float64]
+_BEST_INSTRUMENT = 0.1  # smallest noise believed, in units of the model's floor
+_COARSE_ENOUGH = 0.4  # rms sigmas that the coarse step may have to be corrected by; 0.1 is usual
+_LOST = 1e4  # sigmas assigned to a simulation that broke down
+
+
+@dataclass(frozen=True, eq=False)
+class Run:
+    """One recording on bins.
+
+    Attributes:
+        recording, role, drive: where it comes from, how it is used, what drives the model.
+        fine: the same drive on the fine step, from which ``correction`` comes.
+        channels: names used, m of them; ``columns``: their places in the model's output.
+        edges_s: bin edges, n + 1.
+        measured, sigma: [n, m] bin means and their standard errors; NaN where not measured.
+        noise: standard error from the instrument alone.
+        correction: [n, m] what the fine step changes in the reference truck's bin means; added to
+            those of every truck, which are simulated on the coarse step.
+        course, since_s: a driven truck from which those simulated differ only after an instant.
+    """
+
+    recording: Recording
+    role: Role
+    drive: Drive
+    channels: tuple[str, ...]
+    columns: tuple[int, ...]
+    edges_s: Floats
+    measured: Floats
+    sigma: Floats
+    noise: Floats
+    fine: Drive
+    correction: Floats
+    course: Course | None = None
+    since_s: float = 0.0
+
+    @property
+    def length_s(self) -> float:
+        """From the first bin's beginning to the last one's end."""
+        return float(self.edges_s[-1] - self.edges_s[0])
+
+    @property
+    def has_blowout(self) -> bool:
+        """Whether a tire is blown on command."""
+        return bool(self.recording.blowouts)
+
+    @property
+    def has_brakes(self) -> bool:
+        """Whether any brake was applied."""
+        return bool((self.drive.inputs[:, 2:] > BRAKES_ON_PA).any())
+
+    def shows(self, applies: str) -> bool:
+        """Whether an effect that needs ``applies`` (any, blowout, brakes) can be seen here."""
+        return {"any": True, "": True, "blowout": self.has_blowout,
+                "brakes": self.has_brakes}[applies]
+
+    def simulated(self, truck: Packed) -> Floats:
+        """[n, m] bin means of a truck over this run."""
+        out = (run_drive(truck, self.drive) if self.course is None
+               else self.course.left_at(truck, self.since_s))
+        return self.bins_of(out) + self.correction
+
+    def corrected(self, truck: Packed) -> Run:
+        """This run, corrected for the coarse step at a reference truck.
+
+        Where that would have to correct much, the coarse step is no use for this truck (a stiff
+        rim, datasets that are swapped): everything is then simulated on the fine one.
+        """
+        if self.fine.step_s == self.drive.step_s:
+            return self
+        change = self.bins_of(run_drive(truck, self.fine), self.fine) - self.bins_of(
+            run_drive(truck, self.drive))
+        if not np.sqrt(np.nanmean((change / self.sigma) ** 2)) < _COARSE_ENOUGH:
+            return replace(self, drive=self.fine)
+        return replace(self, correction=np.where(np.isfinite(change), change, 0.0))
+
+    def shifted(self, whitened: Floats) -> Run:
+        """This run, its model lowered by a whitened vector [n * m]."""
+        lower = np.nan_to_num(whitened.reshape(self.sigma.shape) * self.sigma)
+        return replace(self, correction=self.correction - lower)
+
+    def bins_of(self, out: Floats, drive: Drive | None = None) -> Floats:
+        """[n, m] bin means of a model output [rows, outputs] of ``drive``, else of the own."""
+        rows = self._rows(out.shape[0], drive or self.drive)
+        sums = np.add.reduceat(out[:, self.columns], rows[:-1], axis=0)[:len(rows) - 1]
+        counts = np.diff(np.append(rows[:-1], rows[-1]))[:, None]
+        last = out[rows[-2]:rows[-1], self.columns].sum(axis=0)
+        sums[-1] = last
+        return sums / counts
+
+    def _rows(self, n_rows: int, drive: Drive) -> NDArray[np.int64]:
+        """Output row at which each bin begins, and where the last one ends."""
+        period = drive.every * drive.step_s
+        rows = np.round((self.edges_s - drive.initial.time_s) / period).astype(np.int64)
+        return np.minimum(rows, n_rows)
+
+    def residual(self, model: Floats) -> Floats:
+        """[n * m] whitened measured - model, zero where not measured, bounded where it broke."""
+        z = (self.measured - model) / self.sigma
+        broken = ~np.isfinite(model) & np.isfinite(self.measured)
+        return np.clip(np.where(broken, _LOST, np.nan_to_num(z, nan=0.0)), -_LOST, _LOST).ravel()
+
+    def change(self, now: Floats, base: Floats) -> Floats:
+        """[n * m] whitened now - base, zero where not measured."""
+        z = np.nan_to_num((now - base) / self.sigma, nan=0.0, posinf=0.0, neginf=0.0)
+        return np.clip(z, -_LOST, _LOST).ravel()
+
+
+def prepare_run(recording: Recording, role: Role, packed: Packed, settings: Settings, *,
+                step_s: float, impose_speed: bool | None = None) -> Run:
+    """Cut a recording into bins and weigh its channels.
+
+    ``impose_speed``: see :func:`truck_blowout_sim.simulation.replay.drive_from`. ``step_s`` is the
+    fine step; what is tried is simulated on the settings' coarse one, corrected by the difference.
+
+    Raises:
+        InputError: the recording cannot drive the model.
+    """
+    fine, drive = (drive_from(recording, packed.vehicle, step_s=step, impose_speed=impose_speed)
+                   for step in (step_s, max(step_s, settings.trial_step_s)))
+    names = names_of(packed.vehicle)
+    noise = channel_noise(recording)
+    channels = tuple(n for n in names if n in recording and n in noise
+                     and settings.rule(n) and not _redundant(n, drive))
+    n_bins = int((drive.times_s[-1] - drive.initial.time_s - settings.skip_s) / settings.bin_s)
+    start = drive.initial.time_s + settings.skip_s
+    edges: Floats = (start + np.arange(max(n_bins, 1) + 1) * settings.bin_s).astype(np.float64)
+    factor = wider(recording, drive, packed, edges, settings)
+    parts = [_channel_bins(recording, n, noise[n], edges, settings, factor) for n in channels]
+    measured, sigma, plain = (np.stack([p[k] for p in parts], axis=1) for k in range(3))
+    return Run(recording, role, drive, channels, tuple(names.index(n) for n in channels), edges,
+               measured, sigma, plain, fine, np.zeros(measured.shape))
+
+
+def _redundant(name: str, drive: Drive) -> bool:
+    """An imposed speed says nothing about what drives or brakes."""
+    return drive.speed_imposed and (name.endswith(("_vx_mps", "_ax_mps2"))
+                                    or name.startswith("hub_speed_"))
+
+
+def _channel_bins(recording: Recording, name: str, noise: Noise, edges: Floats,
+                  settings: Settings, factor: Floats) -> tuple[Floats, Floats, Floats]:
+    """Bin means, their standard errors, and the part of these that is noise."""
+    series, rule = recording[name], settings.rule(name)
+    assert rule is not None
+    place = np.searchsorted(edges, series.time_s + 1e-9, side="right") - 1
+    inside = (place >= 0) & (place < edges.size - 1)
+    counts = np.bincount(place[inside], minlength=edges.size - 1).astype(np.float64)
+    sums = np.bincount(place[inside], series.value[inside], minlength=edges.size - 1)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        mean = np.where(counts > 0, sums / counts, np.nan)
+    level = np.abs(np.nan_to_num(mean))
+    single = np.hypot(noise.floor, noise.relative * level)
+    independent = np.clip(noise.effective_rate_hz * settings.bin_s, 1.0, np.maximum(counts, 1.0))
+    plain = np.maximum(single / np.sqrt(independent), noise.quantum / 6.0)
+    # a gauge that reads nothing, or a computed series, seems noiseless: none is that good
+    plain = np.maximum(plain, _BEST_INSTRUMENT * rule.floor)
+    swing = np.abs(np.nan_to_num(mean) - np.nanmedian(mean))
+    model = np.hypot(rule.floor, rule.relative * swing)
+    widened = factor * model * np.sqrt(settings.correlation_s / settings.bin_s)
+    # a bin without samples must not count as one in which nothing changed
+    return mean, np.where(counts > 0, np.hypot(plain, widened), np.nan), plain
+
+
+def simulate_bins(jobs: Sequence[tuple[Run, Packed]], workers: int,
+                  simulated: Callable[[Run, Packed], Floats]) -> list[Floats]:
+    """Bin means of each truck over its run, in order; in parallel, same bits as one by one."""
+    with ThreadPoolExecutor(workers) as pool:
+        return list(pool.map(lambda job: simulated(*job), jobs))
+
+
+def rms_sigma(run: Run, model: Floats) -> Mapping[str, float]:
+    """Rms residual of each channel over its noise (instrument alone), NaN-free."""
+    z = (run.measured - model) / run.noise
+    return {name: float(np.sqrt(np.nanmean(z[:, k] ** 2))) for k, name in enumerate(run.channels)
+            if np.isfinite(z[:, k]).any()}

@@ -1,0 +1,250 @@
+"""The case under study: runs, the calibrated truck, residuals and nuisance columns, stacked.
+
+Rows of the stack: baseline runs first (nothing missing there), then training runs. Nuisances are
+shared by all runs of the case; an effect acts in training only.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from truck_blowout_sim.diagnosis.case.runs import Run, simulate_bins
+from truck_blowout_sim.diagnosis.case.trust import calm, demand
+from truck_blowout_sim.diagnosis.effects import Effect
+from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
+from truck_blowout_sim.diagnosis.fit.linear import Projector
+from truck_blowout_sim.diagnosis.settings import Settings
+from truck_blowout_sim.simulation.course import Course, drive_course
+from truck_blowout_sim.vehicle import Packed
+
+Floats = NDArray[np.float64]
+Progress = Callable[[str, float], None]
+REFITS = (7, 2)
+_MOST_COURSES = 12  # driven trucks that are remembered, some 3 MB each
+FURTHEST = 3.0  # prior sigmas a number of the sheet may stray
+_START_SPEED_SIGMA_MPS = 0.02
+_START_SPEED_STEP_MPS = 0.1
+
+
+@dataclass(eq=False)
+class Study:
+    """A case being worked on.
+
+    Attributes:
+        runs: baseline and training; ``holdout``: predicted only.
+        packed: the truck at its reference (sheet, then calibrated).
+        settings: assumptions; ``workers``: threads.
+        refits: how many steady candidates are fitted anew in a round, and how many events.
+        models: bin means of the model for each of ``runs`` as it stands now.
+        columns: [rows, k] nuisance columns over ``runs``, scaled by prior sigma.
+        holdout_models, holdout_columns: the same, run by run, for holdout.
+        names: of the nuisances, in the order of the columns.
+        amounts: of each sheet nuisance at the reference, in prior sigmas from the sheet.
+        known: sheet nuisances that the baseline runs determine: what differs from them in training
+            is an effect, and both can be fitted together.
+        simulations: how many were asked for; ``simulated`` gives the bin means of one.
+    """
+
+    runs: tuple[Run, ...]
+    holdout: tuple[Run, ...]
+    packed: Packed
+    settings: Settings
+    workers: int = 2
+    refits: tuple[int, int] = REFITS
+    models: list[Floats] = field(default_factory=list)
+    columns: Floats = field(default_factory=lambda: np.zeros((0, 0)))
+    holdout_models: list[Floats] = field(default_factory=list)
+    holdout_columns: list[Floats] = field(default_factory=list)
+    names: tuple[str, ...] = ()
+    amounts: dict[str, float] = field(default_factory=dict)
+    known: frozenset[str] = frozenset()
+    simulations: int = 0
+    simulated: Callable[[Run, Packed], Floats] = Run.simulated
+    _projectors: dict[frozenset[str], Projector] = field(default_factory=dict)
+    _gram: Floats = field(default_factory=lambda: np.zeros((0, 0)))
+    _courses: dict[tuple[Run, bytes], Course] = field(default_factory=dict)
+
+    @property
+    def train(self) -> tuple[int, ...]:
+        """Positions of the training runs in ``runs``."""
+        return tuple(i for i, run in enumerate(self.runs) if run.role == "train")
+
+    @cached_property
+    def demand(self) -> float:
+        """Factor on the evidence asked of what shows without hard turns."""
+        return demand([self.runs[i].recording for i in self.train], self.packed.vehicle.units[0],
+                      self.settings)
+
+    @cached_property
+    def calm(self) -> float:
+        """Share of what a force that nothing explains must buy in runs so straight."""
+        return calm([self.runs[i].recording for i in self.train], self.packed.vehicle.units[0],
+                    self.settings)
+
+    def needed(self, effect: Effect, event: bool = False) -> float:
+        """Evidence that an effect must have in these runs."""
+        blown = any(self.runs[i].has_blowout for i in self.train)
+        usual = self.settings.needed(effect.name, event, blown)
+        return usual if effect.at_limit else usual * self.demand
+
+    @property
+    def baseline(self) -> tuple[int, ...]:
+        """Positions of the baseline runs in ``runs``."""
+        return tuple(i for i, run in enumerate(self.runs) if run.role == "baseline")
+
+    def expected(self, name: str) -> float:
+        """Amount of a nuisance that the baseline runs show; without such runs that of the sheet."""
+        return self.amounts.get(name, 0.0) if self.baseline else 0.0
+
+    def meaning(self, hypothesis: Hypothesis) -> str:
+        """Nuisance that would swallow the hypothesis; empty if none or if baseline runs hold it."""
+        name = hypothesis.meaning(self.packed.vehicle)
+        return "" if name in self.known else name
+
+    def projector(self, hypotheses: Sequence[Hypothesis] = ()) -> Projector:
+        """Projector without the nuisances that mean the same as one of the hypotheses.
+
+        Made once for each set that is left out.
+        """
+        drop = frozenset(self.meaning(h) for h in hypotheses)
+        if drop not in self._projectors:
+            if not self._gram.size:
+                self._gram = self.columns.T @ self.columns
+            keep = [k for k, name in enumerate(self.names) if name not in drop]
+            self._projectors[drop] = Projector.of(self.columns, keep, self._gram)
+        return self._projectors[drop]
+
+    def kept(self, hypotheses: Sequence[Hypothesis] = ()) -> list[int]:
+        """Positions of the nuisances that :meth:`projector` keeps."""
+        kept: list[int] = self.projector(hypotheses).kept.tolist()
+        return kept
+
+    def forget(self) -> None:
+        """Drop what was made of columns that are no longer these."""
+        self._projectors.clear()
+        self._gram = np.zeros((0, 0))
+
+    def simulate(self, jobs: Sequence[tuple[Run, Packed]]) -> list[Floats]:
+        """Bin means of many (run, truck) pairs."""
+        self.simulations += len(jobs)
+        return simulate_bins(jobs, self.workers, self.simulated)
+
+    def job(self, run: Run, base: Packed, hypothesis: Hypothesis) -> tuple[Run, Packed]:
+        """What to simulate for a hypothesis on top of a truck: an event from its start on only."""
+        name = run.recording.name
+        truck = hypothesis.apply(base, name)
+        if not hypothesis.effect.timed:
+            return run, truck
+        start, _ = hypothesis.times.get(name, (np.inf, np.inf))
+        return self.late(run, base, start), truck
+
+    def late(self, run: Run, base: Packed, since_s: float) -> Run:
+        """The run for trucks that are another than ``base`` only from an instant on."""
+        key = (run, base.params.tobytes())
+        if key not in self._courses:
+            if len(self._courses) >= _MOST_COURSES:
+                self._courses.pop(next(iter(self._courses)))
+            self._courses[key] = drive_course(base, run.drive)
+        return replace(run, course=self._courses[key], since_s=since_s)
+
+    def stack(self, parts: Mapping[int, Floats]) -> Floats:
+        """Join whitened vectors of some runs into one over all rows, zero elsewhere."""
+        return np.concatenate([parts.get(i, np.zeros(run.measured.size))
+                               for i, run in enumerate(self.runs)])
+
+    def residual(self, models: Mapping[int, Floats] | None = None) -> Floats:
+        """Whitened measured - model over all rows; ``models`` replaces some runs' models."""
+        models = models or {}
+        return self.stack({i: run.residual(models.get(i, self.models[i]))
+                           for i, run in enumerate(self.runs)})
+
+    def update_models(self) -> None:
+        """Simulate every run at the reference."""
+        self.models = self.simulate([(run, self.packed) for run in self.runs])
+
+
+def build_columns(study: Study, progress: Progress | None = None) -> None:
+    """Fill the nuisance columns of all runs, holdout too, at the present reference."""
+    everything = [*study.runs, *study.holdout]
+    bases = [*study.models, *study.holdout_models]
+    sheet = study.settings.nuisances
+    shown = [[bool(run.shows(n.only)) for n in sheet] for run in everything]
+    jobs: list[tuple[Run, Packed]] = []
+    for run, flags in zip(everything, shown, strict=True):
+        jobs += [(run, study.packed.with_values(n.values(study.packed, n.step)))
+                 for n, flag in zip(sheet, flags, strict=True) if flag]
+        jobs.append((_faster(run), study.packed))
+    results = iter(_with_progress(study, jobs, "sensitivities", progress))
+    blocks = []
+    for k, (run, flags, base) in enumerate(zip(everything, shown, bases, strict=True)):
+        own = [run.change(next(results), base) * (n.sigma / n.moved(study.amounts.get(n.name, 0.0)))
+               if flag else np.zeros(base.size) for n, flag in zip(sheet, flags, strict=True)]
+        start = run.change(next(results), base) * (_START_SPEED_SIGMA_MPS / _START_SPEED_STEP_MPS)
+        starts = [start if j == k else np.zeros(base.size) for j in range(len(everything))]
+        blocks.append(np.stack([*own, *starts, *instrument_columns(study, run)], axis=1))
+    n_runs = len(study.runs)
+    study.columns = np.concatenate(blocks[:n_runs], axis=0)
+    study.forget()
+    study.holdout_columns = blocks[n_runs:]
+    study.names = (*(n.name for n in sheet), *(f"start speed of {r.recording.name}"
+                                               for r in everything), *instrument_names(study))
+
+
+def _with_progress(study: Study, jobs: Sequence[tuple[Run, Packed]], what: str,
+                   progress: Progress | None) -> list[Floats]:
+    """Simulate in portions so that progress can be told."""
+    done: list[Floats] = []
+    portion = max(len(jobs) // 20, 8)
+    for first in range(0, len(jobs), portion):
+        done += study.simulate(jobs[first:first + portion])
+        if progress:
+            progress(what, len(done) / len(jobs))
+    return done
+
+
+def _faster(run: Run) -> Run:
+    """The same run begun a little faster."""
+    initial = replace(run.drive.initial,
+                      speed_mps=run.drive.initial.speed_mps + _START_SPEED_STEP_MPS)
+    return replace(run, drive=replace(run.drive, initial=initial))
+
+
+def instrument_names(study: Study) -> tuple[str, ...]:
+    """Names of the mounting errors and gains of all channels of the case."""
+    channels = dict.fromkeys(c for run in (*study.runs, *study.holdout) for c in run.channels)
+    names = []
+    for channel in channels:
+        rule = study.settings.rule(channel)
+        if rule and rule.bias:
+            names.append(f"bias of {channel}")
+        if rule and rule.gain:
+            names.append(f"gain of {channel}")
+    return tuple(names)
+
+
+def instrument_columns(study: Study, run: Run) -> list[Floats]:
+    """Whitened columns of a normal instrument's constant error and gain, for one run."""
+    columns: list[Floats] = []
+    for name in instrument_names(study):
+        kind, channel = name.split(" of ")
+        column = np.zeros(run.measured.shape)
+        if channel in run.channels:
+            k = run.channels.index(channel)
+            rule = study.settings.rule(channel)
+            assert rule is not None
+            value = rule.bias if kind == "bias" else rule.gain * run.measured[:, k]
+            column[:, k] = np.nan_to_num(value / run.sigma[:, k], nan=0.0)
+        columns.append(column.ravel())
+    return columns
+
+
+def row_ranges(study: Study) -> list[slice]:
+    """Rows of each run in the stack."""
+    ends = np.cumsum([run.measured.size for run in study.runs])
+    return [slice(int(end - run.measured.size), int(end))
+            for end, run in zip(ends, study.runs, strict=True)]

@@ -1,0 +1,48 @@
+"""One explanation: an effect at a place, how strong, and since when in each run."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+
+from truck_blowout_sim.diagnosis.effects import Effect
+from truck_blowout_sim.diagnosis.result.parts import Place
+from truck_blowout_sim.vehicle import Packed, Vehicle
+
+
+@dataclass(frozen=True)
+class Hypothesis:
+    """An effect at a place, with an amount and, if timed, an interval for each run.
+
+    Attributes:
+        times: (start, end) by run name; runs that are not listed do not have the event.
+    """
+
+    effect: Effect
+    place: Place
+    amount: float = 0.0
+    times: Mapping[str, tuple[float, float]] = field(default_factory=dict)
+
+    @property
+    def key(self) -> tuple[str, str]:
+        """Name and place, for comparing."""
+        return self.effect.name, str(self.place)
+
+    def meaning(self, vehicle: Vehicle) -> str:
+        """Calibration number that means the same as this hypothesis' amount; empty if none."""
+        axle = vehicle.spec.axles.get(self.place.axle or "")
+        return self.effect.absorbs.format(hub=self.place.hub, circuit=axle.circuit if axle else "")
+
+    def apply(self, packed: Packed, run: str, amount: float | None = None) -> Packed:
+        """The truck with this hypothesis in force during ``run``."""
+        size = self.amount if amount is None else amount
+        values = dict(self.effect.values(packed, self.place, size))
+        if self.effect.timed:
+            if run not in self.times:
+                return packed
+            values |= self.effect.timed(packed, self.place, *self.times[run])
+        return packed.with_values(values)
+
+    def at(self, amount: float) -> Hypothesis:
+        """The same with another amount."""
+        return replace(self, amount=amount)

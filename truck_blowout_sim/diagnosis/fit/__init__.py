@@ -1,0 +1,1 @@
+"""Linear algebra of the likelihood and Gauss-Newton on the real simulation."""

@@ -1,0 +1,185 @@
+"""Effects that begin at an instant: find the instant in each run, then the amount.
+
+Linear first: the response to the effect switched on at each grid time is simulated once; for a
+pulse the responses to short windows add up. Then the instants are refined by simulation.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.linalg import cho_solve
+
+from truck_blowout_sim.diagnosis.case.runs import Run
+from truck_blowout_sim.diagnosis.case.study import Study, row_ranges
+from truck_blowout_sim.diagnosis.effects import Effect
+from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
+from truck_blowout_sim.diagnosis.fit.attribute import Ranked, with_effects
+from truck_blowout_sim.diagnosis.fit.linear import Projector, score
+from truck_blowout_sim.diagnosis.fit.refit import chi2_of, models_at
+from truck_blowout_sim.diagnosis.result.parts import Place
+
+Floats = NDArray[np.float64]
+Times = Mapping[str, tuple[float, float]]
+_GRID_S = 1.0
+_MOST_INSTANTS = 20
+_MARGIN_S = 0.5
+_FINER_BINS = 2
+_DELAYED_OVER = 3  # instants: so long, what a ramp does hardly depends on when it begins
+_REFINE_S = (0.5, 0.25, 0.12)
+
+
+def grid_of(run: Run, effect: Effect) -> Floats:
+    """Instants of an effect simulated in a run."""
+    return np.arange(run.edges_s[0] + _MARGIN_S, run.edges_s[-1] - _MARGIN_S,
+                     spacing_s(run) * (_DELAYED_OVER if effect.timing == "ramp" else 1))
+
+
+def spacing_s(run: Run) -> float:
+    """Distance of the instants tried in a run: a second, more in long runs."""
+    return max(_GRID_S, run.length_s / _MOST_INSTANTS)
+
+
+def scan(study: Study, projector: Projector, effect: Effect, place: Place,
+         named: Sequence[Hypothesis] = ()) -> Ranked:
+    """Best instants on the grid in all training runs, and the common amount."""
+    step = effect.amount.step
+    jobs, keys = [], []
+    for i in study.train:
+        run = study.runs[i]
+        truck = with_effects(study.packed, named, run.recording.name)
+        grid = grid_of(run, effect)
+        for k, time in enumerate(grid):
+            span = (float(time), effect.end_s(float(time), spacing_s(run)))
+            trial = Hypothesis(effect, place, step, {run.recording.name: span})
+            jobs.append(study.job(run, truck, trial))
+            keys.append((i, k))
+    results = dict(zip(keys, study.simulate(jobs), strict=True))
+    removed = projector.remove(study.residual())
+    best: Ranked | None = None
+    for sign in (1.0, -1.0):
+        found = _best_of_sign(study, projector, effect, place, results, removed, sign)
+        if best is None or found.delta > best.delta:
+            best = found
+    assert best is not None
+    return best
+
+
+def _best_of_sign(study: Study, projector: Projector, effect: Effect, place: Place,
+                  results: Mapping[tuple[int, int], Floats], removed: Floats, sign: float
+                  ) -> Ranked:
+    """Choose the instants for a positive or a negative amount, run by run, then join them."""
+    low = max(effect.amount.low, 0.0) if sign > 0 else effect.amount.low
+    high = effect.amount.high if sign > 0 else min(effect.amount.high, 0.0)
+    times: dict[str, tuple[float, float]] = {}
+    total: Floats = np.zeros(removed.size)
+    for i in study.train:
+        run = study.runs[i]
+        grid, single = _responses(study, effect, i, results)
+        delta, span, column = _best_span(study, projector, effect, i, grid, single, removed, low,
+                                         high)
+        if delta > 4.0:
+            times[run.recording.name] = span
+            total = total + study.stack({i: column})
+    found = score(projector, removed, total, low, high)
+    return Ranked(Hypothesis(effect, place, found.amount, times), found.delta, found.sigma,
+                  evidence=found.delta)
+
+
+def _responses(study: Study, effect: Effect, i: int, results: Mapping[tuple[int, int], Floats]
+               ) -> tuple[Floats, list[Floats]]:
+    """Instants in one run, and the whitened response per unit of the amount to each."""
+    run = study.runs[i]
+    grid = grid_of(run, effect)
+    later = bins_between(effect, run, study.settings.bin_s)
+    times, found = [], []
+    for k, time in enumerate(grid.tolist()):
+        change = results[(i, k)] - study.models[i]
+        for bins in later:
+            times.append(time + bins * study.settings.bin_s)
+            found.append(run.change(delayed(change, bins), np.zeros(1)) / effect.amount.step)
+    return np.array(times), found
+
+
+def delayed(change: Floats, bins: int) -> Floats:
+    """What an event changes [n, m], had it come so many bins later."""
+    moved = np.zeros(change.shape)
+    moved[bins:] = change[:change.shape[0] - bins]
+    return moved
+
+
+def bins_between(effect: Effect, run: Run, bin_s: float) -> range:
+    """By how many bins to delay the response to one instant tried, up to the next instant.
+
+    What a ramp does soon after it begins is as short as the ramp; other events begin slowly enough.
+    """
+    if effect.timing != "ramp":
+        return range(1)
+    return range(0, round(_DELAYED_OVER * spacing_s(run) / bin_s), _FINER_BINS)
+
+
+def _best_span(study: Study, projector: Projector, effect: Effect, i: int, grid: Floats,
+               single: Sequence[Floats], removed: Floats, low: float, high: float
+               ) -> tuple[float, tuple[float, float], Floats]:
+    """Best instant (or interval, for pulses) in one run."""
+    rows = row_ranges(study)[i]
+    part = removed[rows]
+    matrix = np.stack(single, axis=1)
+    reach = projector.reach(matrix, rows)
+    gram = matrix.T @ matrix - reach.T @ cho_solve(projector.factor, reach)
+    gradient = matrix.T @ part
+    best = (0.0, (float(grid[0]), np.inf), matrix[:, 0])
+    for first in range(grid.size):
+        lasts = range(first, grid.size) if effect.timing == "pulse" else (first,)
+        for last in lasts:
+            pick = np.arange(first, last + 1)
+            information = float(gram[np.ix_(pick, pick)].sum())
+            slope = float(gradient[pick].sum())
+            if information < 1e-12:
+                continue
+            amount = float(np.clip(slope / information, low, high))
+            delta = 2.0 * amount * slope - amount**2 * information
+            if delta > best[0]:
+                end = effect.end_s(float(grid[last]), spacing_s(study.runs[i]))
+                best = (delta, (float(grid[first]), end), matrix[:, pick].sum(axis=1))
+    return best
+
+
+def refine_times(study: Study, start: Ranked, chi2_null: float,
+                 named: Sequence[Hypothesis] = ()) -> Ranked:
+    """Move each run's instants by simulation, coarse to fine, at the present amount."""
+    projector = study.projector([*named, start.hypothesis])
+    best = start.hypothesis
+    models = models_at(study, [best], named)[0]
+    fall = chi2_null - chi2_of(study, projector, models)
+    for width in _REFINE_S:
+        for i in study.train:
+            name = study.runs[i].recording.name
+            if name not in best.times:
+                continue
+            trials = _moved(best, name, width)
+            truck = with_effects(study.packed, named, name)
+            results = study.simulate([study.job(study.runs[i], truck, t) for t in trials])
+            falls = [chi2_null - chi2_of(study, projector, {**models, i: r}) for r in results]
+            k = int(np.argmax(falls))
+            if falls[k] > fall:
+                best, fall = trials[k], falls[k]
+                models[i] = results[k]
+    return Ranked(best, fall, start.sigma, refitted=True,
+                  evidence=fall + start.evidence - start.delta)
+
+
+def _moved(hypothesis: Hypothesis, run: str, width: float) -> list[Hypothesis]:
+    """The hypothesis with one run's start, or end, moved to either side; a ramp moves whole."""
+    start, end = hypothesis.times[run]
+    if hypothesis.effect.timing == "ramp":
+        spans = [(start - width, end - width), (start + width, end + width)]
+    else:
+        spans = [(start - width, end), (start + width, end)]
+    if hypothesis.effect.edges == 2:
+        spans += [(start, end - width), (start, end + width)]
+    return [replace(hypothesis, times={**hypothesis.times, run: span})
+            for span in spans if span[1] > span[0] + 0.05]

@@ -1,0 +1,1 @@
+"""Where and when something acts: a wrench, a wheel, a stance, a tone."""

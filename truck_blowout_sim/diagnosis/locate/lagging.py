@@ -1,0 +1,92 @@
+"""Which wheel lags: the hub at which a drag acts, where no known drag acts there.
+
+A wheel that is held back turns slower than it rolls freely, by its drag over its slip stiffness.
+What is left of a hub's speed after everything named is fitted with a share of that speed, in
+training and while nothing brakes; the gain of its tachometer, which baseline runs hold, and all
+other nuisances are projected out. Hubs that a blown tire or something named holds are not asked.
+
+References: wheel slip under a drive or brake force (Pacejka 2012, chapter 1); the score test of
+`linear.py`.
+Known limits: without baseline runs a lag is a gain of the tachometer, and nothing is said; hubs
+that were not recorded cannot lag.
+Validated with: test/diagnosis/test_lagging.py (a hub that is held back is named, and by how much).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from truck_blowout_sim.diagnosis.case.runs import Run
+from truck_blowout_sim.diagnosis.case.study import Study
+from truck_blowout_sim.diagnosis.case.trust import BRAKES_ON_PA
+from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
+from truck_blowout_sim.diagnosis.fit.attribute import score_channel
+from truck_blowout_sim.diagnosis.fit.quantiles import NINETY
+
+_BRAKES = slice(2, None)  # columns of a drive's inputs
+
+
+@dataclass(frozen=True)
+class Lag:
+    """A wheel that turns slower than the model, everything named in force, lets it roll.
+
+    Attributes:
+        slip: share of its speed by which it lags; ``sigma`` its standard error.
+        evidence: fall of the sum of squares that the lag buys.
+    """
+
+    hub: str
+    slip: float
+    sigma: float
+    evidence: float
+
+    @property
+    def equation(self) -> str:
+        """For an engineer."""
+        return (f"omega({self.hub}) = (1 - {self.slip:.5f}) * omega of the model  "
+                f"(+- {NINETY * self.sigma:.5f}, 90 %)")
+
+    @property
+    def sentence(self) -> str:
+        """For a driver."""
+        return (f"What drags acts at hub {self.hub}: its wheels turn {1000.0 * self.slip:.1f} per "
+                "mille slower than they roll freely, as a dragging brake or a seizing bearing "
+                "would have it, and none of the known drags.")
+
+    @property
+    def next_test(self) -> str:
+        """What would find its cause."""
+        return (f"Drive without braking and compare the temperature of hub {self.hub} with that of "
+                "the others; then turn its wheels by hand, off the ground.")
+
+
+def lagging_wheel(study: Study, named: Sequence[Hypothesis]) -> Lag | None:
+    """The wheel that lags most clearly, where a drag is named and one lags at all.
+
+    Study's models have ``named`` in force.
+    """
+    if not any(h.effect.drags for h in named):
+        return None
+    vehicle, projector = study.packed.vehicle, study.projector(named)
+    taken = {h.place.hub for h in named} | {
+        vehicle.hub_of_tire(tire) for i in study.train
+        for event in study.runs[i].recording.blowouts for tire in event.tires}
+    removed = projector.remove(study.residual())
+    scores = {hub: score_channel(study, projector, removed, f"hub_speed_{hub}_radps",
+                                 lambda run, mean: mean * _free(run))
+              for hub in vehicle.hubs if hub not in taken}
+    behind = [Lag(hub, -one.amount, one.sigma, one.delta) for hub, one in scores.items()
+              if one.amount < 0.0 and one.delta > study.settings.lag_delta]
+    return max(behind, key=lambda lag: lag.evidence, default=None)
+
+
+def _free(run: Run) -> NDArray[np.bool_]:
+    """Bins in which no brake is applied."""
+    rows = np.clip(((run.edges_s - run.drive.initial.time_s) / run.drive.step_s).astype(np.int64),
+                   0, run.drive.inputs.shape[0] - 1)
+    pressed = np.asarray((run.drive.inputs[:, _BRAKES] > BRAKES_ON_PA).any(axis=1))
+    return ~np.asarray(pressed[rows[:-1]] | pressed[rows[1:]])

@@ -1,0 +1,112 @@
+"""A channel that moves on where everything named is in force: more than two models would differ.
+
+The missing wrench (`locate.py`) weighs a force on a whole body; a small one that swings shows in
+one channel first. What everything named, and calibration, leave of each channel over the training
+runs is held against the most that trucks with nothing missing left there, in units of the
+difference that good models are allowed. Where the baseline runs are as restless, it is the model
+of this truck.
+
+References: none; the limits (`most` of each channel) are of cases with nothing missing.
+Known limits: says that something acts and where it shows, not what; channels without a limit, and
+cases in which an instrument was found faulty, are not judged.
+Validated with: test/diagnosis/test_restless.py (a load that swings is noticed, a calm truck not).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from truck_blowout_sim.diagnosis.case.study import Study, row_ranges
+from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
+
+Floats = NDArray[np.float64]
+_UNITS = (("_mps2", "m/s2"), ("_mps", "m/s"), ("_radps", "rad/s"), ("_rad", "rad"))
+_NAMES = (("_vx_mps", "speed"), ("_vy_mps", "lateral speed"), ("_yaw_rate_radps", "yaw rate"),
+          ("_ay_mps2", "lateral acceleration"), ("_ax_mps2", "longitudinal acceleration"))
+
+
+@dataclass(frozen=True)
+class Restless:
+    """A channel that no known effect calms.
+
+    Attributes:
+        body: unit whose channel it is.
+        left: root mean square of what is left, SI; ``usual``: the most that is left where nothing
+            is missing.
+        evidence: sum of squares beyond the usual.
+    """
+
+    body: str
+    channel: str
+    left: float
+    usual: float
+    evidence: float
+
+    @property
+    def equation(self) -> str:
+        """For an engineer."""
+        unit = next((unit for end, unit in _UNITS if self.channel.endswith(end)), "")
+        return (f"rms({self.channel} - model) = {self.left:.3g} {unit}; nothing missing leaves "
+                f"{self.usual:.3g} at most")
+
+    @property
+    def sentence(self) -> str:
+        """For a driver."""
+        what = next((name for end, name in _NAMES if self.channel.endswith(end)), "motion")
+        return (f"The {self.body}'s {what} moves in a way that no known effect explains, "
+                f"{self.left / self.usual:.1f} times as much as a truck with nothing missing.")
+
+    @property
+    def next_test(self) -> str:
+        """What would find its cause."""
+        return (f"Repeat the run at another speed, then with another load: whether the {self.body} "
+                "moves on by itself, with the speed or with the hand wheel tells what makes it.")
+
+
+def restless(study: Study, named: Sequence[Hypothesis]) -> Restless | None:
+    """The channel that is farthest beyond what is usual, if one is.
+
+    Study's models have ``named`` in force.
+    """
+    clean = study.projector(named).remove(study.residual())
+    found = [one for name in dict.fromkeys(c for i in study.train for c in study.runs[i].channels)
+             if (one := _judge(study, clean, name)) is not None]
+    return max(found, key=lambda one: one.evidence, default=None)
+
+
+def _judge(study: Study, clean: Floats, channel: str) -> Restless | None:
+    """A channel, if more of it is left than is usual and than the baseline runs have."""
+    rule = study.settings.rule(channel)
+    if rule is None or not np.isfinite(rule.most):
+        return None
+    left, width = _left(study, clean, channel, study.train)
+    still, _ = _left(study, clean, channel, study.baseline)
+    if not left.size:
+        return None
+    usual = max(rule.most * np.sqrt(study.demand), _rms(still))
+    if _rms(left) <= usual:
+        return None
+    return Restless(channel.split("_", 1)[0], channel, _rms(left * width),
+                    _rms(left * width) * usual / _rms(left),
+                    float(left @ left - left.size * usual**2))
+
+
+def _left(study: Study, clean: Floats, channel: str, runs: Sequence[int]) -> tuple[Floats, Floats]:
+    """What is left of a channel over some runs, in units of its width, and these widths."""
+    left, width = [np.zeros(0)], [np.zeros(0)]
+    for i in runs:
+        run = study.runs[i]
+        if channel in run.channels:
+            k = run.channels.index(channel)
+            seen = np.isfinite(run.measured[:, k])
+            left.append(clean[row_ranges(study)[i]].reshape(run.measured.shape)[seen, k])
+            width.append(run.sigma[seen, k])
+    return np.concatenate(left), np.concatenate(width)
+
+
+def _rms(values: Floats) -> float:
+    return float(np.sqrt(np.mean(values**2))) if values.size else 0.0

@@ -1,0 +1,1 @@
+"""The law of what has no name."""

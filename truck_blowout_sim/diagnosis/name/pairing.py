@@ -1,0 +1,96 @@
+"""Two effects that hold only together: each alone has a wrong amount and predicts nothing.
+
+Where much speaks for a hypothesis in training and only the holdout speaks against it, its amount
+may make up for another effect that is not named yet. It is fitted together with what is named
+already, then with each of the next best; all together must predict the holdout better.
+
+References: none beyond `judging.py`.
+Known limits: pairs are built on the strongest hypothesis that was disbelieved, and on two others.
+Validated with: test/diagnosis/test_together.py, test/diagnosis/test_pairing.py.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from truck_blowout_sim.diagnosis.case.study import Progress, Study
+from truck_blowout_sim.diagnosis.fit.attribute import Ranked
+from truck_blowout_sim.diagnosis.fit.together import fit_together
+from truck_blowout_sim.diagnosis.name.judging import (
+    Found,
+    models_with,
+    predict_with,
+    predicts_better,
+    weakness,
+    worth,
+)
+from truck_blowout_sim.diagnosis.name.shortlist import shortlist
+from truck_blowout_sim.diagnosis.prove.holdout import Prediction
+
+Floats = NDArray[np.float64]
+_MUCH = 5.0  # times what is needed: so much must speak for what the holdout speaks against
+_SECONDS = 2  # how many others are tried beside it
+
+
+@dataclass(frozen=True, eq=False)
+class Pair:
+    """What is named once something holds together with it.
+
+    Attributes:
+        named: everything, with the new ones last; ``ranked``: the round of the last one.
+        models: training models with all in force; ``after`` the holdout's predictions.
+        chi2: sum of squares left.
+    """
+
+    named: list[Ranked]
+    ranked: list[Ranked]
+    models: list[Floats]
+    after: tuple[Prediction, ...]
+    chi2: float
+
+
+def settled(study: Study, found: Found) -> None:
+    """Fit everything that is named together, where that is more than one effect."""
+    if len(found.named) > 1:
+        found.named, chi2 = fit_together(study, found.named)
+        found.chi2_after = min(found.chi2_after, chi2)
+        study.models, found.after = predict_with(study, [r.hypothesis for r in found.named])
+
+
+def pair_with(study: Study, found: Found, disbelieved: Sequence[Ranked], most: int,
+              progress: Progress | None) -> Pair | None:
+    """The strongest of the disbelieved with what is named, and if need be with one more."""
+    strong = [one for one in disbelieved if one.evidence > _MUCH * study.needed(
+        one.hypothesis.effect, bool(one.hypothesis.times))]
+    if not strong:
+        return None
+    first = max(strong, key=worth)
+    pair = _holds(study, found, [*found.named, first], []) if found.named else None
+    if pair is not None or len(found.named) + 2 > most:
+        return pair
+    before = study.models
+    named = [*(r.hypothesis for r in found.named), first.hypothesis]
+    study.models = models_with(study, named)
+    ranked = shortlist(study, named, progress)
+    study.models = before
+    seconds = [one for one in ranked if not weakness(study, one, 0.0)]
+    for second in sorted(seconds, key=worth, reverse=True)[:_SECONDS]:
+        pair = _holds(study, found, [*found.named, first, second], ranked)
+        if pair is not None:
+            return pair
+    return None
+
+
+def _holds(study: Study, found: Found, named: list[Ranked], ranked: list[Ranked]) -> Pair | None:
+    """Everything fitted together, if each stays what it was named and the holdout gains."""
+    fitted, chi2 = fit_together(study, named)
+    if any(weakness(study, one, 0.0) for one in fitted):
+        return None
+    models, after = predict_with(study, [one.hypothesis for one in fitted])
+    if predicts_better(study, found.after, after) <= 0.0:
+        return None
+    return Pair(fitted, ranked, models, after, chi2)

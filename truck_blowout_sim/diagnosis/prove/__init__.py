@@ -1,0 +1,1 @@
+"""Unseen runs, instants, intervals, the run to drive next."""

@@ -1,0 +1,109 @@
+"""Predict runs that were never fitted: do the named effects help there?
+
+Nuisances carry over from training as a Gaussian posterior; an effect's amount stays as found. Only
+the instant of an event is located anew in each run.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.linalg import cholesky
+
+from truck_blowout_sim.diagnosis.case.runs import Run
+from truck_blowout_sim.diagnosis.case.study import FURTHEST, Study
+from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
+from truck_blowout_sim.diagnosis.fit.attribute import with_effects
+from truck_blowout_sim.diagnosis.fit.linear import Projector
+from truck_blowout_sim.diagnosis.fit.timed import bins_between, delayed, grid_of
+
+Floats = NDArray[np.float64]
+_REFINE_S = (0.4, 0.2, 0.1)
+
+
+@dataclass(frozen=True, eq=False)
+class Prediction:
+    """How a holdout run is predicted.
+
+    Attributes:
+        chi2: sum of squares against prediction uncertainty.
+        left: [n, m] whitened residual after the carried-over calibration.
+        times: interval of each timed effect in this run, by key.
+    """
+
+    run: Run
+    chi2: float
+    left: Floats
+    named: tuple[Hypothesis, ...]
+
+
+def predict(study: Study, residual: Floats, named: Sequence[Hypothesis]
+            ) -> tuple[Prediction, ...]:
+    """Predict every holdout run with the nuisances that ``residual`` asks for.
+
+    A calibration number carries over no further than a truck of its kind can stray: what would
+    need more is a missing effect, not a property of the truck.
+    """
+    projector, kept = study.projector(named), study.kept(named)
+    usual = np.array([study.expected(study.names[k]) for k in kept])
+    amounts = projector.amounts_within(residual, usual - FURTHEST, usual + FURTHEST)
+    spread = cholesky(projector.covariance() + 1e-12 * np.eye(amounts.size), lower=True)
+    found = []
+    for run, every, null in zip(study.holdout, study.holdout_columns, study.holdout_models,
+                                strict=True):
+        columns = every[:, kept]
+        seen = [h for h in named if run.shows(h.effect.applies)]
+        placed = _locate_events(study, run, columns, amounts, seen)
+        model = null
+        if placed:
+            model = study.simulate([(run, with_effects(study.packed, placed,
+                                                       run.recording.name))])[0]
+        left = run.residual(model) - columns @ amounts
+        chi2 = Projector.of(columns @ spread).chi2(left)
+        found.append(Prediction(run, chi2, left.reshape(run.measured.shape), tuple(placed)))
+    return tuple(found)
+
+
+def _locate_events(study: Study, run: Run, columns: Floats, amounts: Floats,
+                   named: Sequence[Hypothesis]) -> list[Hypothesis]:
+    """Give timed effects their instant in this run; leave out those that do not help."""
+    placed = [h for h in named if not h.effect.timed]
+    for h in (h for h in named if h.effect.timed):
+        best = _place(study, run, columns, amounts, placed, h)
+        if best is not None:
+            placed.append(best)
+    return placed
+
+
+def _place(study: Study, run: Run, columns: Floats, amounts: Floats,
+           others: Sequence[Hypothesis], event: Hypothesis) -> Hypothesis | None:
+    """The best instant of one event, coarse to fine; None if the run is better without."""
+    name = run.recording.name
+    lengths = [end - start for start, end in event.times.values()]
+    length = float(np.median(lengths)) if lengths else np.inf
+
+    def models(times: Sequence[float]) -> list[Floats]:
+        base = with_effects(study.packed, others, name)
+        return study.simulate([study.job(run, base, replace(event, times={name: (t, t + length)}))
+                               for t in times])
+
+    def left(model: Floats) -> float:
+        return float(np.sum((run.residual(model) - columns @ amounts) ** 2))
+
+    without = study.simulate([(run, with_effects(study.packed, others, name))])[0]
+    least, bin_s, grid = left(without), study.settings.bin_s, grid_of(run, event.effect)
+    sums = {float(time) + bins * bin_s: left(without + delayed(model - without, bins))
+            for time, model in zip(grid, models(grid.tolist()), strict=True)
+            for bins in bins_between(event.effect, run, bin_s)}
+    at = min(sums, key=lambda time: sums[time])
+    best = left(models([at])[0])
+    for width in _REFINE_S:
+        either = (at - width, at + width)
+        found = {time: left(model) for time, model in zip(either, models(either), strict=True)}
+        nearest = min(found, key=lambda time: found[time])
+        if found[nearest] < best:
+            at, best = nearest, found[nearest]
+    return replace(event, times={name: (at, at + length)}) if best < least else None
