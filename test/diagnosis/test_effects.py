@@ -20,7 +20,7 @@ PHYSICS = {
     "steering_compliance", "steering_lash", "roll_steer", "tire_relaxation", "tire_saturation",
     "friction_change", "crosswind", "aerodynamic_drag", "road_grade", "road_bank",
     "driveline_drag", "brake_lag", "brake_imbalance", "brake_fade", "axle_misalignment",
-    "payload_shift", "fifth_wheel_friction",
+    "payload_shift", "fifth_wheel_friction", "steering_lag", "steering_ratio",
 }  # fmt: skip
 EVERY = [pytest.param(effect, id=effect.name) for effect in LIBRARY]
 OF_TRUCKS = [effect for effect in LIBRARY

@@ -105,3 +105,18 @@ def test_the_inner_wheel_turns_more(truck: Packed, state: Floats) -> None:
     # both wheels point at one center: cot right - cot left = track / wheelbase
     assert 1.0 / math.tan(right) - 1.0 / math.tan(left) == pytest.approx(2.0 * half / wheelbase,
                                                                          rel=0.02)
+
+
+def test_a_lag_is_neutral_at_zero_and_of_first_order(thesis: Packed, state: Floats) -> None:
+    late = thesis.with_values({"steering.lag_s": 0.2})
+    reached = settle(late, state, 1.0, 0.0, 0.2) * 25.0
+    assert reached == pytest.approx(1.0 - math.exp(-1.0), abs=0.003)
+    assert settle(late, state, 1.0, 0.0, 3.0) == pytest.approx(1.0 / 25.0, rel=1e-6)
+
+
+def test_a_bent_ratio_turns_further_at_large_angles_only(thesis: Packed) -> None:
+    bent = thesis.with_values({"steering.ratio_curve_prad2": 2.0}).params
+    small, large = (steering.commanded_rad(bent, wheel) * 25.0 / wheel for wheel in (0.25, 5.0))
+    assert small == pytest.approx(1.0, abs=3e-4)
+    assert large == pytest.approx(1.0 + 2.0 * 0.2**2)
+    assert steering.commanded_rad(bent, -5.0) == -steering.commanded_rad(bent, 5.0)

@@ -60,6 +60,8 @@ class SteeringParams(NamedTuple):
     caster_rad: int
     kingpin_offset_m: int  # wheel plane to kingpin axis at spindle height
     compliance_on: int  # 0: road wheels follow the hand wheel exactly
+    ratio_curve_prad2: int  # 0; the gear turns (1 + curve angle^2) times as far
+    lag_s: int  # 0; first-order lag between hand wheel and gear
 
 
 class CouplingParams(NamedTuple):

@@ -39,6 +39,7 @@ class GlobalState(NamedTuple):
     time_s: int
     line_position: int  # write position of the brake delay lines
     steer_rad: int  # mean road-wheel angle
+    steer_command_rad: int  # what the hand wheel asks of it, after ratio and lag
     steer_rate_radps: int
     steer_friction_nm: int
     kingpin_moment_nm: int  # algebraic

@@ -1,7 +1,10 @@
-"""Steering: hand wheel, lash, compliance, friction, kingpin moments by vectors.
+"""Steering: hand wheel, ratio, lag, lash, compliance, friction, kingpin moments by vectors.
 
 References: kingpin moment = k . (lever x F + M), k tilted by inclination and caster and rolled with
 the axle; the part about the spin axis turns the wheel, not the knuckle. Values: docs/physics.md.
+A gear whose ratio bends: the angle grows with its cube, even about straight ahead (variable-ratio
+gears, T. D. Gillespie, Fundamentals of Vehicle Dynamics, chapter 8). The lag of an actuator, of
+hydraulics or of the column is of first order.
 Known limits: one degree of freedom for both road wheels; no hand-wheel inertia (an input);
 single tires on the steered axle; no camber from the kingpin's tilt as the wheel turns.
 Validated with: test/physics/test_steering.py (lever of drag: ground offset 63 mm inflated, 77 mm
@@ -65,10 +68,22 @@ def kingpin_moment_nm(p: Floats, side: float, roll_rad: float, steer_rad: float,
 
 
 @core
+def commanded_rad(p: Floats, hand_wheel_rad: float) -> float:
+    """Mean road-wheel angle that a hand-wheel angle asks for: the ratio and its curve."""
+    gear = (hand_wheel_rad - p[STEER_AT + STEER.offset_rad]) / p[STEER_AT + STEER.ratio]
+    return gear * (1.0 + p[STEER_AT + STEER.ratio_curve_prad2] * gear * gear)
+
+
+@core
 def advance_steering(x: Floats, p: Floats, hand_wheel_rad: float, moment_nm: float,
                      dt: float) -> None:
     """Turn the road wheels by hand wheel and kingpin moment for one step."""
-    target = (hand_wheel_rad - p[STEER_AT + STEER.offset_rad]) / p[STEER_AT + STEER.ratio]
+    target = commanded_rad(p, hand_wheel_rad)
+    lag = p[STEER_AT + STEER.lag_s]
+    if lag > 0.0:
+        before = x[GLOBAL_S.steer_command_rad]
+        target = before + dt / (lag + dt) * (target - before)
+    x[GLOBAL_S.steer_command_rad] = target
     x[GLOBAL_S.kingpin_moment_nm] = moment_nm
     if p[STEER_AT + STEER.compliance_on] == 0.0:
         x[GLOBAL_S.steer_rad] = target

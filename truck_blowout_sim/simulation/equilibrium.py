@@ -22,8 +22,6 @@ from truck_blowout_sim.physics.layout import (
     HUB_S,
     N_WORK,
     STATE_UNIT_AT,
-    STEER,
-    STEER_AT,
     TIRE,
     TIRE_S,
     TIRE_SIZE,
@@ -33,6 +31,7 @@ from truck_blowout_sim.physics.layout import (
     UNIT_S,
     UNIT_SIZE,
 )
+from truck_blowout_sim.physics.steering import commanded_rad
 from truck_blowout_sim.physics.step import step
 from truck_blowout_sim.simulation.inputs import STANDSTILL, Inputs
 from truck_blowout_sim.vehicle import Packed
@@ -108,8 +107,8 @@ def _design_state(packed: Packed, initial: InitialState) -> Floats:
         hub = topo[topo.size - topo[TOPOLOGY.n_tires] + t]
         radius = p[a + TIRE.unloaded_radius_m] - 0.01
         x[topo[TOPOLOGY.state_hub_at] + hub * len(HUB_S)] = initial.speed_mps / radius
-    hand_wheel = initial.inputs.steering_wheel_angle_rad - p[STEER_AT + STEER.offset_rad]
-    x[GLOBAL_S.steer_rad] = hand_wheel / p[STEER_AT + STEER.ratio]
+    command = commanded_rad(p, initial.inputs.steering_wheel_angle_rad)
+    x[GLOBAL_S.steer_rad] = x[GLOBAL_S.steer_command_rad] = command
     return x
 
 

@@ -22,7 +22,9 @@ from truck_blowout_sim.diagnosis.effects import (
     slow_deflation,
     steering_angle_offset,
     steering_compliance,
+    steering_lag,
     steering_lash,
+    steering_ratio,
     tire_relaxation,
     tire_saturation,
     tire_saturation_linear,
@@ -36,6 +38,8 @@ _MODULES = (
     secondary_blowout,
     steering_compliance,
     steering_lash,
+    steering_lag,
+    steering_ratio,
     roll_steer,
     tire_relaxation,
     tire_saturation,
@@ -57,7 +61,8 @@ _MODULES = (
 LIBRARY: tuple[Effect, ...] = (*(module.EFFECT for module in _MODULES),
                                driveline_drag.RETARDER, road_grade.FROM_AN_INSTANT,
                                road_bank.FROM_AN_INSTANT, payload_shift.FOREMOST,
-                               payload_shift.REARMOST)
+                               payload_shift.REARMOST,
+                               steering_ratio.BENT)
 """Every candidate, physics first."""
 
 __all__ = ["LIBRARY", "Amount", "Effect"]

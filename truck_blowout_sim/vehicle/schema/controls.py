@@ -25,6 +25,11 @@ class SteeringSpec:
 
     ratio: float = positive("hand-wheel angle per mean road-wheel angle")
     offset_rad: float = number("hand-wheel reading with the gear straight", default=0.0)
+    ratio_curve_prad2: float = number(
+        "the road wheels turn (1 + curve angle^2) times as far as the ratio says",
+        low=-1.0, high=10.0, default=0.0,
+    )
+    lag_s: float = at_least_zero("first-order lag between hand wheel and gear", default=0.0)
     compliant: bool = switch("false: road wheels follow the hand wheel exactly", default=True)
     stiffness_nmprad: float = positive(
         "kingpin moment of both wheels per mean road-wheel angle, hand wheel held"
