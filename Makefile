@@ -31,7 +31,7 @@ help:
 
 run: .venv/ready
 	@echo "1. The scenario, simulated: a bag in $(OUT)/steer_axle_blowout"
-	$(BIN)/truck-blowout run steer_axle_blowout -o $(OUT)/steer_axle_blowout
+	$(BIN)/truck-blowout run steer_axle_blowout -o $(OUT)/steer_axle_blowout --force
 	@echo; echo "2. The test's record beside the model: a page in $(OUT)/comparison"
 	$(BIN)/truck-blowout compare test_2013_steer_blowout -o $(OUT)/comparison
 	@echo; echo "3. The same run over ROS 2, in real time: bag and page in $(OUT)/over_dds"

@@ -10,6 +10,7 @@ import typer
 from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 
+from truck_blowout_sim.cli.outputs import FORCE, claim
 from truck_blowout_sim.cli.settings import parse_blowouts, parse_values
 from truck_blowout_sim.errors import InputError, quoted
 from truck_blowout_sim.recordings import Recording, write_recording
@@ -40,6 +41,7 @@ def command(
     form: str = typer.Option("bag", "--format", help="bag or csv."),
     step_s: float = typer.Option(0.001, help="Step [s]."),
     rate_hz: float = typer.Option(100.0, help="Rate of the recording [Hz]."),
+    force: bool = FORCE,
 ) -> None:
     """Simulate a scenario without ROS, faster than real time, and write a bag."""
     if form not in _SUFFIX:
@@ -51,6 +53,7 @@ def command(
     target = output or Path(loaded.name)
     if form == "csv" and target.suffix != ".csv":
         target = target.with_name(f"{target.name}.csv")
+    claim(target, force=force, inputs=[loaded.path, truck.vehicle.path])
     recording, factor = _run(truck, loaded, step_s, rate_hz)
     write_recording(recording, target)
     for note in recording.notes:

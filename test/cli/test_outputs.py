@@ -1,0 +1,74 @@
+"""Nothing that exists is overwritten unasked, and no output lands on an input."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+from truck_blowout_sim.cli.outputs import claim, say
+from truck_blowout_sim.errors import InputError
+
+
+def made(path: Path) -> Path:
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text("kept")
+    return path
+
+
+def test_a_new_file_and_an_empty_folder_are_free(tmp_path: Path) -> None:
+    assert claim(tmp_path / "new.csv") == tmp_path / "new.csv"
+    (tmp_path / "empty").mkdir()
+    assert claim(tmp_path / "empty") == tmp_path / "empty"
+
+
+@pytest.mark.parametrize("name", ["old.csv", "bag/bag_0.mcap"])
+def test_what_exists_is_replaced_only_with_force(tmp_path: Path, name: str) -> None:
+    made(tmp_path / name)
+    target = tmp_path / name.split("/")[0]
+    with pytest.raises(InputError, match="exists already; expected a new name, or --force"):
+        claim(target)
+    assert claim(target, force=True) == target
+
+
+def test_other_files_in_a_result_folder_do_not_matter(tmp_path: Path) -> None:
+    made(tmp_path / "out/notes.txt")
+    claim(tmp_path / "out", writes=["report.html"])
+    made(tmp_path / "out/report.html")
+    with pytest.raises(InputError, match=r"report\.html: exists already"):
+        claim(tmp_path / "out", writes=["report.html"])
+
+
+@pytest.mark.parametrize(("read", "written", "writes"), [
+    ("a.csv", "a.csv", ()),
+    ("a.csv", "link.csv", ()),
+    ("bag", "bag/a.csv", ()),
+    ("bag/bag_0.mcap", "bag", ()),
+    ("out/vehicle.yaml", "out", ("report.html", "vehicle.yaml")),
+])
+def test_output_onto_input_is_refused_even_with_force(
+    tmp_path: Path, read: str, written: str, writes: tuple[str, ...]
+) -> None:
+    for name in ("a.csv", "bag/bag_0.mcap", "out/vehicle.yaml"):
+        made(tmp_path / name)
+    (tmp_path / "link.csv").symlink_to(tmp_path / "a.csv")
+    with pytest.raises(InputError, match="onto the input"):
+        claim(tmp_path / written, force=True, inputs=[tmp_path / read], writes=writes)
+
+
+def test_a_shipped_name_is_no_path(tmp_path: Path) -> None:
+    claim(tmp_path / "steer_axle_blowout", inputs=["steer_axle_blowout"])
+
+
+def test_a_file_where_a_folder_is_needed_is_refused(tmp_path: Path) -> None:
+    made(tmp_path / "out")
+    with pytest.raises(InputError, match="is a file; expected a folder"):
+        claim(tmp_path / "out", force=True, writes=["report.html"])
+
+
+def test_json_replaces_the_lines(capsys: pytest.CaptureFixture[str]) -> None:
+    say(True, {"a": 1.5}, ["never read"])
+    assert json.loads(capsys.readouterr().out) == {"a": 1.5}
+    say(False, {}, ["one", "two"])
+    assert capsys.readouterr().out == "one\ntwo\n"

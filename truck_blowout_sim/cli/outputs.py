@@ -1,0 +1,80 @@
+"""What every verb that writes has in common: `--force`, `--json`, nothing overwritten unasked.
+
+A verb declares ``force: bool = FORCE`` and ``as_json: bool = JSON`` among its parameters, calls
+`claim` before it computes anything, and says its result through `say`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from os import PathLike
+from pathlib import Path
+from typing import Any
+
+import typer
+
+from truck_blowout_sim.errors import InputError
+
+FORCE: Any = typer.Option(False, "--force", help="Replace what already exists at the output.")
+JSON: Any = typer.Option(
+    False, "--json", help="Print the result as one JSON object instead of text."
+)
+
+
+def claim(output: str | PathLike[str], *, force: bool = False,
+          inputs: Iterable[str | PathLike[str]] = (), writes: Sequence[str] = ()) -> Path:
+    """Check, before any work is done, that an output may be written.
+
+    Args:
+        output: the file or folder that the user named.
+        force: the user allows what exists to be replaced (`--force`).
+        inputs: what the verb reads: paths, or names of shipped files (those are left alone, as
+            they are no paths).
+        writes: names of the files and folders written inside ``output``. Empty: ``output`` itself
+            is written whole, as a file or a bag.
+
+    Returns:
+        ``output`` as a path.
+
+    Raises:
+        InputError: the output lies on, in or around an input, even with ``force``; or it exists
+            and ``force`` is not given.
+    """
+    target = Path(output)
+    written = [target / name for name in writes] if writes else [target]
+    for source in (Path(i) for i in inputs):
+        for path in written:
+            if source.exists() and _overlap(source, path):
+                raise InputError(f"would be written onto the input {source}", file=path,
+                                 expected="an output apart from every input")
+    if writes and target.exists() and not target.is_dir():
+        raise InputError("is a file", file=target, expected="a folder to write into")
+    if not force:
+        for path in written:
+            if path.exists() and not (path.is_dir() and not any(path.iterdir())):
+                raise InputError("exists already", file=path,
+                                 expected="a new name, or --force to replace it")
+    return target
+
+
+def say(as_json: bool, result: Mapping[str, object], lines: Iterable[str]) -> None:
+    """Print what a verb has to say: the result as one JSON object, or lines for a person.
+
+    Args:
+        as_json: the user asked for `--json`.
+        result: plain data; a number that is not finite is an error (`finite_or_none` helps).
+        lines: read only where they are printed.
+    """
+    if as_json:
+        from truck_blowout_sim.comparison.plain_json import json_text
+
+        typer.echo(json_text(result), nl=False)
+        return
+    for line in lines:
+        typer.echo(line)
+
+
+def _overlap(source: Path, written: Path) -> bool:
+    """Whether one path is the other, or lies inside it; links are followed."""
+    a, b = source.resolve(), written.resolve()
+    return a == b or (b.is_dir() and b in a.parents) or (a.is_dir() and a in b.parents)
