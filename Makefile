@@ -33,7 +33,7 @@ run: .venv/ready
 	@echo "1. The scenario, simulated: a bag in $(OUT)/steer_axle_blowout"
 	$(BIN)/truck-blowout run steer_axle_blowout -o $(OUT)/steer_axle_blowout --force
 	@echo; echo "2. The test's record beside the model: a page in $(OUT)/comparison"
-	$(BIN)/truck-blowout compare test_2013_steer_blowout -o $(OUT)/comparison
+	$(BIN)/truck-blowout compare test_2013_steer_blowout --force -o $(OUT)/comparison
 	@echo; echo "3. The same run over ROS 2, in real time: bag and page in $(OUT)/over_dds"
 	scripts/run_over_dds.sh $(OUT)/over_dds
 
@@ -53,7 +53,7 @@ bench: .venv/ready-for-bench
 
 docs: .venv/ready
 	$(BIN)/python scripts/draw_architecture.py
-	$(BIN)/truck-blowout compare test_2013_steer_blowout -o $(OUT)/comparison
+	$(BIN)/truck-blowout compare test_2013_steer_blowout --force -o $(OUT)/comparison
 	cp $(OUT)/comparison/figures/yaw_rate_tractor.png docs/steer_axle_blowout.png
 
 # requirements/<distribution>.txt pins everything; a newer file there sets up anew.

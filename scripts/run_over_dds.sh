@@ -28,4 +28,4 @@ trap 'kill -INT $simulator 2>/dev/null || true' EXIT INT TERM
 kill -INT "$simulator"
 wait "$simulator"
 trap - EXIT INT TERM
-"$bin/truck-blowout" compare "$folder/bag" -o "$folder/comparison"
+"$bin/truck-blowout" compare "$folder/bag" --force -o "$folder/comparison"

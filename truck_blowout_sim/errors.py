@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+import difflib
 import errno
+from collections.abc import Iterable
 from pathlib import Path
 
 _LONGEST_VALUE = 200
+_SIMILAR = 0.5
+_MOST_NAMES = 8
 
 
 class InputError(Exception):
@@ -69,6 +73,22 @@ def quoted(value: object) -> str:
     """The value as found in a file, quoted, on one line, shortened if it is very long."""
     text = _one_line(repr(value))
     return text if len(text) <= _LONGEST_VALUE else text[: _LONGEST_VALUE - 4] + "...'"
+
+
+def nearest(name: str, known: Iterable[str], otherwise: str = "") -> str:
+    """The known name that resembles this one most, as words for ``expected``.
+
+    Args:
+        name: what was asked for.
+        known: what there is.
+        otherwise: what to say if nothing resembles it.
+    """
+    names = list(known)
+    lowered = {one.lower(): one for one in reversed(names)}
+    near = difflib.get_close_matches(name.lower(), list(lowered), 1, _SIMILAR)
+    if near:
+        return f"{lowered[near[0]]} (the nearest)"
+    return otherwise or ", ".join(names[:_MOST_NAMES]) + (" …" if len(names) > _MOST_NAMES else "")
 
 
 def _rebuild_input_error(problem: str, file: str, where: str, expected: str) -> InputError:

@@ -11,6 +11,8 @@ from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 from rich.table import Table
 
+from truck_blowout_sim.cli.outputs import FORCE, claim
+
 if TYPE_CHECKING:
     from truck_blowout_sim.comparison import Comparison
 
@@ -45,14 +47,17 @@ def command(
         help="Make the model follow the recorded speed. By default only where throttle or a brake"
         " pressure was not recorded.",
     ),
+    force: bool = FORCE,
 ) -> None:
     """Drive the model with a recording's inputs and report the differences."""
     from truck_blowout_sim.comparison import compare
-    from truck_blowout_sim.report.comparison_page import write_comparison_report
+    from truck_blowout_sim.report.comparison_page import DATA, PAGE, write_comparison_report
     from truck_blowout_sim.vehicle import load_vehicle
 
     console, loaded = _console(), load_vehicle(vehicle)
     folders = _folders(recordings, output)
+    for folder in folders:
+        claim(folder, inputs=recordings, force=force, writes=(PAGE, DATA))
     for name, folder in zip(recordings, folders, strict=True):
         with _progress() as progress:
             task = progress.add_task("", total=1.0)

@@ -12,12 +12,15 @@ from rich.console import Console
 from rich.progress import BarColumn, Progress, TaskID, TextColumn, TimeElapsedColumn
 
 from truck_blowout_sim.cli.failures import interruptible
+from truck_blowout_sim.cli.outputs import FORCE, claim
 
 if TYPE_CHECKING:
     from truck_blowout_sim.diagnosis import Diagnosis
     from truck_blowout_sim.recordings import Recording
     from truck_blowout_sim.vehicle import Vehicle
 
+SEVERAL = ("--baseline", "--holdout")
+_FILES = ("diagnosis.json", "vehicle.yaml", "report.html")
 _KEPT = ".resume"  # in the output folder, until the answer is written
 _CONTINUES = "the same command continues from here"
 _QUICK_STEP_S, _QUICK_REFITS, _QUICK_PANELS = 0.0025, (3, 1), 3
@@ -28,10 +31,10 @@ _OF_SENSITIVITIES = 25.0  # as many times as long take four effects
 def command(
     recordings: list[Path] = typer.Argument(help="Training recordings: bags, .mcap, .csv or .mat."),
     baseline: list[Path] = typer.Option(
-        [], "--baseline", help="Run of the same truck without the effect; repeat for more."
+        [], "--baseline", help="Runs of the same truck without the effect."
     ),
     holdout: list[Path] = typer.Option(
-        [], "--holdout", help="Run that is predicted only, never fitted; repeat for more."
+        [], "--holdout", help="Runs that are predicted only, never fitted."
     ),
     vehicle: str = typer.Option(
         "international_9400i_trailmobile", help="Vehicle file of the model, by name or path."
@@ -56,6 +59,7 @@ def command(
     thorough: bool = typer.Option(
         False, "--thorough", help="1 ms step, up to four effects, intervals by profile likelihood."
     ),
+    force: bool = FORCE,
 ) -> None:
     """Locate, name and fit what the model lacks to explain recordings."""
     from truck_blowout_sim.diagnosis import diagnose, keeping
@@ -63,9 +67,11 @@ def command(
     from truck_blowout_sim.diagnosis.diagnose import STEP_S
     from truck_blowout_sim.vehicle import load_vehicle
 
+    claim(output, inputs=[*recordings, *baseline, *holdout], force=force, writes=_FILES)
     loaded = load_vehicle(vehicle)
     train, base, hold = (_read(paths, loaded.hubs, loaded.tires)
                          for paths in (recordings, baseline, holdout))
+    _say_roles(train, base, hold)
     output.mkdir(parents=True, exist_ok=True)
     step_s = _QUICK_STEP_S if quick else _THOROUGH_STEP_S if thorough else STEP_S
     with (_progress() as progress, keeping(output / _KEPT, _teller(progress)) as kept,
@@ -107,6 +113,14 @@ def _read(paths: Sequence[Path], hubs: tuple[str, ...], tires: tuple[str, ...]
         same = sum(r.name.split(" #")[0] == one.name for r in read)
         read.append(replace(one, name=f"{one.name} #{same + 1}") if same else one)
     return read
+
+
+def _say_roles(train: Sequence[Recording], base: Sequence[Recording], hold: Sequence[Recording]
+               ) -> None:
+    """Which runs are fitted, which calibrate, which are only predicted."""
+    roles = (("fits", train), ("calibrates on", base), ("only predicts", hold))
+    said = (f"{words} {', '.join(run.name for run in runs)}" for words, runs in roles if runs)
+    typer.echo("; ".join(said), err=True)
 
 
 def _progress() -> Progress:

@@ -7,7 +7,10 @@ from pathlib import Path
 import typer
 
 from truck_blowout_sim.cli.conversion import parse_remap, report, warn
+from truck_blowout_sim.cli.outputs import FORCE, claim
+from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.recordings import read_recording, write_recording
+from truck_blowout_sim.recordings.mat_thesis import THESIS_CHANNELS
 
 
 def command(
@@ -21,9 +24,26 @@ def command(
     namespace: str | None = typer.Option(
         None, help="Prefix of the truck's topics; /truck, or found by itself."
     ),
+    thesis_variables: bool = typer.Option(
+        False, "--thesis-variables", help="Of a .mat: only the variables of the thesis's script "
+        "(time_e, vx_e, …: mph, deg/s, ft, SAE axes), not every channel."
+    ),
+    force: bool = FORCE,
 ) -> None:
     """Convert a bag to CSV: one row an instant, gauge pressures, empty where not measured."""
+    claim(output, inputs=[bag], force=force)
     recording = read_recording(bag, remap=parse_remap(remap), namespace=namespace)
     warn(recording)
-    write_recording(recording, output)
+    if thesis_variables:
+        _check_thesis(output)
+        left_out = len(recording.channels) - len(THESIS_CHANNELS & set(recording.channels))
+        typer.echo(f"note: {left_out} channels have no variable in the thesis and are left out",
+                   err=True)  # fmt: skip
+        recording = recording.only_channels(sorted(THESIS_CHANNELS))
+    write_recording(recording, output, thesis_variables=thesis_variables)
     report(recording, output)
+
+
+def _check_thesis(output: Path) -> None:
+    if output.suffix.lower() != ".mat":
+        raise InputError("--thesis-variables", file=output, expected="an output ending in .mat")

@@ -14,7 +14,7 @@ from typing import cast
 
 import typer
 
-from truck_blowout_sim.errors import InputError
+from truck_blowout_sim.errors import InputError, StorageError
 
 FAILED, REFUSED, INTERRUPTED = 1, 2, 130
 
@@ -22,7 +22,7 @@ FAILED, REFUSED, INTERRUPTED = 1, 2, 130
 # use the real one; reached from Typer's public name, the base is the right one either way.
 CLICK_ERROR = typer.BadParameter.__mro__[2]
 
-# A path the user named is not there or not his to use. Other OS errors (a full disk) are not his.
+# A path the user named is not there or not his to use.
 PATH_ERRORS = (FileNotFoundError, PermissionError, IsADirectoryError, NotADirectoryError)
 
 
@@ -76,7 +76,7 @@ def report(error: BaseException, *, program: str, traceback: bool) -> int:
 
 
 def _line(error: BaseException) -> tuple[str, int]:
-    if isinstance(error, InputError):
+    if isinstance(error, (InputError, StorageError)):
         return str(error), REFUSED
     if isinstance(error, InterruptionError):
         return str(error), INTERRUPTED

@@ -7,6 +7,7 @@ from pathlib import Path
 import typer
 
 from truck_blowout_sim.cli.conversion import parse_remap, report, warn
+from truck_blowout_sim.cli.outputs import FORCE, claim
 from truck_blowout_sim.recordings import read_recording, write_recording
 
 
@@ -30,8 +31,10 @@ def command(
     namespace: str | None = typer.Option(
         None, help="Prefix of the truck's topics in a bag; /truck, or found by itself."
     ),
+    force: bool = FORCE,
 ) -> None:
     """Convert a log (CSV, .mat, .mcap, bag) to a bag: SI units, ISO axes, absolute pressures."""
+    claim(output, inputs=[log], force=force)
     recording = read_recording(log, source=source, remap=parse_remap(remap), namespace=namespace)
     warn(recording)
     write_recording(recording, output)

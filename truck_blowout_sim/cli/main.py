@@ -12,6 +12,7 @@ from typing import Any
 import typer
 
 from truck_blowout_sim.cli.failures import INTERRUPTED, report
+from truck_blowout_sim.cli.several import repeat_flags
 
 PROGRAM = "truck-blowout"
 
@@ -46,7 +47,9 @@ def main(arguments: Sequence[str] | None = None, program: str = PROGRAM) -> int:
     traceback = TRACEBACK in words
     words = [word for word in words if word != TRACEBACK]
     try:
-        status = build(words)(words or ["--help"], prog_name=program, standalone_mode=False)
+        program_of_verb = build(words)
+        words = repeat_flags(words, _several_valued(words))
+        status = program_of_verb(words or ["--help"], prog_name=program, standalone_mode=False)
     except BaseException as error:  # noqa: BLE001 -- the one place where every failure ends
         return report(error, program=program, traceback=traceback)
     if status == INTERRUPTED:
@@ -73,6 +76,13 @@ def build(words: Sequence[str] = ()) -> Callable[..., Any]:
         else:
             app.command(verb, help=summary)(_not_loaded)
     return app
+
+
+def _several_valued(words: Sequence[str]) -> tuple[str, ...]:
+    """Options of this command line's verb that take several values: ``SEVERAL`` of its module."""
+    wanted = next((word for word in words if not word.startswith("-")), "")
+    module = sys.modules.get(f"truck_blowout_sim.cli.{VERBS[wanted][0]}") if wanted in VERBS else None
+    return tuple(getattr(module, "SEVERAL", ()))
 
 
 def ros2_verb() -> int:

@@ -6,6 +6,7 @@ A verb declares ``force: bool = FORCE`` and ``as_json: bool = JSON`` among its p
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterable, Mapping, Sequence
 from os import PathLike
 from pathlib import Path
@@ -38,7 +39,7 @@ def claim(output: str | PathLike[str], *, force: bool = False,
 
     Raises:
         InputError: the output lies on, in or around an input, even with ``force``; or it exists
-            and ``force`` is not given.
+            and ``force`` is not given; or nothing can be written there.
     """
     target = Path(output)
     written = [target / name for name in writes] if writes else [target]
@@ -54,6 +55,7 @@ def claim(output: str | PathLike[str], *, force: bool = False,
             if path.exists() and not (path.is_dir() and not any(path.iterdir())):
                 raise InputError("exists already", file=path,
                                  expected="a new name, or --force to replace it")
+    _check_writable(target)
     return target
 
 
@@ -78,3 +80,15 @@ def _overlap(source: Path, written: Path) -> bool:
     """Whether one path is the other, or lies inside it; links are followed."""
     a, b = source.resolve(), written.resolve()
     return a == b or (b.is_dir() and b in a.parents) or (a.is_dir() and a in b.parents)
+
+
+def _check_writable(target: Path) -> None:
+    place = target if target.is_dir() else target.parent
+    while not place.exists() and place != place.parent:
+        place = place.parent
+    problem = "is no folder" if not place.is_dir() else ""
+    if not problem and not os.access(place, os.W_OK | os.X_OK):
+        problem = "cannot be written to: permission denied"
+    if problem:
+        raise InputError(f"{place} {problem}", file=target,
+                         expected="an output in a folder that you may write to")

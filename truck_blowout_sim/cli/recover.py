@@ -6,6 +6,7 @@ from pathlib import Path
 
 import typer
 
+from truck_blowout_sim.cli.outputs import FORCE, claim
 from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.recordings.recover import recover
 
@@ -15,12 +16,15 @@ def command(
     output: Path | None = typer.Option(
         None, "-o", "--output", help="Write there; by default the bag is replaced."
     ),
+    force: bool = FORCE,
 ) -> None:
     """Make a bag readable again whose writer was killed; every whole chunk is kept."""
     if not bag.exists():
         raise InputError(
             "no such file or directory", file=bag, expected="an .mcap file or a rosbag2 folder"
         )
+    if output is not None:
+        claim(output, inputs=[bag], force=force)
     saved = recover(bag, output)
     lost = f", {saved.lost_bytes} bytes of a broken tail left out" if saved.lost_bytes else ""
     typer.echo(f"{saved.path}: {saved.messages} messages{lost}")

@@ -57,7 +57,10 @@ def read_bag(
         FileNotFoundError: no such path.
     """
     bag = open_bag(path)
-    names = relative_names(bag.topics, namespace, remap or {})
+    try:
+        names = relative_names(bag.topics, namespace, remap or {})
+    except InputError as error:
+        raise InputError(error.problem, file=path, expected=error.expected) from None
     if not names:
         seen = ", ".join(list(bag.topics)[:5]) or "no messages"
         raise InputError(

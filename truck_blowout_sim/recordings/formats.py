@@ -13,6 +13,7 @@ from truck_blowout_sim.recordings.bag_reader import read_bag
 from truck_blowout_sim.recordings.csv_reader import read_csv
 from truck_blowout_sim.recordings.csv_writer import write_csv
 from truck_blowout_sim.recordings.mat_format import read_mat, write_mat
+from truck_blowout_sim.recordings.mat_thesis import write_thesis_mat
 from truck_blowout_sim.recordings.recording import Recording
 
 _READABLE = "a rosbag2 folder, .mcap, .csv or .mat"
@@ -51,14 +52,21 @@ def read_recording(
     if suffix == ".csv":
         return read_csv(path, tires=tires, hubs=hubs)
     if suffix == ".mat":
-        return read_mat(path, source=source)
+        return read_mat(path, source=source, tires=tires, hubs=hubs)
     raise InputError(f"ends in {quoted(path.suffix)}", file=path, expected=_READABLE)
 
 
-def write_recording(recording: Recording, path: str | os.PathLike[str]) -> Path:
+def write_recording(
+    recording: Recording, path: str | os.PathLike[str], *, thesis_variables: bool = False
+) -> Path:
     """Write a recording in the format that the path's ending names; a folder is a rosbag2 bag.
 
     The file or folder appears whole or not at all; one that is there already is replaced.
+
+    Args:
+        recording: what is written; every channel, in every format.
+        path: a folder, or a file ending in ``.mcap``, ``.csv`` or ``.mat``.
+        thesis_variables: of a ``.mat``: only the variables of the thesis's appendix A.
 
     Returns:
         The path.
@@ -74,7 +82,8 @@ def write_recording(recording: Recording, path: str | os.PathLike[str]) -> Path:
     elif suffix == ".csv":
         write_csv(recording, path)
     elif suffix == ".mat":
-        write_mat(recording, path)
+        write = write_thesis_mat if thesis_variables else write_mat
+        write(recording, path)
     else:
         raise InputError(f"ends in {quoted(path.suffix)}", file=path, expected=_READABLE)
     return path

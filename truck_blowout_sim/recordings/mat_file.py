@@ -1,10 +1,12 @@
 """Numeric variables of a MATLAB file, read without trusting a byte of it.
 
 `scipy.io.loadmat` crashes the interpreter on some damaged files (segmentation fault), so the
-little that is needed is read here: real numeric arrays of MATLAB 5 to 7.2 files.
+little that is needed is read here: real numeric arrays, texts, and what structures and cells hold
+of them, of MATLAB 5 to 7.2 files.
 
 References: MathWorks, MAT-File Format (level 5): header, data elements, array subelements.
-Known limits: no MATLAB 4, no 7.3 (HDF5); cells, structures and texts are only named.
+Known limits: no MATLAB 4; 7.3 is HDF5 and read elsewhere; objects (table, timeseries) are only
+named.
 Validated with: test/recordings/test_mat_format.py, against `scipy.io.savemat`, fuzzed.
 """
 
@@ -14,7 +16,7 @@ import math
 import struct
 import zlib
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -29,7 +31,10 @@ _NUMBERS = {1: "i1", 2: "u1", 3: "i2", 4: "u2", 5: "i4", 6: "u4", 7: "f4", 9: "f
             13: "u8"}  # fmt: skip
 _CLASSES = {1: "a cell array", 2: "a structure", 3: "an object", 4: "a text", 5: "a sparse array"}
 _FIRST_NUMERIC_CLASS, _LAST_NUMERIC_CLASS = 6, 15
+_CELL_CLASS, _STRUCTURE_CLASS, _TEXT_CLASS, _OBJECT_CLASS = 1, 2, 4, 17
 _COMPLEX_FLAG = 0x0800
+_DEEPEST = 12
+_MOST_VARIABLES = 20_000
 _EXPECTED = "an undamaged MATLAB file of version 5 to 7.2 (save with -v7)"
 
 
@@ -39,11 +44,21 @@ class _DamagedError(ValueError):
 
 @dataclass(frozen=True)
 class Variable:
-    """A variable: its numbers, or what it is instead."""
+    """A variable: its numbers, its text, or what it is instead."""
 
     name: str
     values: NDArray[np.float64] | None
     kind: str
+    text: str = ""
+    inside: tuple[Variable, ...] = ()
+
+    def flat(self, prefix: str = "") -> Iterator[tuple[str, Variable]]:
+        """This variable and all inside it, named by path: ``log.speed``, ``cells{2}``."""
+        name = f"{prefix}{self.name}"
+        yield name, self
+        for part in self.inside:
+            dot = "" if part.name.startswith(("{", "(")) else "."
+            yield from part.flat(name + dot)
 
 
 def read_variables(path: Path) -> dict[str, Variable]:
@@ -117,13 +132,22 @@ def _parts(content: bytes, order: str) -> Iterator[tuple[int, bytes]]:
         yield kind, content[start:end]
 
 
-def _variable(content: bytes, order: str) -> Variable:
+def _variable(content: bytes, order: str, depth: int = 0) -> Variable:
+    if depth > _DEEPEST:
+        raise _DamagedError(f"structures nested more than {_DEEPEST} deep")
     parts = _parts(content, order)
     try:
         (flags,) = struct.unpack_from(order + "I", next(parts)[1])
+        array_class = flags & 0xFF
+        if array_class == _OBJECT_CLASS:
+            return Variable(next(parts)[1].decode("ascii"), None, "an object (table, timeseries …)")
         shape = np.frombuffer(next(parts)[1], dtype=order + "i4").astype(np.int64)
         name = next(parts)[1].decode("ascii")
-        array_class = flags & 0xFF
+        if array_class in (_CELL_CLASS, _STRUCTURE_CLASS):
+            inside = _inside(array_class, shape, parts, order, depth)
+            return Variable(name, None, _CLASSES[array_class], inside=inside)
+        if array_class == _TEXT_CLASS:
+            return Variable(name, None, _CLASSES[array_class], _text(shape, *next(parts), order))
         if not _FIRST_NUMERIC_CLASS <= array_class <= _LAST_NUMERIC_CLASS:
             return Variable(name, None, _CLASSES.get(array_class, f"of class {array_class}"))
         if flags & _COMPLEX_FLAG:
@@ -134,6 +158,47 @@ def _variable(content: bytes, order: str) -> Variable:
     except ValueError as error:
         raise _DamagedError(str(error)) from None
     return _numeric(name, shape, kind, numbers, order)
+
+
+def _inside(
+    array_class: int, shape: NDArray[np.int64], parts: Iterator[tuple[int, bytes]], order: str,
+    depth: int,
+) -> tuple[Variable, ...]:
+    """Entries of a cell array, or fields of a structure (of each entry of a structure array)."""
+    count = math.prod(shape.tolist())
+    if (shape < 0).any() or count > _MOST_VARIABLES:
+        raise _DamagedError(f"{count} entries in one array")
+    fields = [""]
+    if array_class == _STRUCTURE_CLASS:
+        (width,) = struct.unpack_from(order + "i", next(parts)[1])
+        packed = next(parts)[1]
+        if width <= 0 or len(packed) % width:
+            raise _DamagedError(f"field names of {width} bytes in {len(packed)}")
+        cut = (packed[at : at + width] for at in range(0, len(packed), width))
+        fields = [piece.split(b"\0")[0].decode("ascii") for piece in cut]
+    found = []
+    for entry in range(count):
+        for field in fields:
+            _, content = next(parts)
+            held = _variable(content, order, depth + 1) if content else Variable("", None, "empty")
+            found.append(replace(held, name=_name_inside(field, entry, count)))
+    return tuple(found)
+
+
+def _name_inside(field: str, entry: int, count: int) -> str:
+    if not field:
+        return f"{{{entry + 1}}}"
+    return field if count == 1 else f"({entry + 1}).{field}"
+
+
+def _text(shape: NDArray[np.int64], kind: int, content: bytes, order: str) -> str:
+    # MATLAB writes 16 bit units, scipy UTF-8; rows of a matrix of letters are joined by a line end
+    if kind in (16, 1, 2):
+        return content.decode("utf-8", "replace")
+    coding = {17: "utf-16", 4: "utf-16", 18: "utf-32"}.get(kind)
+    if coding is None:
+        raise _DamagedError(f"text of unknown type {kind}")
+    return content.decode(f"{coding}-{'le' if order == '<' else 'be'}", "replace")
 
 
 def _numeric(

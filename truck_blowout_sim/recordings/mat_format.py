@@ -1,178 +1,166 @@
-"""The thesis's MATLAB files: mph, deg/s and ft in SAE axes, converted to SI and ISO axes.
+"""Recordings as MATLAB files (version 7): every channel a column vector under its own name.
 
-Variables (appendix A of the thesis): ``time_e vx_e vy_e yaw_e x_e y_e`` for the experiment, the
-same with ``_h`` for HVE. ``yaw`` is the yaw *rate*. SAE axes have y right and z down, so lateral
-speed, yaw rate and lateral position change sign; forward ones do not. One exception: the thesis's
-script flips ``y_e`` before it plots and subtracts ``y_h`` from it as it stands, so ``y_h`` is taken
-to point left already.
+    time_s                   instants, s
+    tractor_vx_mps           one vector a channel, in the unit its name ends in
+    tire_..._pa_time_s       instants of a channel that was not sampled at time_s
+    units                    structure: the unit of each channel
+    blowout_time_s, blowout_tires, metadata
 
-References: thesis, appendix A (plotting script).
-Known limits: MATLAB 7.3 (HDF5) files are refused; save with ``-v7``.
-Validated with: test/recordings/test_mat.py.
+References: MathWorks, MAT-File Format (level 5).
+Known limits: a name has 63 characters at most, as MATLAB has it.
+Validated with: test/recordings/test_mat_format.py (scipy reads it; there and back).
 """
 
 from __future__ import annotations
 
-import math
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections import Counter
+from collections.abc import Iterable, Mapping
 from functools import partial
 from pathlib import Path
+from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from truck_blowout_sim.errors import InputError, quoted
 from truck_blowout_sim.recordings.atomic import replacing
-from truck_blowout_sim.recordings.channels import by_name, channels_for
+from truck_blowout_sim.recordings.channels import Channel, by_name
 from truck_blowout_sim.recordings.checks import check_times, check_values
 from truck_blowout_sim.recordings.mat_file import Variable, read_variables
+from truck_blowout_sim.recordings.mat_thesis import has_thesis_variables, read_thesis_mat
+from truck_blowout_sim.recordings.names import Parts, parts_of
 from truck_blowout_sim.recordings.recording import Blowout, Recording, Series
 
-FloatArray = NDArray[np.float64]
-
-MPH_IN_MPS = 0.44704
-FOOT_IN_M = 0.3048
-DEGREE_IN_RAD = math.pi / 180.0
-BLOWN_TIRE = "steer_left"
-SOURCES = {"experiment": "_e", "hve": "_h"}
-_SAMPLES, _START_S, _STEP_S = 1499, -4.92, 0.01
+TIME, OWN_TIME = "time_s", "_time_s"
+BLOWOUT_TIME, BLOWOUT_TIRES = "blowout_time_s", "blowout_tires"
+_METADATA = "metadata"
+_LONGEST_NAME = 63
 
 
-@dataclass(frozen=True)
-class _Variable:
-    stem: str
-    channel: str
-    factor: float
-    flips: bool
-
-
-_VARIABLES = (
-    _Variable("vx", "tractor_vx_mps", MPH_IN_MPS, False),
-    _Variable("vy", "tractor_vy_mps", MPH_IN_MPS, True),
-    _Variable("yaw", "tractor_yaw_rate_radps", DEGREE_IN_RAD, True),
-    _Variable("x", "tractor_x_m", FOOT_IN_M, False),
-    _Variable("y", "tractor_y_m", FOOT_IN_M, True),
-)
-
-
-def read_mat(path: Path, *, source: str = "experiment") -> Recording:
-    """Read the experiment's or HVE's variables.
-
-    The clock's zero is the blowout of the left steer tire, as in the thesis.
-
-    Args:
-        path: a MATLAB file, version 5 to 7.2.
-        source: ``experiment`` or ``hve``.
+def read_mat(
+    path: Path,
+    *,
+    source: str = "experiment",
+    tires: Iterable[str] = (),
+    hubs: Iterable[str] = (),
+) -> Recording:
+    """Read a file that :func:`write_mat` wrote, or one with the thesis's variables.
 
     Raises:
-        InputError: no MATLAB file, a variable missing, of wrong type or length, or not finite.
+        InputError: neither of these, damaged, or with values that cannot be.
     """
-    if source not in SOURCES:
-        names = " or ".join(SOURCES)
-        raise InputError(f"source {quoted(source)}", file=path, expected=names)
-    suffix = SOURCES[source]
     held = read_variables(path)
-    notes = ["mph, deg/s, ft in SAE axes converted to SI in ISO axes (y left, yaw to the left)"]
-    time_s = _times(path, held, suffix, notes)
-    table = by_name(channels_for((), ()))
-    channels = {}
-    for variable in _VARIABLES:
-        name = variable.stem + suffix
-        if name not in held:
-            continue
-        values = _vector(path, held, name) * variable.factor * _sign(variable, suffix)
-        _check_length(path, name, values, time_s)
-        check_values(table[variable.channel], values, file=path, where=partial(_where, name))
-        channels[variable.channel] = Series(time_s, values)
+    if TIME not in held:
+        return read_thesis_mat(path, source=source, held=held)
+    parts = parts_of(held, hubs, tires)
+    channels = {
+        channel.name: _series(path, held, channel)
+        for channel in parts.table()
+        if channel.name in held
+    }
+    if not channels and has_thesis_variables(held):
+        return read_thesis_mat(path, source=source, held=held)
     if not channels:
-        wanted = ", ".join(v.stem + suffix for v in _VARIABLES)
         raise InputError(
-            f"none of the variables (found {', '.join(held) or 'nothing'})",
-            file=path,
-            expected=f"time{suffix} and {wanted}",
-        )
-    blowouts = (Blowout(0.0, (BLOWN_TIRE,)),) if time_s[0] <= 0.0 <= time_s[-1] else ()
-    if blowouts:
-        notes.append("blowout of steer_left at time 0, the origin of the thesis's clock")
-    return Recording(path.stem, channels, blowouts, {"source": source}, tuple(notes))
+            f"no channel among its variables ({', '.join(list(held)[:5])} …)",
+            file=path, expected="variables named as the CSV columns, or a mapping (--map)",
+        )  # fmt: skip
+    name = _METADATA
+    metadata = {part.name: part.text for part in held[name].inside} if name in held else {}
+    return Recording(path.stem, channels, _blowouts(path, held, parts), metadata)
 
 
-def write_mat(recording: Recording, path: Path, *, source: str = "experiment") -> None:
-    """Write the variables that the thesis's script loads, on the time base of ``tractor_vx_mps``.
+def write_mat(recording: Recording, path: Path) -> None:
+    """Write every channel with its unit, the events and the metadata.
 
     Raises:
-        InputError: there is no forward speed in the recording.
+        KeyError: a channel that is not in the table.
+        StorageError: it cannot be written; an older file of that name is then untouched.
     """
-    suffix = SOURCES[source]
-    if "tractor_vx_mps" not in recording:
-        raise InputError(
-            "has no channel tractor_vx_mps",
-            file=recording.name,
-            expected="a tractor's speed: the thesis's .mat files are on its time base",
-        )
-    time_s = recording["tractor_vx_mps"].time_s
-    variables: dict[str, FloatArray] = {f"time{suffix}": time_s[:, None]}
-    for variable in _VARIABLES:
-        if variable.channel in recording:
-            values = recording.at(variable.channel, time_s) / variable.factor
-            if np.isfinite(values).all():
-                column = values[:, None] * _sign(variable, suffix)
-                variables[variable.stem + suffix] = column
     from scipy.io import savemat  # slow to load, and few need it
 
+    variables = _variables(recording)
     with replacing(path) as temporary:
-        savemat(temporary, variables, appendmat=False)
+        savemat(
+            temporary, variables, appendmat=False, do_compression=True, oned_as="column",
+            long_field_names=True,
+        )  # fmt: skip
 
 
-def _sign(variable: _Variable, suffix: str) -> float:
-    if suffix == SOURCES["hve"] and variable.stem == "y":
-        return 1.0
-    return -1.0 if variable.flips else 1.0
+def _variables(recording: Recording) -> dict[str, Any]:
+    table = by_name(parts_of(recording.channels).table())
+    unknown = set(recording.channels) - set(table)
+    if unknown:
+        raise KeyError(f"not in the table of channels: {', '.join(sorted(unknown))}")
+    bases = Counter(series.time_s.tobytes() for series in recording.channels.values())
+    common = bases.most_common(1)[0][0] if bases else b""
+    variables: dict[str, Any] = {TIME: np.frombuffer(common, dtype=np.float64)}
+    for name, series in recording.channels.items():
+        variables[name] = series.value
+        if series.time_s.tobytes() != common:
+            variables[name + OWN_TIME] = series.time_s
+    variables["units"] = {name: table[name].unit for name in recording.channels}
+    if recording.blowouts:
+        variables[BLOWOUT_TIME] = np.array([b.time_s for b in recording.blowouts])
+        tires = ["+".join(b.tires) for b in recording.blowouts]
+        variables[BLOWOUT_TIRES] = np.array(tires, dtype=object)
+    metadata = {_field_name(key): text for key, text in recording.metadata.items() if text}
+    if metadata:
+        variables[_METADATA] = metadata
+    return variables
 
 
-def _times(path: Path, held: Mapping[str, Variable], suffix: str, notes: list[str]) -> FloatArray:
-    for name in (f"time{suffix}", "time_e"):
-        if name in held:
-            time_s = _vector(path, held, name)
-            if not np.isfinite(time_s).all():
-                i = int(np.flatnonzero(~np.isfinite(time_s))[0])
-                where = _where(name, i)
-                raise InputError(f"time {time_s[i]}", file=path, where=where, expected="seconds")
-            check_times(time_s, file=path, where=partial(_where, name))
-            return time_s
-    present = [v.stem + suffix for v in _VARIABLES if v.stem + suffix in held]
-    lengths = {_vector(path, held, name).size for name in present}
-    if lengths == {_SAMPLES}:
-        notes.append(f"no time variable: {_SAMPLES} samples from {_START_S} s, {_STEP_S} s apart")
-        return np.round(_START_S + _STEP_S * np.arange(_SAMPLES), 9)
-    raise InputError(
-        f"no variable time{suffix} (found {', '.join(held) or 'nothing usable'})",
-        file=path,
-        expected=f"time{suffix} in seconds",
-    )
+def _field_name(key: str) -> str:
+    """The key as a MATLAB identifier."""
+    name = "".join(c if c.isascii() and c.isalnum() else "_" for c in key).strip("_")
+    return (name if name[:1].isalpha() else f"key_{name}")[:_LONGEST_NAME]
 
 
-def _vector(path: Path, held: Mapping[str, Variable], name: str) -> FloatArray:
-    values = held[name].values
-    if values is None or values.size != max(values.shape, default=0) or values.size < 2:
+def _series(path: Path, held: Mapping[str, Variable], channel: Channel) -> Series:
+    own = channel.name + OWN_TIME
+    time_name = own if own in held else TIME
+    time_s, values = (_vector(path, held[name]) for name in (time_name, channel.name))
+    if time_s.size != values.size:
         raise InputError(
-            f"is {held[name].kind}",
-            file=path,
-            where=f"variable {name}",
-            expected="a vector of two real numbers or more",
-        )
+            f"{values.size} samples", file=path, where=f"variable {channel.name}",
+            expected=f"{time_s.size}, as {time_name} has",
+        )  # fmt: skip
+    there = ~np.isnan(values)  # a MATLAB user's own way to say "not measured"
+    time_s, values = time_s[there], values[there]
+    if not np.isfinite(time_s).all():
+        raise InputError("is not finite", file=path, where=f"variable {time_name}",
+                         expected="times in seconds")  # fmt: skip
+    check_times(time_s, file=path, where=partial(_where, time_name))
+    check_values(channel, values, file=path, where=partial(_where, channel.name))
+    return Series(time_s, values)
+
+
+def _vector(path: Path, variable: Variable) -> np.ndarray[Any, np.dtype[np.float64]]:
+    values = variable.values
+    if values is None or values.size != max(values.shape, default=0):
+        raise InputError(
+            f"is {variable.kind}", file=path, where=f"variable {variable.name}",
+            expected="a vector of real numbers",
+        )  # fmt: skip
     return values.ravel()
 
 
-def _check_length(path: Path, name: str, values: FloatArray, time_s: FloatArray) -> None:
-    if values.size != time_s.size:
+def _blowouts(path: Path, held: Mapping[str, Variable], parts: Parts) -> tuple[Blowout, ...]:
+    if BLOWOUT_TIME not in held or BLOWOUT_TIRES not in held:
+        return ()
+    times = _vector(path, held[BLOWOUT_TIME])
+    named = held[BLOWOUT_TIRES]
+    texts = [part.text for part in named.inside] or [named.text]
+    if times.size != len(texts) or not np.isfinite(times).all():
         raise InputError(
-            f"{values.size} samples",
-            file=path,
-            where=f"variable {name}",
-            expected=f"{time_s.size}, as the time has",
-        )
+            f"{times.size} times and {len(texts)} names", file=path,
+            where=f"variable {BLOWOUT_TIRES}", expected="a finite time and a tire for each blowout",
+        )  # fmt: skip
+    for tire in "+".join(texts).split("+"):
+        if not parts.knows_tire(tire):
+            raise InputError(f"unknown tire {quoted(tire)}", file=path,
+                             where=f"variable {BLOWOUT_TIRES}", expected="a tire of the vehicle")
+    pairs = zip(times.tolist(), texts, strict=True)
+    return tuple(Blowout(time_s, tuple(text.split("+"))) for time_s, text in pairs)
 
 
 def _where(name: str, i: int) -> str:

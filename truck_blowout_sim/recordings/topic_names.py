@@ -6,6 +6,7 @@ import re
 from collections import Counter
 from collections.abc import Iterable, Mapping
 
+from truck_blowout_sim.errors import InputError, nearest, quoted
 from truck_blowout_sim.recordings.channels import (
     BLOWOUT_EVENT,
     DEFAULT_NAMESPACE,
@@ -81,9 +82,22 @@ def relative_names(
             found[relative] = topic
     for source, target in remap.items():
         absolute = "/" + source.strip("/")
-        if absolute in bag_topics:
-            found[target.removeprefix(DEFAULT_NAMESPACE + "/").lstrip("/")] = absolute
+        relative = target.removeprefix(DEFAULT_NAMESPACE + "/").lstrip("/")
+        _check_remap(absolute, relative, bag_topics)
+        found[relative] = absolute
     return found
+
+
+def _check_remap(source: str, target: str, topics: list[str]) -> None:
+    if source not in topics:
+        raise InputError(
+            f"no topic {source} in the bag", expected=nearest(source, topics, "a topic of the bag")
+        )
+    if type_of(target) is None:
+        raise InputError(
+            f"{quoted(target)} is no topic of the table",
+            expected=nearest(target, _FIXED, "as tractor/odometry"),
+        )
 
 
 def _prefix(topics: list[str]) -> str:
