@@ -64,6 +64,10 @@ def test_bad_input_is_one_line_and_status_2_and_nothing_is_left(tmp_path: Path, 
         ("recover", "gone.mcap"),
         ("import", "log.csv", "-o", "x.docx"),
         ("import", "log.csv", "-o", "bag", "--remap", "nonsense"),
+        ("import", "log.csv", "-o", "log.csv", "--force"),
+        ("import", "log.csv", "-o", "log.csv/bag"),
+        ("export", "log.csv", "-o", "/proc/no/such.csv"),
+        ("export", "log.csv", "-o", "x.csv", "--thesis-variables"),
         ("import", "log.csv"),
     ],
 )
@@ -77,6 +81,30 @@ def test_bad_usage_is_one_line_and_status_2(
     assert sorted(p.name for p in tmp_path.iterdir()) == ["log.csv"]
 
 
+def test_nothing_that_exists_is_replaced_unless_forced(tmp_path: Path, log: Path) -> None:
+    assert cli("import", log, "-o", tmp_path / "bag").returncode == 0
+    kept = {path: path.read_bytes() for path in (tmp_path / "bag").iterdir()}
+    again = cli("import", log, "-o", tmp_path / "bag")
+    assert (again.returncode, len(again.stderr.splitlines())) == (2, 1)
+    assert "--force" in again.stderr
+    onto_itself = cli("import", tmp_path / "bag", "-o", tmp_path / "bag", "--force")
+    assert onto_itself.returncode == 2
+    assert {path: path.read_bytes() for path in (tmp_path / "bag").iterdir()} == kept
+    assert cli("import", log, "-o", tmp_path / "bag", "--force").returncode == 0
+
+
+def test_a_topic_that_is_not_in_the_bag_is_refused_and_the_nearest_named(
+    tmp_path: Path, log: Path
+) -> None:
+    assert cli("import", log, "-o", tmp_path / "bag").returncode == 0
+    done = cli("import", tmp_path / "bag", "-o", tmp_path / "b",
+               "--remap", "/truck/throtle:=steering_wheel_angle")  # fmt: skip
+    assert done.returncode == 2
+    assert "no topic /truck/throtle" in done.stderr
+    assert "/truck/throttle (the nearest)" in done.stderr
+    assert not (tmp_path / "b").exists()
+
+
 def test_an_unfinished_bag_is_exported_with_a_note_and_recovered(tmp_path: Path, log: Path) -> None:
     bag = tmp_path / "bag.mcap"
     assert cli("import", log, "-o", bag).returncode == 0
@@ -87,4 +115,4 @@ def test_an_unfinished_bag_is_exported_with_a_note_and_recovered(tmp_path: Path,
     saved = cli("recover", bag)
     assert saved.returncode == 0
     assert "messages" in saved.stdout
-    assert cli("export", bag, "-o", tmp_path / "out.csv").stderr == ""
+    assert cli("export", bag, "-o", tmp_path / "whole.csv").stderr == ""

@@ -75,11 +75,41 @@ def test_numbers_are_read_as_scipy_wrote_them(tmp_path: Path, dtype: str, compre
         assert values is not None
         np.testing.assert_array_equal(values, made[name])
     kinds = [found[name].kind for name in ("words", "cells", "struct", "turned")]
+    assert found["words"].text == "some text"
+    inside = {name: part for name in ("cells", "struct") for name, part in found[name].flat()}
+    assert inside["struct.field"].values == 1.0
+    assert inside["cells{1}"].values == 1.0
+    assert inside["cells{2}"].text == "x"
     assert kinds == ["a text", "a cell array", "a structure", "complex"]
 
 
-def test_round_trip(tmp_path: Path, sparse_recording: Recording) -> None:
-    again = read_recording(write_recording(sparse_recording, tmp_path / "again.mat"))
+def test_every_channel_comes_back_with_its_own_instants(
+    tmp_path: Path, full_recording: Recording
+) -> None:
+    again = read_recording(write_recording(full_recording, tmp_path / "full.mat"))
+    assert dict(again.channels) == dict(full_recording.channels)
+    assert again.blowouts == full_recording.blowouts
+    assert again.metadata["note"] == full_recording.metadata["note"]
+
+
+def test_scipy_reads_vectors_units_and_events(tmp_path: Path, full_recording: Recording) -> None:
+    path = write_recording(full_recording, tmp_path / "full.mat")
+    loaded = scipy.io.loadmat(path, squeeze_me=True, struct_as_record=False)
+    for name, series in full_recording.channels.items():
+        np.testing.assert_array_equal(loaded[name], series.value)
+        times = loaded.get(f"{name}_time_s", loaded["time_s"])
+        np.testing.assert_array_equal(times, series.time_s)
+    assert loaded["units"].tractor_vx_mps == "m/s"
+    assert loaded["units"].tire_pressure_steer_left_pa == "Pa"
+    assert loaded["blowout_tires"][0] == "steer_left"
+    assert max(map(len, loaded)) <= 63
+
+
+def test_the_thesis_variables_are_an_option_of_output(
+    tmp_path: Path, sparse_recording: Recording
+) -> None:
+    path = write_recording(sparse_recording, tmp_path / "again.mat", thesis_variables=True)
+    again = read_recording(path)
     for name in ("tractor_vx_mps", "tractor_yaw_rate_radps", "tractor_x_m"):
         np.testing.assert_allclose(again[name].value, sparse_recording[name].value, atol=1e-14)
         np.testing.assert_array_equal(again[name].time_s, sparse_recording[name].time_s)

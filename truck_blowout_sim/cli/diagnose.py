@@ -120,7 +120,7 @@ def _say_roles(train: Sequence[Recording], base: Sequence[Recording], hold: Sequ
     """Which runs are fitted, which calibrate, which are only predicted."""
     roles = (("fits", train), ("calibrates on", base), ("only predicts", hold))
     said = (f"{words} {', '.join(run.name for run in runs)}" for words, runs in roles if runs)
-    typer.echo("; ".join(said), err=True)
+    typer.echo("; ".join(said))
 
 
 def _progress() -> Progress:

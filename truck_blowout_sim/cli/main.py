@@ -81,7 +81,8 @@ def build(words: Sequence[str] = ()) -> Callable[..., Any]:
 def _several_valued(words: Sequence[str]) -> tuple[str, ...]:
     """Options of this command line's verb that take several values: ``SEVERAL`` of its module."""
     wanted = next((word for word in words if not word.startswith("-")), "")
-    module = sys.modules.get(f"truck_blowout_sim.cli.{VERBS[wanted][0]}") if wanted in VERBS else None
+    name, _ = VERBS.get(wanted, ("", ""))
+    module = sys.modules.get(f"truck_blowout_sim.cli.{name}")
     return tuple(getattr(module, "SEVERAL", ()))
 
 

@@ -1,4 +1,4 @@
-"""Options that take several values after one flag: ``--holdout a b`` as ``--holdout a --holdout b``."""
+"""Options that take several values after one flag: ``--holdout a b``."""
 
 from __future__ import annotations
 
