@@ -36,14 +36,27 @@ def test_a_measured_record_has_no_marks(tmp_path: Path) -> None:
 
 
 def test_a_missing_or_wrong_mark_is_refused_with_its_place(tmp_path: Path) -> None:
-    with pytest.raises(InputError, match=r"p\.csv: the provenance .* is missing"):
-        marks_of(tmp_path / "run.csv", recording("p.csv"))
-    (tmp_path / "p.csv").write_text("time_s,throttle\n0.0,stated T L1\n0.1,guessed\n")
-    with pytest.raises(InputError, match=r"line 3, column throttle: mark 'guessed'"):
-        marks_of(tmp_path / "run.csv", recording("p.csv"))
-    (tmp_path / "p.csv").write_text("time_s,throttle\nnow,stated\n")
+    name = "p.provenance.csv"
+    with pytest.raises(InputError, match=r"p\.provenance\.csv: the provenance .* is missing"):
+        marks_of(tmp_path / "run.csv", recording(name))
+    (tmp_path / name).write_text("time_s,throttle\n0.0,stated T L1\n0.1,guessed\n")
+    with pytest.raises(InputError, match=r"line 3, column throttle: a cell without a mark"):
+        marks_of(tmp_path / "run.csv", recording(name))
+    (tmp_path / name).write_text("time_s,throttle\nnow,stated\n")
     with pytest.raises(InputError, match="column time_s"):
-        marks_of(tmp_path / "run.csv", recording("p.csv"))
+        marks_of(tmp_path / "run.csv", recording(name))
+
+
+@pytest.mark.parametrize("name", ["../secret.provenance.csv", "/etc/passwd", "secret.csv",
+                                  "link.provenance.csv"])
+def test_no_line_of_another_file_is_shown(tmp_path: Path, name: str) -> None:
+    (tmp_path / "in").mkdir()
+    for place in (tmp_path / "secret.provenance.csv", tmp_path / "in/secret.csv"):
+        place.write_text("password,throttle\nhunter2,hunter2\n")
+    (tmp_path / "in/link.provenance.csv").symlink_to(tmp_path / "secret.provenance.csv")
+    with pytest.raises(InputError, match="expected a file beside the recording") as caught:
+        marks_of(tmp_path / "in/run.csv", recording(name))
+    assert "hunter2" not in str(caught.value)
 
 
 def test_shipped_recordings_are_found_by_name_and_nothing_else_is() -> None:

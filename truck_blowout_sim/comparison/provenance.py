@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 from truck_blowout_sim.errors import InputError, quoted
 from truck_blowout_sim.recordings import Recording
 
+ENDING = ".provenance.csv"
 MARKS = ("stated", "derived", "interpolated")
 
 
@@ -52,18 +53,25 @@ def marks_of(path: Path, recording: Recording) -> Mapping[str, Marks]:
         InputError: the file is missing, or a cell carries no mark.
     """
     name = recording.metadata.get("provenance", "").partition(",")[0].strip()
-    if not name:
+    if not name or path.suffix.lower() != ".csv":
         return {}
     file = path.parent / name
+    # The name comes from inside a file that may be anybody's: it must not lead to other files.
+    if Path(name).name != name or not name.endswith(ENDING) or file.is_symlink():
+        raise InputError(f"provenance {quoted(name)}", file=path, where="metadata line provenance",
+                         expected=f"a file beside the recording whose name ends in {ENDING}")
     if not file.is_file():
         raise InputError("the provenance that the recording names is missing", file=file)
-    with file.open(encoding="utf-8", newline="") as lines:
-        rows = list(csv.reader(line for line in lines if not line.startswith("#")))
+    try:
+        with file.open(encoding="utf-8", newline="") as lines:
+            rows = list(csv.reader(line for line in lines if not line.startswith("#")))
+    except (UnicodeDecodeError, csv.Error):
+        raise InputError("is no CSV", file=file, expected="one mark a sample") from None
     if len(rows) < 2:
         raise InputError("no rows", file=file, expected="one mark a sample")
     times = _times(rows, file)
     return {
-        channel: _column(rows, column, times, file)
+        channel: _column(rows, column, channel, times, file)
         for column, channel in enumerate(rows[0])
         if column and channel in recording
     }
@@ -72,11 +80,13 @@ def marks_of(path: Path, recording: Recording) -> Mapping[str, Marks]:
 def _times(rows: list[list[str]], file: Path) -> NDArray[np.float64]:
     try:
         return np.array([float(row[0]) for row in rows[1:]])
-    except (ValueError, IndexError) as error:
-        raise InputError(f"column time_s: {error}", file=file, expected="a number a row") from error
+    except (ValueError, IndexError):
+        raise InputError("a row without a time", file=file, where="column time_s",
+                         expected="a number a row") from None
 
 
-def _column(rows: list[list[str]], column: int, times: NDArray[np.float64], file: Path) -> Marks:
+def _column(rows: list[list[str]], column: int, channel: str, times: NDArray[np.float64], file: Path
+            ) -> Marks:  # fmt: skip
     marks: list[int] = []
     kept: list[int] = []
     sources: dict[str, None] = {}
@@ -87,9 +97,9 @@ def _column(rows: list[list[str]], column: int, times: NDArray[np.float64], file
         word, _, source = cell.partition(" ")
         if word not in MARKS:
             raise InputError(
-                f"mark {quoted(word)}",
+                "a cell without a mark",
                 file=file,
-                where=f"line {line}, column {rows[0][column]}",
+                where=f"line {line}, column {channel}",
                 expected="one of " + ", ".join(MARKS),
             )
         marks.append(MARKS.index(word))
