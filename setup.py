@@ -54,7 +54,7 @@ setup(
     packages=find_packages(include=[PACKAGE, f"{PACKAGE}.*", "proving_ground", "proving_ground.*"]),
     package_data={
         PACKAGE: ["py.typed", "*/templates/*"],
-        "proving_ground": ["*.yaml", "examples/*.yaml", "sealed/*"],
+        "proving_ground": ["*.yaml", "sealed/*"],
     },
     data_files=[
         ("share/ament_index/resource_index/packages", [f"resource/{PACKAGE}"]),
