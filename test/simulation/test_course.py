@@ -68,7 +68,7 @@ def test_an_imposed_speed_goes_on(truck: Packed) -> None:
 
 
 def test_a_failure_ends_in_nan_as_it_would(truck: Packed, course: Course) -> None:
-    lost = truck.with_values({"unit.tractor.probe_fx_n": np.nan,
+    lost = truck.unchecked({"unit.tractor.probe_fx_n": np.nan,
                               "unit.tractor.probe_start_s": AT_S,
                               "unit.tractor.probe_end_s": 9.0})
     found = course.left_at(lost, AT_S)

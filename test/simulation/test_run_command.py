@@ -55,7 +55,11 @@ def test_csv_values_and_blowouts_of_ones_own(tmp_path: Path) -> None:
     (("fishhook", "--set", "abs.x=1"), "; expected one of: abs."),
     (("fishhook", "--set", "steering.ratio"), "expected NAME=VALUE"),
     (("fishhook", "--set", "steering.ratio=x"), "'x' is not a number"),
-    (("fishhook", "--set", "steering.ratio=nan"), "is not finite"),
+    (("fishhook", "--set", "steering.ratio=nan"), "is out of bounds"),
+    (("fishhook", "--set", "steering.ratio=-3"), "--set 'steering.ratio=-3': -3 is out of bounds; "
+     "expected above 0"),
+    (("fishhook", "--set", "unit.tractor.mass_kg=-9000"), "-9000 is out of bounds"),
+    (("fishhook", "--set", "abs.mode=of"), "expected one of: off, slip_threshold"),
     (("fishhook", "--blow", "steer_left"), "expected TIRE@SECONDS"),
     (("fishhook", "--blow", "steer_lef@2"), "did you mean 'steer_left'?"),
     (("fishhook", "--blow", "steer_left@99"), "outside the run"),

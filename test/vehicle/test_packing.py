@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.physics import layout
 from truck_blowout_sim.vehicle import Packed, load_road, load_vehicle, pack, road_values
 from truck_blowout_sim.vehicle.packing.blocks import NEUTRAL, fill
@@ -154,7 +155,7 @@ def test_with_values_makes_a_copy(packed: Packed) -> None:
 
 
 def test_with_values_refuses_an_unknown_name(packed: Packed) -> None:
-    with pytest.raises(KeyError, match=r"did you mean 'hub\.trailer_2_left\.brake_gain'"):
+    with pytest.raises(InputError, match=r"did you mean 'hub\.trailer_2_left\.brake_gain'"):
         packed.with_values({"hub.trailer_2_left.brake_gian": 0.35})
 
 

@@ -11,7 +11,7 @@ from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 
 from truck_blowout_sim.cli.outputs import FORCE, claim
-from truck_blowout_sim.cli.settings import parse_blowouts, parse_values
+from truck_blowout_sim.cli.settings import parse_blowouts, set_values
 from truck_blowout_sim.errors import InputError, quoted
 from truck_blowout_sim.recordings import Recording, write_recording
 from truck_blowout_sim.simulation.run import simulate
@@ -31,8 +31,8 @@ def command(
         "international_9400i_trailmobile", help="Name of a shipped vehicle, or a YAML file."
     ),
     values: list[str] = typer.Option(
-        [], "--set", help="NAME=VALUE of a parameter, SI, e.g. "
-        "hub.trailer_2_left.brake_gain=0.35. May be repeated."
+        [], "--set", help="NAME=VALUE of a parameter, SI or a word, e.g. "
+        "hub.trailer_2_left.brake_gain=0.35 or tire.steer_left.model=linear. May be repeated."
     ),
     blow: list[str] = typer.Option(
         [], "--blow", help="TIRE@SECONDS (or a hub, or several joined by +) in place of the "
@@ -49,7 +49,7 @@ def command(
     loaded = load_scenario(scenario)
     if blow:
         loaded = loaded.with_blowouts(parse_blowouts(blow))
-    truck = _with_values(pack(load_vehicle(vehicle)), values)
+    truck = set_values(pack(load_vehicle(vehicle)), values)
     target = output or Path(loaded.name)
     if form == "csv" and target.suffix != ".csv":
         target = target.with_name(f"{target.name}.csv")
@@ -61,13 +61,6 @@ def command(
     typer.echo(summarize(recording))
     typer.echo(f"{target}: {len(recording.channels)} channels, {recording.start_s:g} s to "
                f"{recording.end_s:g} s, {factor:.0f} times faster than real time")
-
-
-def _with_values(truck: Packed, words: list[str]) -> Packed:
-    try:
-        return truck.with_values(parse_values(words))
-    except KeyError as error:
-        raise InputError(f"--set: {error.args[0]}") from None
 
 
 def _run(truck: Packed, scenario: Scenario, step_s: float, rate_hz: float

@@ -41,12 +41,6 @@ Integers = NDArray[np.int64]
 _SETTLE_S = 6.0
 _SETTLE_WARM_S = 1.5
 _DAMPING_PS = 8.0  # rate at which bounce, pitch and roll are taken out while settling
-# what is timed in the parameters must not happen while the truck settles
-_NEUTRAL = {
-    "gust_mps": 0.0, "probe_start_s": math.inf, "shift_start_s": math.inf, "blow_time_s": math.inf,
-    "friction_change_time_s": math.inf, "friction_change_x_m": math.inf,
-    "clutch_open_time_s": math.inf,
-}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -69,18 +63,20 @@ def initial_vector(packed: Packed, initial: InitialState, step_s: float,
                    warm: Floats | None = None) -> Floats:
     """State vector [n_state] in equilibrium at ``initial``; see the module's text.
 
+    Nothing that is timed acts while the truck settles, not even what began before the start.
+
     ``warm``: the equilibrium of a similar truck at the same ``initial``, from which settling is
     shorter.
     """
     settle_s = _SETTLE_S if warm is None else _SETTLE_WARM_S
     x = _design_state(packed, initial) if warm is None else warm.copy()
     x[GLOBAL_S.time_s] = 0.0
-    timed = _without_events(packed)
+    quiet = packed.without_events()
     held = _held_motion(packed, initial)
     u = np.array(initial.inputs, dtype=np.float64)
     work = np.zeros(N_WORK)
     _fill_brakes(x, packed.topology, u)
-    settle(x, timed, packed.topology, u, step_s, int(settle_s / step_s), held, work)
+    settle(x, quiet, packed.topology, u, step_s, int(settle_s / step_s), held, work)
     _place(x, packed, initial)
     x[GLOBAL_S.time_s] = initial.time_s
     return x
@@ -110,16 +106,6 @@ def _design_state(packed: Packed, initial: InitialState) -> Floats:
     command = commanded_rad(p, initial.inputs.steering_wheel_angle_rad)
     x[GLOBAL_S.steer_rad] = x[GLOBAL_S.steer_command_rad] = command
     return x
-
-
-def _without_events(packed: Packed) -> Floats:
-    """Parameters in which nothing timed happens, however long the settling."""
-    p = packed.params.copy()
-    for name, position in packed.index.items():
-        field = name.rpartition(".")[2]
-        if field in _NEUTRAL:
-            p[position] = _NEUTRAL[field]
-    return p
 
 
 def _held_motion(packed: Packed, initial: InitialState) -> Floats:

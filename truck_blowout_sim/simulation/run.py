@@ -101,8 +101,9 @@ def _on_the_road(packed: Packed, scenario: Scenario) -> Packed:
         packed = packed.with_values(road_values(road))
     try:
         return packed.with_values(scenario.values)
-    except KeyError as error:
-        raise InputError(str(error.args[0]), file=scenario.path, where="values") from None
+    except InputError as error:
+        raise InputError(error.problem, file=scenario.path, where=f"values {error.where}".strip(),
+                         expected=error.expected) from None
 
 
 def _recording(scenario: Scenario) -> Recording:

@@ -24,7 +24,7 @@ _LEAF_KEYS = frozenset({"value", "source"})
 
 
 class Place(NamedTuple):
-    """Where something stands: file, line from 1, dotted key as written."""
+    """Where something stands: file, line from 1 or 0 for none, dotted key as written."""
 
     file: str
     line: int
@@ -32,7 +32,8 @@ class Place(NamedTuple):
 
     def error(self, problem: str, expected: str | None = None) -> InputError:
         """An `InputError` that points here."""
-        where = f"line {self.line}" + (f": {self.key}" if self.key else "")
+        line = f"line {self.line}" if self.line > 0 else ""
+        where = ": ".join(filter(None, (line, self.key)))
         return InputError(problem, file=self.file, where=where, expected=expected)
 
     def below(self, key: str, line: int) -> Place:

@@ -4,15 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from truck_blowout_sim.vehicle.document import Place
 from truck_blowout_sim.vehicle.packing import chassis, running_gear
+from truck_blowout_sim.vehicle.packing.bounds import check_value, may_be_infinite
 from truck_blowout_sim.vehicle.packing.names import (
     Names,
     names_of,
+    parameter_blocks,
     parameter_index,
     unknown_parameter,
 )
@@ -33,6 +36,8 @@ class Packed:
             `hub.trailer_2_left.brake_gain`.
         vehicle: what was packed.
         names: names of units, axles, hubs and tires in the order of the blocks.
+        blocks: block of the layout by the prefix of a parameter's name.
+        event_positions: where `params` holds an instant or a place that may never come.
     """
 
     params: NDArray[np.float64]
@@ -40,12 +45,14 @@ class Packed:
     index: Mapping[str, int]
     vehicle: Vehicle
     names: Names
+    blocks: Mapping[str, type[Any]]
+    event_positions: NDArray[np.int64]
 
     def __getitem__(self, name: str) -> float:
         """Value of a named parameter.
 
         Raises:
-            KeyError: no parameter of this name; says which is nearest.
+            InputError: no parameter of this name; says which is nearest.
         """
         return float(self.params[self.position(name)])
 
@@ -53,31 +60,59 @@ class Packed:
         """Position of a named parameter in `params`.
 
         Raises:
-            KeyError: no parameter of this name; says which is nearest.
+            InputError: no parameter of this name; says which is nearest.
         """
         if name not in self.index:
-            place = Place(str(self.vehicle.path), 0, "")
-            error = unknown_parameter(place, name, self.index)
-            raise KeyError("; expected ".join(filter(None, (error.problem, error.expected))))
+            raise unknown_parameter(self._place, name, self.index)
         return self.index[name]
 
-    def with_values(self, values: Mapping[str, float]) -> Packed:
-        """A copy with some named parameters set.
+    def block(self, name: str) -> type[Any]:
+        """The block of the layout that a named parameter belongs to.
 
         Raises:
-            KeyError: no parameter of a name.
+            InputError: no parameter of this name; says which is nearest.
+        """
+        self.position(name)
+        return self.blocks[name.rpartition(".")[0]]
+
+    def with_values(self, values: Mapping[str, float]) -> Packed:
+        """A copy with some named parameters set, each checked against the bounds of its key.
+
+        Raises:
+            InputError: no parameter of a name, or a value the parameter cannot have.
+        """
+        for name, value in values.items():
+            check_value(self.block(name), name.rpartition(".")[2], value,
+                        self._place._replace(key=name))
+        return self.unchecked(values)
+
+    def unchecked(self, values: Mapping[str, float]) -> Packed:
+        """As `with_values`, but any number goes: for trials beyond what a truck can be.
+
+        Raises:
+            InputError: no parameter of a name.
         """
         params = self.params.copy()
         for name, value in values.items():
             params[self.position(name)] = value
         return replace(self, params=params)
 
+    def without_events(self) -> NDArray[np.float64]:
+        """A copy of the parameters in which nothing that is timed ever happens."""
+        params = self.params.copy()
+        params[self.event_positions] = np.inf
+        return params
+
+    @property
+    def _place(self) -> Place:
+        return Place(str(self.vehicle.path), 0, "")
+
 
 def pack(vehicle: Vehicle) -> Packed:
     """Pack a vehicle, its effects included.
 
     Raises:
-        KeyError: an effect names no parameter; `load_vehicle` does not let this through.
+        InputError: an effect names no parameter; `load_vehicle` does not let this through.
         ValueError: loads at rest are undetermined; nor does it this.
     """
     tables = Tables(vehicle.blowout)
@@ -86,8 +121,21 @@ def pack(vehicle: Vehicle) -> Packed:
     tail = _running_gear(vehicle, loads, tables)
     params = np.array([*head, *tail, *tables.values], dtype=np.float64)
     topology = topology_of(vehicle, table_at=len(head) + len(tail))
-    packed = Packed(params, topology, parameter_index(vehicle), vehicle, names_of(vehicle))
+    index, blocks = parameter_index(vehicle), dict(parameter_blocks(vehicle))
+    packed = Packed(params, topology, index, vehicle, names_of(vehicle), blocks,
+                    _event_positions(index, blocks))
     return packed.with_values({name: effect.value for name, effect in vehicle.effects.items()})
+
+
+def _event_positions(index: Mapping[str, int], blocks: Mapping[str, type[Any]]
+                     ) -> NDArray[np.int64]:
+    """Positions of every parameter that may be infinite: what has not happened yet."""
+    found = []
+    for name, position in index.items():
+        prefix, _, field = name.rpartition(".")
+        if may_be_infinite(blocks[prefix], field):
+            found.append(position)
+    return np.array(found, dtype=np.int64)
 
 
 def _head(vehicle: Vehicle, loads: StaticLoads) -> list[float]:
