@@ -198,9 +198,9 @@ def diagnosed_values(material: Material, given: Packed, verdict: Verdict) -> Map
     for nuisance in study.settings.nuisances:
         here, usual = study.amounts.get(nuisance.name, 0.0), study.expected(nuisance.name)
         total = float(np.clip(joint.get(nuisance.name, here), usual - FURTHEST, usual + FURTHEST))
-        truck = truck.with_values(nuisance.values(truck, nuisance.between(here, total)))
+        truck = truck.unchecked(nuisance.values(truck, nuisance.between(here, total)))
     if unexplained(material) and material.law.helps:
-        truck = truck.with_values(material.law.values)
+        truck = truck.unchecked(material.law.values)
     for effect in named:
         truck = effect.apply(truck, next(iter(effect.times), ""))
     return {name: float(truck.params[i]) for name, i in given.index.items()

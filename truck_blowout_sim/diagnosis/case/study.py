@@ -176,7 +176,7 @@ def build_columns(study: Study, progress: Progress | None = None) -> None:
     shown = [[bool(run.shows(n.only)) for n in sheet] for run in everything]
     jobs: list[tuple[Run, Packed]] = []
     for run, flags in zip(everything, shown, strict=True):
-        jobs += [(run, study.packed.with_values(n.values(study.packed, n.step)))
+        jobs += [(run, study.packed.unchecked(n.values(study.packed, n.step)))
                  for n, flag in zip(sheet, flags, strict=True) if flag]
         jobs.append((_faster(run), study.packed))
     results = iter(_with_progress(study, jobs, "sensitivities", progress))

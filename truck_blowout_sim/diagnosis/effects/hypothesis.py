@@ -41,7 +41,7 @@ class Hypothesis:
             if run not in self.times:
                 return packed
             values |= self.effect.timed(packed, self.place, *self.times[run])
-        return packed.with_values(values)
+        return packed.unchecked(values)
 
     def at(self, amount: float) -> Hypothesis:
         """The same with another amount."""

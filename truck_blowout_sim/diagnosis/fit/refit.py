@@ -94,7 +94,7 @@ def _beyond_sheet(study: Study, hypothesis: Hypothesis, named: Sequence[Hypothes
     # usual is the sheet, and what baseline runs seem to show, though they do not determine it
     usual = (0.0, study.expected(name))
     amounts = np.linspace(min(usual) - _SHEET, max(usual) + _SHEET, _SHEET_POINTS)
-    trucks = [study.packed.with_values(nuisance.values(study.packed, nuisance.between(here, a)))
+    trucks = [study.packed.unchecked(nuisance.values(study.packed, nuisance.between(here, a)))
               for a in amounts.tolist()]
     runs = range(len(study.runs))
     results = iter(study.simulate([(study.runs[i], with_effects(

@@ -59,7 +59,7 @@ def missing_wrench(study: Study, i: int, body: str, models: Sequence[Floats],
     window = max(WINDOW_S, run.length_s / _MOST_WINDOWS)
     starts = np.arange(run.edges_s[0], run.edges_s[-1] - 0.5 * window, window)
     truck = with_effects(study.packed, named, run.recording.name)
-    jobs = [(study.late(run, truck, float(start)), truck.with_values({
+    jobs = [(study.late(run, truck, float(start)), truck.unchecked({
         name + f"probe_{kind}": step, name + "probe_start_s": float(start),
         name + "probe_end_s": float(start + window)}))
         for kind, step in _UNITS.items() for start in starts]

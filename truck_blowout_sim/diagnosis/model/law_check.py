@@ -22,7 +22,7 @@ def checked(study: Study, law: Law, named: Sequence[Hypothesis] = ()) -> Law:
     """
     if not study.holdout or not law.values or law.terms[0][0] == CONSTANT:
         return law
-    truck, models = study.packed.with_values(law.values), list(study.models)
+    truck, models = study.packed.unchecked(law.values), list(study.models)
     jobs = [(study.runs[i], with_effects(truck, named, study.runs[i].recording.name))
             for i in study.train]
     for i, model in zip(study.train, study.simulate(jobs), strict=True):

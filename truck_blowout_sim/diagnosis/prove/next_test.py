@@ -139,7 +139,7 @@ def _sensitivities(study: Study, run: Run, names: Sequence[str]) -> Floats:
     sheet = [n for n in study.settings.nuisances if n.name in set(names)]
     shown = [n for n in sheet if run.shows(n.only)]
     results = dict(zip((n.name for n in shown), study.simulate(
-        [(run, study.packed.with_values(n.values(study.packed, n.step))) for n in shown]),
+        [(run, study.packed.unchecked(n.values(study.packed, n.step))) for n in shown]),
         strict=True))
     return np.stack([run.change(results[n.name], run.measured) * (n.sigma / n.step)
                      if n.name in results else np.zeros(run.measured.size) for n in sheet], axis=1)
