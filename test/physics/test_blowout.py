@@ -46,7 +46,7 @@ def test_tables_9_and_10_to_the_digit(thesis: Packed, state: Floats, number: int
     more, _ = blowout.vertical_load(state, s, p, t, radius_mm / 1000 - 1e-6, 0.0, r)
     assert fz == pytest.approx(load, rel=1e-9)
     assert (more - fz) / 1e-6 == pytest.approx(1000.0 * stiffness_npmm, rel=1e-6)
-    f = blowout.rolling_coefficient(p, t, 1.0, 0.0, 88.5 * KMH, r)
+    f = blowout.rolling_coefficient(p, t, 1.0, 0.01, 0.0, 88.5 * KMH, r)
     assert f == pytest.approx(constant + per_kmh * 88.5, abs=1e-12)
 
 
@@ -80,8 +80,9 @@ def test_continuous_law_has_no_step_anywhere(truck: Packed, state: Floats,
         radii = np.array([blowout.rolling_radius_m(truck.params, at, 0.506 - h, r, -1)
                           for h, r in zip(heights, rims, strict=True)])
         assert np.abs(np.diff(radii)).max() < 2.0 * move
-        f = np.array([blowout.rolling_coefficient(truck.params, at, gauge / 7.6e5, r, 23.0, -1)
-                      for r in rims])
+        f = np.array([blowout.rolling_coefficient(truck.params, at, gauge / 7.6e5, 0.506 - h, r,
+                                                  23.0, -1)
+                      for h, r in zip(heights, rims, strict=True)])
         assert np.abs(np.diff(f)).max() < 10.0 * move
 
 
@@ -116,3 +117,21 @@ def test_a_tire_in_the_air_carries_nothing(truck: Packed, state: Floats,
                                            slot: Callable[[str, str], int]) -> None:
     at, s = block("tire.steer_left"), slot("tire", "steer_left")
     assert blowout.vertical_load(state, s, truck.params, at, 0.6, 5.0, -1)[0] == 0.0
+
+
+def test_a_flat_tire_that_stops_short_of_the_rim_drags_as_much(truck: Packed,
+                                                               block: Callable[[str], int]
+                                                               ) -> None:
+    """Both duals of a light hub stand at 0.372 to 0.376 m, the rim begins at 0.375 m."""
+    at, flat = block("tire.trailer_1_left_outer"), truck["tire.trailer_1_left_outer.flat_rolling"]
+    free = truck["tire.trailer_1_left_outer.unloaded_radius_m"]
+
+    def drag(gauge_share: float, radius: float) -> float:
+        rim = blowout.rim_fraction(truck.params, at, radius)
+        return float(blowout.rolling_coefficient(truck.params, at, gauge_share, free - radius, rim,
+                                                 20.0, -1))
+
+    assert drag(0.0, 0.376) == pytest.approx(flat, rel=0.02)
+    # halfway to the rim half of it and the usual rolling resistance; with its air none of it
+    assert drag(0.0, 0.5 * (free + 0.375)) == pytest.approx(0.5 * flat, rel=0.15)
+    assert drag(0.9, 0.47) < 0.01

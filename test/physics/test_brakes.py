@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from truck_blowout_sim.physics import brakes
 from truck_blowout_sim.physics.layout import HUB_S, N_INPUTS
+from truck_blowout_sim.simulation import InitialState, Inputs, Truck
 from truck_blowout_sim.vehicle import Packed
 
 Floats = NDArray[np.float64]
@@ -92,3 +93,16 @@ def test_heat_is_the_work_of_the_brake(state: Floats, slot: Slot) -> None:
         brakes.advance_spin(state, s, inertia, 0.0, 1000.0, 0.001)
     assert state[s + HUB_S.heat_j] == pytest.approx(0.5 * inertia * 40.0**2, rel=1e-9)
     assert math.isclose(state[s + HUB_S.spin_radps], 0.0)
+
+
+def test_trailer_brakes_come_later_than_the_tractors(truck: Packed) -> None:
+    """60 % of full pressure after 0.24 s in the tractor's chambers, 0.33 s in the trailer's."""
+    run, reached = Truck(truck, initial=InitialState(speed_mps=20.0)), {}
+    for k in range(500):
+        run.advance(Inputs(0.0, 0.0, 5e5, 5e5, 5e5))
+        for hub in ("steer_left", "drive_2_right", "trailer_2_left"):
+            if run.outputs()[f"brake_chamber_{hub}_pa"] > 3e5:
+                reached.setdefault(hub, 0.001 * k)
+    assert reached["steer_left"] == pytest.approx(0.10 + 0.15 * math.log(2.5), abs=0.003)
+    assert reached["drive_2_right"] == reached["steer_left"]
+    assert reached["trailer_2_left"] == pytest.approx(0.15 + 0.20 * math.log(2.5), abs=0.003)

@@ -100,3 +100,10 @@ def test_braking_takes_cornering_force_away(truck: Packed, block: Block) -> None
              for slip in np.linspace(0.0, -0.5, 20)]
     assert all(b < a for a, b in pairwise(sides))
     assert sides[-1] < 0.3 * sides[0]
+
+
+def test_trail_never_shrinks_with_load_nor_changes_its_side(truck: Packed, block: Block) -> None:
+    at, loads = block("tire.steer_left"), np.linspace(5e3, 300e3, 60)
+    trails = [mf.pneumatic_trail_m(truck.params, at, fz, 1.0, 0.01) for fz in loads]
+    assert all(b >= a for a, b in pairwise(trails))
+    assert trails[-1] == pytest.approx(0.0506, rel=0.02)

@@ -50,7 +50,7 @@ def tire_wrench(x: Floats, s: int, p: Floats, t: int, table_at: int, axle_s: int
     fx, fy, mz = tire_forces(x, s, p, t, table_at, fz, rim, step, velocity[0], velocity[1],
                              spin_radps * radius, camber_rad, mu, axle_peak, dt)
     inflation = x[s + TIRE_S.pressure_pa] / p[t + TIRE.reference_pressure_pa]
-    f = blowout.rolling_coefficient(p, t, inflation, rim, abs(velocity[0]), step)
+    f = blowout.rolling_coefficient(p, t, inflation, deflection, rim, abs(velocity[0]), step)
     rolling = f * fz * radius * clip(spin_radps / _STILL_RADPS, -1.0, 1.0)
     x[s + TIRE_S.fx_n], x[s + TIRE_S.fy_n], x[s + TIRE_S.fz_n] = fx, fy, fz
     x[s + TIRE_S.mz_nm], x[s + TIRE_S.rolling_nm] = mz, rolling

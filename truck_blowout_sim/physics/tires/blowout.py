@@ -67,6 +67,12 @@ def rim_fraction(p: Floats, t: int, height_m: float) -> float:
 
 
 @core
+def collapse(p: Floats, t: int, inflation: float) -> float:
+    """How far a carcass has lost its form for lack of air, 0 to 1; also while clear of the rim."""
+    return max(1.0 - inflation / p[t + TIRE.pressure_valid], 0.0)
+
+
+@core
 def rolling_radius_m(p: Floats, t: int, deflection_m: float, rim: float, step: int) -> float:
     """Effective rolling radius [m]: a flat steel belt still rolls its own length."""
     if step >= 0:
@@ -76,12 +82,18 @@ def rolling_radius_m(p: Floats, t: int, deflection_m: float, rim: float, step: i
 
 
 @core
-def rolling_coefficient(p: Floats, t: int, inflation: float, rim: float, speed_mps: float,
-                        step: int) -> float:
-    """Rolling resistance per load: f = f0 + fV V, more when soft, the flat's drag on the rim."""
+def rolling_coefficient(p: Floats, t: int, inflation: float, deflection_m: float, rim: float,
+                        speed_mps: float, step: int) -> float:
+    """Rolling resistance per load: f = f0 + fV V, more when soft, the flat's drag when collapsed.
+
+    A carcass without air is folded as far as it is pressed: flat duals that carry little stop short
+    of the rim and drag nearly as much as on it.
+    """
     if step >= 0:
         return p[step + 5] + p[step + 6] * speed_mps
     f = p[t + TIRE.rolling_0] + p[t + TIRE.rolling_spm] * speed_mps
     if abs(inflation - 1.0) > 0.05:
         f *= max(inflation, 0.05) ** (-p[t + TIRE.rolling_pressure_exponent])
-    return f + rim * (p[t + TIRE.flat_rolling] * p[t + TIRE.flat_drag_scale] - f)
+    way = p[t + TIRE.unloaded_radius_m] - p[t + TIRE.rim_radius_m]
+    folded = collapse(p, t, inflation) * clip(deflection_m / way, 0.0, 1.0)
+    return f + max(rim, folded) * (p[t + TIRE.flat_rolling] * p[t + TIRE.flat_drag_scale] - f)

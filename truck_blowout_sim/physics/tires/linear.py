@@ -22,13 +22,19 @@ Floats = NDArray[np.float64]
 
 
 @core
+def limit_n(p: Floats, t: int, fz_n: float, friction: float, axle_peak: float) -> float:
+    """Most force [N] in any direction."""
+    return p[t + TIRE.peak_y] * p[t + TIRE.friction_scale] * friction * axle_peak * fz_n
+
+
+@core
 def forces(p: Floats, t: int, fz_n: float, slip: float, slip_tan: float, friction: float,
            axle_peak: float, cornering: float) -> tuple[float, float, float]:
     """Longitudinal and lateral force [N]; the aligning moment is zero."""
     fx = p[t + TIRE.linear_slip_n] * slip
     fy = cornering * math.atan(slip_tan)
     sharpness = p[t + TIRE.saturation]
-    limit = p[t + TIRE.peak_y] * p[t + TIRE.friction_scale] * friction * axle_peak * fz_n
+    limit = limit_n(p, t, fz_n, friction, axle_peak)
     if sharpness > 0.0 and limit > 0.0:
         level = friction * axle_peak * fz_n / sharpness
         fy = level * math.tanh(fy / level)

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from truck_blowout_sim.physics.jit import core
 from truck_blowout_sim.physics.layout import TIRE
 from truck_blowout_sim.physics.scalar import clip
-from truck_blowout_sim.physics.tires.magic_formula import shape
+from truck_blowout_sim.physics.tires.magic_formula import limits, shape
 from truck_blowout_sim.physics.trig import arctan
 
 Floats = NDArray[np.float64]
@@ -44,11 +44,9 @@ def interpolate(p: Floats, at: int, which: int, slip_rad: float, fz_n: float) ->
 def forces(p: Floats, t: int, at: int, fz_n: float, slip: float, slip_tan: float,
            friction: float, axle_peak: float, cornering_scale: float, aligning_scale: float
            ) -> tuple[float, float, float]:
-    """Forces [N] and aligning moment [N m]; the scales are those of the blown tire's step."""
-    d = fz_n / p[t + TIRE.reference_load_n] - 1.0
+    """Forces [N] and aligning moment [N m], rolling forward; scales of the blown tire's step."""
+    peak_x, _, stiffness_x = limits(p, t, fz_n, friction, axle_peak)
     mu = friction * p[t + TIRE.friction_scale]
-    peak_x = max(p[t + TIRE.peak_x] - p[t + TIRE.peak_x_load] * d, 0.1) * mu * fz_n
-    stiffness_x = fz_n * max(p[t + TIRE.slip_stiffness] - p[t + TIRE.slip_stiffness_load] * d, 1.0)
     fx = peak_x * shape(stiffness_x * slip / peak_x, p[t + TIRE.shape_x], p[t + TIRE.curvature_x])
     alpha = arctan(slip_tan)
     side = 1.0 if alpha >= 0.0 else -1.0

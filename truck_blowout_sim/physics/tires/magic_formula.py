@@ -2,8 +2,9 @@
 
 References: Pacejka, Tire and Vehicle Dynamics; reduced set fitted to Goodyear/Calspan data at four
 pressures and the 315/80R22.5 book set (docs/physics.md, "Tires").
-Known limits: pressure dependence valid down to ``pressure_valid`` of the reference; no turn slip;
-combined slip by similarity, so peak friction is an ellipse in force.
+Known limits: pressure dependence valid down to ``pressure_valid`` of the reference; trail held
+above its largest (at 53 kN); no turn slip; combined slip by similarity, so peak friction is an
+ellipse in force.
 Validated with: test/physics/test_magic_formula.py (four loads, pressure, slopes, combined limits).
 """
 
@@ -48,28 +49,39 @@ def pneumatic_trail_m(p: Floats, t: int, fz_n: float, inflation: float, alpha_ra
     """Trail [m]; Mz = -trail * Fy."""
     q = max(inflation, p[t + TIRE.pressure_valid])
     ratio = fz_n / p[t + TIRE.reference_load_n]
-    base = p[t + TIRE.trail_0] - p[t + TIRE.trail_load] * (ratio - 1.0)
+    level, slope = p[t + TIRE.trail_0], p[t + TIRE.trail_load]
+    if 2.0 * slope * ratio > level + slope:
+        # load times trail is a parabola: beyond its vertex there are no data, so it is held there
+        ratio = 0.5 * (level + slope) / slope
+    base = level - slope * (ratio - 1.0)
     stretch = 1.0 + p[t + TIRE.trail_pressure] * (1.0 - q)
     decay = cosine(p[t + TIRE.trail_shape] * arctan(p[t + TIRE.trail_stretch] * alpha_rad))
     return p[t + TIRE.unloaded_radius_m] * ratio * base * stretch * decay * cosine(alpha_rad)
 
 
 @core
+def limits(p: Floats, t: int, fz_n: float, friction: float, axle_peak: float
+           ) -> tuple[float, float, float]:
+    """Peak forces along and across [N], and slope of the longitudinal force over slip [N]."""
+    d = fz_n / p[t + TIRE.reference_load_n] - 1.0
+    load = friction * p[t + TIRE.friction_scale] * fz_n
+    return (max(p[t + TIRE.peak_x] - p[t + TIRE.peak_x_load] * d, 0.1) * load,
+            max(p[t + TIRE.peak_y] - p[t + TIRE.peak_y_load] * d, 0.1) * axle_peak * load,
+            max(p[t + TIRE.slip_stiffness] - p[t + TIRE.slip_stiffness_load] * d, 1.0) * fz_n)
+
+
+@core
 def forces(p: Floats, t: int, fz_n: float, inflation: float, slip: float, slip_tan: float,
            friction: float, axle_peak: float, cornering: float
            ) -> tuple[float, float, float]:
-    """Longitudinal and lateral force [N] and aligning moment [N m].
+    """Longitudinal and lateral force [N] and aligning moment [N m], rolling forward.
 
     ``slip`` and ``slip_tan`` are the lagged longitudinal slip and the lagged -vy/|vx|: a positive
     ``slip_tan`` gives a force to the left. ``cornering`` is K_ya. ``axle_peak`` scales the lateral
     peak alone.
     """
-    d = fz_n / p[t + TIRE.reference_load_n] - 1.0
-    mu = friction * p[t + TIRE.friction_scale]
-    peak_x = max(p[t + TIRE.peak_x] - p[t + TIRE.peak_x_load] * d, 0.1) * mu * fz_n
-    peak_y = max(p[t + TIRE.peak_y] - p[t + TIRE.peak_y_load] * d, 0.1) * mu * axle_peak * fz_n
+    peak_x, peak_y, stiffness_x = limits(p, t, fz_n, friction, axle_peak)
     alpha = arctan(slip_tan)
-    stiffness_x = fz_n * max(p[t + TIRE.slip_stiffness] - p[t + TIRE.slip_stiffness_load] * d, 1.0)
     sx = stiffness_x * slip / peak_x
     sy = cornering * alpha / peak_y
     total = math.sqrt(sx * sx + sy * sy)

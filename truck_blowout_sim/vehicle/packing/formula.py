@@ -44,6 +44,8 @@ def lateral_n(tire: TireSpec, slip_rad: float, load_n: float) -> float:
 def aligning_nm(tire: TireSpec, slip_rad: float, load_n: float) -> float:
     """Aligning moment, positive where it turns the wheel back: pneumatic trail times force."""
     share = load_n / tire.reference_load_n
+    if 2.0 * tire.trail_load * share > tire.trail_0 + tire.trail_load:
+        share = 0.5 * (tire.trail_0 + tire.trail_load) / tire.trail_load
     trail = tire.unloaded_radius_m * share * (tire.trail_0 - tire.trail_load * (share - 1.0))
     trail *= 1.0 + tire.trail_pressure * (1.0 - inflation(tire))
     bend = cos(tire.trail_shape * atan(tire.trail_stretch * slip_rad)) * cos(slip_rad)
