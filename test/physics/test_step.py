@@ -2,40 +2,27 @@
 
 from __future__ import annotations
 
+import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from truck_blowout_sim.physics.layout import N_WORK, TIRE_S, TOPOLOGY
 from truck_blowout_sim.physics.step import advance, step
 from truck_blowout_sim.simulation import InitialState, Inputs, Truck, simulate
 from truck_blowout_sim.simulation.validation.soundness import symmetry_error
 from truck_blowout_sim.vehicle import Packed
 
-GOLDEN = Path(__file__).with_name("golden_run.npz")
+sys.path.insert(0, str(Path(__file__).parent))
+
+from golden_run import RUNS, repeated, stored_run
 
 
-def golden_run(stored: dict[str, np.ndarray]) -> np.ndarray:
-    """State every 250 steps of a run that turns, loses a tire and brakes; 2 s in all.
-
-    Start, parameters and inputs are stored with the result, so that this guards the arithmetic of
-    the step and not the values of a vehicle file. Written by `python test/physics/golden_run.py`.
-    """
-    x, work, rows = stored["start"].copy(), np.zeros(N_WORK), []
-    topo = stored["topology"]
-    blown = topo[TOPOLOGY.state_tire_at] + TIRE_S.blown_time_s
-    for k in range(8):
-        if k == 2:
-            x[blown] = x[0]
-        advance(x, stored["params"], topo, stored["inputs"][k], 0.001, 250, work)
-        rows.append(x[:topo[TOPOLOGY.state_line_at]].copy())
-    return np.array(rows)
-
-
-def test_golden_run() -> None:
-    stored = dict(np.load(GOLDEN))
-    found, kept = golden_run(stored), stored["result"]
+@pytest.mark.parametrize("name", RUNS)
+def test_golden_run(name: str) -> None:
+    """Driven from stored states and parameters: guards the arithmetic, not the vehicle files."""
+    stored = stored_run(name)
+    found, kept = repeated(name, stored), stored["result"]
     finite = np.isfinite(kept)
     assert np.array_equal(np.isfinite(found), finite)
     scale = np.maximum(np.abs(kept[finite]), 1.0)

@@ -54,6 +54,19 @@ def parameter_index(vehicle: Vehicle) -> dict[str, int]:
     return {key: position for position, key in enumerate(keys)}
 
 
+def state_index(vehicle: Vehicle) -> dict[str, int]:
+    """Position of every named state, such as `tire.steer_left.slip`; brake lines have no names."""
+    blocks: list[tuple[str, type[Any]]] = [
+        ("truck", layout.GlobalState),
+        *((f"unit.{name}", layout.UnitState) for name in vehicle.units),
+        *((f"axle.{name}", layout.AxleState) for name in vehicle.axles),
+        *((f"hub.{name}", layout.HubState) for name in vehicle.hubs),
+        *((f"tire.{name}", layout.TireState) for name in vehicle.tires),
+    ]
+    return {f"{prefix}.{field}": position for position, (prefix, field) in enumerate(
+        (prefix, field) for prefix, block in blocks for field in block._fields)}
+
+
 def unknown_parameter(place: Place, name: str, index: Mapping[str, int]) -> InputError:
     """An error about a parameter name, with the nearest that exists, written out in full."""
     name = name[:LONGEST_NAME]
