@@ -30,7 +30,7 @@ WRONG = {
     "negative in pounds": (BODY % "mass_lb: -5", "mass_lb: -5 is out", "greater than 0"),
     "section for a number": (BODY % "mass_kg: {a: 1}", "is a section", "a number"),
     "number for a section": ("units: {tractor: {body: 5}}", "5 is not a section", "keys below"),
-    "word beside a value": (BODY % "mass_kg: {value: 1, src: x}", "'src'", "value and source"),
+    "word beside a value": (BODY % "mass_kg: {value: 1, src: x}", "'src'", "value, source, spread"),
     "source of the wrong kind": (BODY % "mass_kg: {value: 1, source: 2}", "source 2", "quotes"),
     "word of a choice": ("abs: {mode: on_demand}", "'on_demand' is not", "slip_threshold"),
     "number for a switch": ("steering: {compliant: 1}", "1 is not accepted", "true or false"),

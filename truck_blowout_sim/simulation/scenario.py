@@ -14,7 +14,7 @@ from truck_blowout_sim.resources import config_file, config_names
 from truck_blowout_sim.simulation.scenario_schema import BlowoutEventSpec, ScenarioSpec
 from truck_blowout_sim.vehicle import Vehicle
 from truck_blowout_sim.vehicle.document import Branch, Leaf, Place, read_document
-from truck_blowout_sim.vehicle.reading import build, to_number, unknown
+from truck_blowout_sim.vehicle.reading import Notes, build, to_number, unknown
 
 _KIND = "scenarios"
 
@@ -91,10 +91,10 @@ def load_scenario(name_or_path: str | PathLike[str]) -> Scenario:
     path = config_file(_KIND, name_or_path)
     tree = read_document(path, _KIND)
     values = _values(tree.entries.pop("values", None))
-    sources: dict[str, str] = {}
-    spec = build(ScenarioSpec, tree, sources)
+    notes = Notes()
+    spec = build(ScenarioSpec, tree, notes)
     places = dict(_places(tree, ""))
-    scenario = Scenario(path.stem, path, spec, values, sources, places)
+    scenario = Scenario(path.stem, path, spec, values, notes.sources, places)
     _check(scenario, tree)
     return scenario
 

@@ -1,13 +1,14 @@
 """A YAML file as a tree that remembers lines and sources.
 
-A value is written either plainly (`mass_kg: 5694`) or with where it comes from
-(`mass_kg: {value: 5694, source: "weighed"}`). Keys come out in SI (`mass_lb` as `mass_kg`), so that
-a file that extends another may use its own units.
+A value is written either plainly (`mass_kg: 5694`) or with where it comes from and how far the
+truth may lie from it, one standard deviation (`mass_kg: {value: 5694, spread: 50, source:
+"weighed"}`). Keys come out in SI (`mass_lb` as `mass_kg`), so that a file that extends another may
+use its own units.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -20,7 +21,7 @@ from truck_blowout_sim.vehicle.units import si_key
 _LOADER: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 MOST_NODES = 100_000
 MERGE_TAG = "tag:yaml.org,2002:merge"
-_LEAF_KEYS = frozenset({"value", "source"})
+_LEAF_KEYS = frozenset({"value", "source", "spread"})
 
 
 class Place(NamedTuple):
@@ -43,12 +44,13 @@ class Place(NamedTuple):
 
 @dataclass(frozen=True)
 class Leaf:
-    """One value with its source; `factor` takes it to the unit of the SI key."""
+    """One value with its source; `factor` takes it, and its spread, to the unit of the SI key."""
 
     value: Any
     source: str
     place: Place
     factor: float = 1.0
+    spread: float | None = None
 
 
 @dataclass(frozen=True)
@@ -72,8 +74,20 @@ def read_document(path: Path, kind: str) -> Branch:
     return _read(path, kind, ())
 
 
+def extended(tree: Branch, kind: str) -> Branch:
+    """A section written inside another file, together with the file of `kind` that it extends.
+
+    Raises:
+        InputError: see `read_document`.
+    """
+    return _extended(tree, Path(tree.place.file), kind, ())
+
+
 def _read(path: Path, kind: str, children: tuple[Path, ...]) -> Branch:
-    tree = parse(path)
+    return _extended(parse(path), path, kind, children)
+
+
+def _extended(tree: Branch, path: Path, kind: str, children: tuple[Path, ...]) -> Branch:
     base = tree.entries.pop("extends", None)
     if base is None:
         return tree
@@ -164,7 +178,7 @@ class _Reader:
             name = key
             if isinstance(entry, Leaf):
                 name, factor = si_key(key)
-                entry = Leaf(entry.value, entry.source, entry.place, factor)
+                entry = replace(entry, factor=factor)
             entries[name] = entry
         return Branch(place, entries)
 
@@ -195,13 +209,13 @@ class _Reader:
         if "value" not in keys:
             return self._branch(node, place)
         if extra := sorted(keys - _LEAF_KEYS):
-            raise place.error(f"unknown key {extra[0]!r} beside a value", "value and source")
+            raise place.error(f"unknown key {extra[0]!r} beside a value", "value, source, spread")
         self._flatten(node, place)
         parts = {key.value: self._plain(value, place) for key, value in node.value}
         source = parts.get("source", "")
         if not isinstance(source, str):
             raise place.error(f"source {source!r} is not a text", "words in quotes")
-        return Leaf(parts["value"], source, place)
+        return Leaf(parts["value"], source, place, spread=_spread(parts.get("spread"), place))
 
     def _plain(self, node: yaml.Node, place: Place) -> object:
         self._count(place)
@@ -216,3 +230,12 @@ class _Reader:
         self._visited += 1
         if self._visited > MOST_NODES:
             raise place.error("is too large, or contains itself", f"at most {MOST_NODES} values")
+
+
+def _spread(value: object, place: Place) -> float | None:
+    """A standard deviation beside a value; None where none is given."""
+    if value is None:
+        return None
+    if isinstance(value, bool) or not isinstance(value, (int, float)) or not value > 0.0:
+        raise place.error(f"spread {value!r} is no standard deviation", "a number above 0")
+    return float(value)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from os import PathLike
 from pathlib import Path
 
@@ -10,13 +10,14 @@ from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.physics.layout import WorldParams
 from truck_blowout_sim.resources import config_file
 from truck_blowout_sim.vehicle.checks import check_vehicle
-from truck_blowout_sim.vehicle.document import Branch, Leaf, read_document
+from truck_blowout_sim.vehicle.document import Branch, Leaf, extended, read_document
 from truck_blowout_sim.vehicle.packing.chassis import world_block
-from truck_blowout_sim.vehicle.reading import Section, build, to_number, unknown
+from truck_blowout_sim.vehicle.reading import Notes, Section, build, to_number, unknown
 from truck_blowout_sim.vehicle.schema.axle import AxleSpec
 from truck_blowout_sim.vehicle.schema.road import RoadSpec
 from truck_blowout_sim.vehicle.schema.tire import BlowoutSpec, TireSpec
 from truck_blowout_sim.vehicle.schema.vehicle import VehicleSpec
+from truck_blowout_sim.vehicle.single_track import filled_in
 from truck_blowout_sim.vehicle.vehicle import Effect, Vehicle, hubs_of_axle, tires_of_hub
 
 
@@ -29,19 +30,21 @@ def load_vehicle(name_or_path: str | PathLike[str]) -> Vehicle:
     path = config_file("vehicles", name_or_path)
     tree = read_document(path, "vehicles")
     effects_entry = tree.entries.pop("effects", None)
-    sources: dict[str, str] = {}
-    spec = build(VehicleSpec, tree, sources)
-    tire_files, tire_specs = _tires(spec, tree, sources)
+    tree, written_out = _sections_as_names(filled_in(tree))
+    notes = Notes()
+    spec = build(VehicleSpec, tree, notes)
+    tire_files, tire_specs = _tires(spec, tree, notes, written_out)
     vehicle = Vehicle(
         name=path.stem,
         path=path,
         spec=spec,
         tire_specs=tire_specs,
         tire_files=tire_files,
-        blowout=_named_file(BlowoutSpec, "blowout", tree, sources, "blowout"),
-        road=_named_file(RoadSpec, "roads", tree, sources, "road"),
-        effects=_effects(effects_entry, sources),
-        sources=sources,
+        blowout=_named_file(BlowoutSpec, "blowout", tree, notes, "blowout", written_out),
+        road=_named_file(RoadSpec, "roads", tree, notes, "road", written_out),
+        effects=_effects(effects_entry, notes),
+        sources=notes.sources,
+        spreads=notes.spreads,
     )
     check_vehicle(vehicle, tree)
     return vehicle
@@ -53,7 +56,7 @@ def load_road(name_or_path: str | PathLike[str]) -> RoadSpec:
     Raises:
         InputError: no such file, or something in it cannot be used.
     """
-    return build(RoadSpec, read_document(config_file("roads", name_or_path), "roads"), {})
+    return build(RoadSpec, read_document(config_file("roads", name_or_path), "roads"), Notes())
 
 
 def road_values(road: RoadSpec) -> dict[str, float]:
@@ -62,13 +65,43 @@ def road_values(road: RoadSpec) -> dict[str, float]:
     return {f"world.{k}": v for k, v in zip(names, world_block(road), strict=True)}
 
 
-def _named_file(
-    of: type[Section], kind: str, tree: Branch, sources: dict[str, str], key: str
-) -> Section:
+def _sections_as_names(tree: Branch) -> tuple[Branch, dict[str, Branch]]:
+    """Put a name in place of each tire, blowout or road that is written out in the vehicle file.
+
+    Returns:
+        The tree with names only, and the sections by their dotted key.
+    """
+    written_out: dict[str, Branch] = {}
+
+    def named(entries: Mapping[str, Leaf | Branch], keys: Iterable[str], path: str = ""
+              ) -> dict[str, Leaf | Branch]:  # fmt: skip
+        changed = dict(entries)
+        for key in keys:
+            entry = entries.get(key)
+            if isinstance(entry, Branch):
+                written_out[path + key] = entry
+                changed[key] = Leaf(key, "", entry.place)
+        return changed
+
+    entries = named(tree.entries, ("blowout", "road"))
+    tires = entries.get("tires")
+    if isinstance(tires, Branch):
+        entries["tires"] = Branch(tires.place, named(tires.entries, tires.entries, "tires."))
+    return Branch(tree.place, entries), written_out
+
+
+def _named_file(of: type[Section], kind: str, tree: Branch, notes: Notes, key: str,
+                written_out: Mapping[str, Branch]) -> Section:  # fmt: skip
     entry = tree.entries[key]
     assert isinstance(entry, Leaf)  # `build` has seen to it
-    document = read_document(_sibling(kind, entry), kind)
-    return build(of, document, sources, key)
+    return build(of, _document(kind, entry, written_out.get(key)), notes, key)
+
+
+def _document(kind: str, entry: Leaf, section: Branch | None) -> Branch:
+    """What a key names: a section of the vehicle file itself, or another file."""
+    if section is not None:
+        return extended(section, kind)
+    return read_document(_sibling(kind, entry), kind)
 
 
 def _sibling(kind: str, entry: Leaf) -> Path:
@@ -82,9 +115,8 @@ def _sibling(kind: str, entry: Leaf) -> Path:
         raise entry.place.error(error.problem, error.expected) from None
 
 
-def _tires(
-    spec: VehicleSpec, tree: Branch, sources: dict[str, str]
-) -> tuple[dict[str, str], dict[str, TireSpec]]:
+def _tires(spec: VehicleSpec, tree: Branch, notes: Notes, written_out: Mapping[str, Branch]
+           ) -> tuple[dict[str, str], dict[str, TireSpec]]:  # fmt: skip
     """The file and the kind of every tire of the vehicle."""
     entries = tree.entries["tires"]
     assert isinstance(entries, Branch)
@@ -105,8 +137,8 @@ def _tires(
         if files[tire] not in kinds:
             leaf = entries.entries[named]
             assert isinstance(leaf, Leaf)
-            document = read_document(_sibling("tires", leaf), "tires")
-            kinds[files[tire]] = build(TireSpec, document, sources, f"tires.{files[tire]}")
+            document = _document("tires", leaf, written_out.get(f"tires.{named}"))
+            kinds[files[tire]] = build(TireSpec, document, notes, f"tires.{files[tire]}")
     return files, {tire: kinds[file] for tire, file in files.items()}
 
 
@@ -125,7 +157,7 @@ def _tire_places(axles: Mapping[str, AxleSpec]) -> dict[str, tuple[str, ...]]:
     return places
 
 
-def _effects(entry: Leaf | Branch | None, sources: dict[str, str]) -> dict[str, Effect]:
+def _effects(entry: Leaf | Branch | None, notes: Notes) -> dict[str, Effect]:
     if entry is None:
         return {}
     if isinstance(entry, Leaf):
@@ -136,6 +168,5 @@ def _effects(entry: Leaf | Branch | None, sources: dict[str, str]) -> dict[str, 
             raise leaf.place.error("is a section", "a value")
         value = to_number(leaf.value, leaf.place) * leaf.factor
         effects[key] = Effect(value, leaf.source, leaf.place)
-        if leaf.source:
-            sources[f"effects.{key}"] = leaf.source
+        notes.take(f"effects.{key}", leaf)
     return effects

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import difflib
 import math
+from dataclasses import dataclass, field
 from typing import TypeVar
 
 from truck_blowout_sim.errors import InputError
@@ -12,16 +13,38 @@ from truck_blowout_sim.vehicle.fields import Rule, required, rules
 from truck_blowout_sim.vehicle.units import spellings
 
 Section = TypeVar("Section")
+
+
+@dataclass(frozen=True)
+class Notes:
+    """What a file says beside its values, by dotted SI key.
+
+    Attributes:
+        sources: where a value comes from.
+        spreads: how far the truth may lie from it, one standard deviation in SI.
+    """
+
+    sources: dict[str, str] = field(default_factory=dict)
+    spreads: dict[str, float] = field(default_factory=dict)
+
+    def take(self, path: str, leaf: Leaf) -> None:
+        """Keep what is said beside one value."""
+        if leaf.source:
+            self.sources[path] = leaf.source
+        if leaf.spread is not None:
+            self.spreads[path] = leaf.spread * leaf.factor
+
+
 LARGEST = 1e15  # nothing on a road is larger, in SI; squares stay finite
 
 
-def build(of: type[Section], tree: Branch, sources: dict[str, str], path: str = "") -> Section:
+def build(of: type[Section], tree: Branch, notes: Notes, path: str = "") -> Section:
     """Make the section `of` from a branch.
 
     Args:
         of: a dataclass made with `vehicle.fields`.
         tree: the branch.
-        sources: filled with the source of every value that has one, by dotted SI key.
+        notes: filled with what stands beside the values.
         path: dotted key of the section.
 
     Raises:
@@ -35,7 +58,7 @@ def build(of: type[Section], tree: Branch, sources: dict[str, str], path: str = 
         if key not in tree.entries:
             raise tree.place.error(f"{key} is missing", " or ".join(spellings(key)))
     values = {
-        key: _value(known[key], entry, sources, f"{path}.{key}" if path else key)
+        key: _value(known[key], entry, notes, f"{path}.{key}" if path else key)
         for key, entry in tree.entries.items()
     }
     return of(**values)
@@ -69,15 +92,14 @@ def _shown(entry: Leaf | Branch) -> str:
     return repr(entry.value) if isinstance(entry, Leaf) else "a section"
 
 
-def _value(rule: Rule, entry: Leaf | Branch, sources: dict[str, str], path: str) -> object:
+def _value(rule: Rule, entry: Leaf | Branch, notes: Notes, path: str) -> object:
     if rule.kind == "section":
-        return build(rule.section, _branch(entry), sources, path)
+        return build(rule.section, _branch(entry), notes, path)
     if rule.kind == "sections":
-        return _named(rule, _branch(entry), sources, path)
+        return _named(rule, _branch(entry), notes, path)
     if isinstance(entry, Branch):
         raise entry.place.error("is a section", _expected(rule))
-    if entry.source:
-        sources[path] = entry.source
+    notes.take(path, entry)
     return leaf_value(rule, entry)
 
 
@@ -87,12 +109,12 @@ def _branch(entry: Leaf | Branch) -> Branch:
     return entry
 
 
-def _named(rule: Rule, tree: Branch, sources: dict[str, str], path: str) -> dict[str, object]:
+def _named(rule: Rule, tree: Branch, notes: Notes, path: str) -> dict[str, object]:
     if rule.section is None:
         word = Rule("text", rule.doc)
-        return {k: _value(word, e, sources, f"{path}.{k}") for k, e in tree.entries.items()}
+        return {k: _value(word, e, notes, f"{path}.{k}") for k, e in tree.entries.items()}
     return {
-        name: build(rule.section, _branch(entry), sources, f"{path}.{name}")
+        name: build(rule.section, _branch(entry), notes, f"{path}.{name}")
         for name, entry in tree.entries.items()
     }
 

@@ -17,9 +17,13 @@ from truck_blowout_sim.vehicle.packing.blocks import NEUTRAL
 from truck_blowout_sim.vehicle.schema.road import RoadSpec
 from truck_blowout_sim.vehicle.schema.tire import BlowoutSpec, TireSpec
 from truck_blowout_sim.vehicle.schema.vehicle import VehicleSpec
+from truck_blowout_sim.vehicle.single_track.rules import RulesSpec
+from truck_blowout_sim.vehicle.single_track.schema import SingleTrackSpec
 
 FILES = {
     "Vehicle (`config/vehicles`)": VehicleSpec,
+    "Single track (section `single_track` of a vehicle)": SingleTrackSpec,
+    "Rules of thumb (`config/single_track`)": RulesSpec,
     "Tire (`config/tires`)": TireSpec,
     "Blowout (`config/blowout`)": BlowoutSpec,
     "Road (`config/roads`)": RoadSpec,

@@ -42,6 +42,8 @@ class Vehicle:
         effects: parameters set by packed name, such as `hub.trailer_2_left.brake_gain`.
         sources: where each value comes from, by dotted SI key; of tire, blowout and road files
             under `tires.<file>.`, `blowout.` and `road.`.
+        spreads: how far the truth may lie from a value, one standard deviation in SI, by the same
+            keys; what has none is known as well as others of its kind.
     """
 
     name: str
@@ -53,6 +55,7 @@ class Vehicle:
     road: RoadSpec
     effects: Mapping[str, Effect] = field(default_factory=dict)
     sources: Mapping[str, str] = field(default_factory=dict)
+    spreads: Mapping[str, float] = field(default_factory=dict)
 
     @property
     def title(self) -> str:
