@@ -18,6 +18,7 @@ from proving_ground.generate import generate as generate_cases
 from proving_ground.generate import interleaved, pending
 from proving_ground.seal import broken_seals, write_manifest
 from proving_ground.table import SETS, cases_of
+from proving_ground.worlds import world_cases
 
 app = typer.Typer(no_args_is_help=True, add_completion=False, help=__doc__)
 console = Console(stderr=True)
@@ -55,6 +56,11 @@ def generate(
         specs = [spec for spec in specs if spec.group in group]
     specs = interleaved(specs)
     specs = specs[:limit] if limit else specs
+    _make(specs, out, cores, "own" if case else name)
+
+
+def _make(specs: list[CaseSpec], out: Path, cores: int, name: str) -> None:
+    """Make what is not there yet, with a bar, and seal it."""
     todo = len(pending(specs, out))
     bar = Progress(TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(),
                    TimeRemainingColumn(), console=console)
@@ -66,9 +72,27 @@ def generate(
                 console.print(f"{done}: {astray}", style="red", markup=False)
     left = len(pending(specs, out))
     typer.echo(f"{len(specs)} cases, {todo - left} made now, {left} failed; "
-               f"{write_manifest(out, 'own' if case else name)}")
+               f"{write_manifest(out, name)}")
     if left:
         raise typer.Exit(1)
+
+
+@app.command()
+def world(
+    name: Annotated[str, typer.Argument(help="w1, w2, w3 or w4")],
+    out: Out,
+    first: Annotated[int, typer.Option(help="number of the first case")] = 0,
+    count: Annotated[int, typer.Option(help="how many; 24 hold every group")] = 24,
+    group: Annotated[list[str] | None, typer.Option(help="only this group; repeatable")] = None,
+    cores: Annotated[int, typer.Option(help="processes")] = 1,
+) -> None:
+    """Make recordings and answers of cases `first` to `first + count - 1` of a world; resumes."""
+    try:
+        specs = world_cases(name, first, count)
+    except (ImportError, ValueError) as error:
+        raise _stop(str(error)) from error
+    chosen = [spec for spec in specs if not group or spec.group in group]
+    _make(chosen, out, cores, name)
 
 
 @app.command("list")

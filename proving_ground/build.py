@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from proving_ground import forms
 from proving_ground.calibrate import LOWEST, Calibrated, from_guess, search
 from proving_ground.cases import CaseSpec, EffectSpec, FaultSpec
 from proving_ground.channels import columns, ideal
@@ -21,6 +22,7 @@ from proving_ground.individual import draw
 from proving_ground.instruments import Mounting, apply_fault, measure, without_gravity
 from proving_ground.layout import FloatArray
 from proving_ground.manoeuvres import make
+from proving_ground.roughness import FEW, Roughness, roughen
 from proving_ground.run import Rig, Truth, drive, replay
 from proving_ground.seal import LIBRARY
 from proving_ground.switches import NEVER_S, neutral
@@ -51,7 +53,7 @@ class CaseBuilder:
 
     def __init__(self, spec: CaseSpec) -> None:
         self.spec = spec
-        individual = draw(spec.seed)
+        individual = draw(spec.seed) if spec.truth == "w1" else forms.draw(spec.seed)
         self.rig = Rig(individual)
         self._even = Rig(replace(individual, road_seed=0))
         self.mounting = Mounting.draw(spec.seed, columns())
@@ -62,11 +64,15 @@ class CaseBuilder:
                for e in spec.effects):
             tires = ("steer_left",)
         self.runs = [(name, make(kind, seed, tires), seed) for name, kind, seed in spec.runs()]
+        faulty = [channel for f in spec.faults for channel in FAULTS[f.name].make(
+            1.0, f.place, f.sign).channels]
+        self.rough = None if not spec.rough else Roughness.draw(
+            spec.seed, all(channel in FEW for channel in faulty))
         self.level = any(fault.name == "lateral_accel_roll" for fault in spec.faults)
 
     def actives(self, severities: list[float], manoeuvre: Manoeuvre, seed: int) -> list[Active]:
         """What is at work in one run."""
-        return [e.kind.set(s, e.where, e.sign, onset(manoeuvre, e, seed))
+        return [e.at(s, onset(manoeuvre, e, seed))
                 for e, s in zip(self.spec.effects, severities, strict=True)]
 
     def clean(self, truth: Truth) -> Values:
@@ -95,8 +101,7 @@ class CaseBuilder:
         def effect_power(effect: EffectSpec, severity: float) -> tuple[float, str]:
             pairs = []
             for manoeuvre, seed, truth, clean in train:
-                active = effect.kind.set(severity, effect.where, effect.sign,
-                                         onset(manoeuvre, effect, seed))
+                active = effect.at(severity, onset(manoeuvre, effect, seed))
                 other = replay(self._even, truth, combine([active]))
                 pairs.append((self.clean(other), clean))
             return detectability(pairs, self.spec.missing)
@@ -134,10 +139,17 @@ class CaseBuilder:
                 when = _onset_in(truth, active)
                 if when is not None:
                     onsets[k][name] = when
-            readings = self._read(values, seed)
-            write_csv(folder / f"{name}.csv", f"{self.spec.id}/{name}", manoeuvre, readings,
-                      self.level)
+            self._write(folder / f"{name}.csv", f"{self.spec.id}/{name}", manoeuvre,
+                        self._read(values, seed), seed)
         return self._answer(found, faulty, onsets, strengths)
+
+    def _write(self, path: Path, name: str, manoeuvre: Manoeuvre, readings: Values,
+               seed: int) -> None:
+        """One recording, as its instruments and their logger left it."""
+        time = None
+        if self.rough is not None:
+            time, readings = roughen(readings, self.rough, seed)
+        write_csv(path, name, manoeuvre, readings, self.level, time, stated=self.rough is None)
 
     def _read(self, values: Values, seed: int) -> Values:
         """Noisy readings without the missing channels, with gaps where the case has dropouts."""
@@ -153,6 +165,14 @@ class CaseBuilder:
                 if name.startswith(f"{unit}_") and name.endswith(("_x_m", "_y_m", "_mps")):
                     readings[name][start:start + length] = np.nan
         return readings
+
+    def _world(self) -> dict[str, Any]:
+        """What tells a case of a world from one of the tables."""
+        if self.spec.truth == "w1" and not self.spec.rough and self.spec.id[:1] != "w":
+            return {}
+        rough = None if self.rough is None else asdict(self.rough)
+        return {"truth": self.spec.truth, "rough": rough,
+                "laws": [effect.law for effect in self.spec.effects]}
 
     def _answer(self, found: list[Calibrated], faulty: list[Calibrated],
                 onsets: list[dict[str, float]], strengths: list[dict[str, Any]]
@@ -172,7 +192,8 @@ class CaseBuilder:
                 "verdicts": verdicts.get(self.spec.group, ["missing_physics"]),
                 "effects": effects, "runs": {name: m.kind for name, m, _ in self.runs},
                 "blown": {name: list(m.blown) for name, m, _ in self.runs if m.blown},
-                "missing_channels": list(self.spec.missing), "dropouts": self.spec.dropouts}
+                "missing_channels": list(self.spec.missing), "dropouts": self.spec.dropouts,
+                **self._world()}
 
 
 def _kind(name: str, without: tuple[str, ...]) -> str:

@@ -14,7 +14,7 @@ from typing import Any
 import yaml
 
 from proving_ground.effects import FAMILIES, LISTED, UNLISTED
-from proving_ground.effects.base import EffectKind, Place
+from proving_ground.effects.base import Active, EffectKind, Place
 from proving_ground.faults import FAULTS
 from proving_ground.manoeuvres import MANOEUVRES
 
@@ -23,13 +23,17 @@ GROUPS = ("null", "single", "pair", "sensor", "unknown")
 
 @dataclass(frozen=True)
 class EffectSpec:
-    """One effect of a case. `sigma` is the wanted detectability; None takes `severity` as it is."""
+    """One effect of a case. `sigma` is the wanted detectability; None takes `severity` as it is.
+
+    `law` chooses among the laws that the effect follows.
+    """
 
     name: str
     place: int = 0
     sign: float = 1.0
     sigma: float | None = None
     severity: float = 0.3
+    law: int = 0
 
     @property
     def kind(self) -> EffectKind:
@@ -43,6 +47,10 @@ class EffectSpec:
     def where(self) -> Place:
         """Where it sits."""
         return self.kind.places[self.place % len(self.kind.places)]
+
+    def at(self, severity: float, when: float) -> Active:
+        """The effect at work, at a severity, from an instant or place on."""
+        return self.kind.by_law(self.law)(severity, self.where, self.sign, when)
 
 
 @dataclass(frozen=True)
@@ -60,7 +68,8 @@ class FaultSpec:
 class CaseSpec:
     """All that defines a case; everything else follows from `seed`.
 
-    `without` names what the diagnosis must do without: effects taken out of its library.
+    `without` names what the diagnosis must do without: effects taken out of its library. `truth`
+    is the world whose truck is driven, `rough` whether it is recorded as roughly as real logs are.
     """
 
     id: str
@@ -74,6 +83,8 @@ class CaseSpec:
     missing: tuple[str, ...] = ()
     dropouts: bool = False
     without: tuple[str, ...] = ()
+    truth: str = "w1"
+    rough: bool = False
 
     def runs(self) -> list[tuple[str, str, int]]:
         """(name, manoeuvre kind, seed) of every run."""

@@ -10,6 +10,7 @@ import math
 
 from proving_ground.compiled import compiled
 from proving_ground.contact import add_force
+from proving_ground.laws import SMOOTH
 from proving_ground.layout import Commands, State, Truck, Views
 from proving_ground.switches import Switches
 
@@ -26,6 +27,7 @@ def dahl(force: float, step: float, limit: float, travel: float) -> float:
 @compiled
 def springs(v: Views, truck: Truck, state: State, sw: Switches) -> None:
     """Leaf springs in front, air springs on the drive axles, equalized leaves on the trailer."""
+    laws = truck.laws
     for axle in range(5):
         heave, roll = truck.heave[axle], truck.roll[axle]
         half = 0.5 * truck.spacing[axle]
@@ -34,14 +36,29 @@ def springs(v: Views, truck: Truck, state: State, sw: Switches) -> None:
             up = v.qpos[heave + 1] + arm * v.qpos[roll + 1]
             rate = v.qvel[heave] + arm * v.qvel[roll]
             force = spring_force(v, truck, sw, axle, up, arm)
-            force += (0.75 if rate > 0.0 else 1.25) * truck.damper[axle] * rate
+            force += damper_force(truck, axle, rate)
             step = up - state.leaf_at[axle, side]
             state.leaf_at[axle, side] = up
-            state.leaf[axle, side] = dahl(
-                state.leaf[axle, side], step, truck.coulomb[axle], 0.0028)
+            if laws.friction_law == SMOOTH:
+                state.leaf[axle, side] = truck.coulomb[axle] * math.tanh(
+                    rate / laws.friction_speed_mps)
+            else:
+                state.leaf[axle, side] = dahl(state.leaf[axle, side], step, truck.coulomb[axle],
+                                              laws.friction_travel_m)
             force += state.leaf[axle, side]
             v.qfrc[heave] -= force
             v.qfrc[roll] -= arm * force
+
+
+@compiled
+def damper_force(truck: Truck, axle: int, rate: float) -> float:
+    """Damper force of one side, N: stiffer one way than the other, degressive or linear."""
+    laws = truck.laws
+    side = laws.rebound if rate > 0.0 else laws.bump
+    if laws.damper_exponent == 1.0:
+        return side * truck.damper[axle] * rate
+    size = 0.1 * (abs(rate) / 0.1 + 1.0e-3) ** (laws.damper_exponent - 1.0) * (rate / 0.1)
+    return side * truck.damper[axle] * size
 
 
 @compiled
@@ -51,17 +68,17 @@ def spring_force(v: Views, truck: Truck, sw: Switches, axle: int, up: float,
     load, stiffness = truck.preload_n[axle], truck.spring[axle]
     force: float = 0.0
     if axle == 0:
-        force = load + stiffness * up * (1.0 + 8.0 * up * up)
+        force = load + stiffness * up * (1.0 + truck.laws.leaf_hardening * up * up)
     elif axle < 3:
         if arm > 0.0:
             load -= sw.leak_n
-        length = 1.3 * truck.preload_n[axle] / stiffness
-        force = load * (length / (length - min(up, 0.75 * length))) ** 1.3
+        length = truck.laws.air_exponent * truck.preload_n[axle] / stiffness
+        force = load * (length / (length - min(up, 0.75 * length))) ** truck.laws.air_exponent
     else:
         other = 7 - axle
         partner = v.qpos[truck.heave[other] + 1] + arm * v.qpos[truck.roll[other] + 1]
         mean = 0.5 * (up + partner)
-        force = load + stiffness * (mean + 0.08 * (up - mean))
+        force = load + stiffness * (mean + truck.laws.unequal * (up - mean))
     stop = abs(up) - 0.075
     if stop > 0.0:
         force += math.copysign(1.5e6 * stop, up)
@@ -69,17 +86,35 @@ def spring_force(v: Views, truck: Truck, sw: Switches, axle: int, up: float,
 
 
 @compiled
-def steering(v: Views, truck: Truck, state: State, sw: Switches, commands: Commands) -> None:
+def road_wheel_wanted(truck: Truck, state: State, sw: Switches, hand: float, dt: float) -> float:
+    """Road-wheel angle that the gear asks for, rad: another ratio, and a gear that follows late."""
+    wanted = hand / truck.ratio
+    wanted *= 1.0 + sw.ratio_error + sw.ratio_bend * (1.0 - math.exp(-(hand / 0.7) ** 2))
+    if sw.steer_lag_s <= 0.0:
+        return wanted
+    if sw.steer_lag_stages == 1:
+        state.extra[7] += (1.0 - math.exp(-dt / sw.steer_lag_s)) * (wanted - state.extra[7])
+        return state.extra[7]
+    share = 1.0 - math.exp(-2.0 * dt / sw.steer_lag_s)
+    state.extra[6] += share * (wanted - state.extra[6])
+    state.extra[7] += share * (state.extra[6] - state.extra[7])
+    return state.extra[7]
+
+
+@compiled
+def steering(v: Views, truck: Truck, state: State, sw: Switches, commands: Commands,
+             dt: float) -> None:
     """Hand wheel through play and linkage to the left wheel, tie rod to the right one."""
     left = v.qpos[truck.kingpin_qpos[0]] + truck.toe_rad
     right = v.qpos[truck.kingpin_qpos[1]] - truck.toe_rad
-    column = commands.steering / truck.ratio + truck.zero_rad
+    column = road_wheel_wanted(truck, state, sw, commands.steering, dt) + truck.zero_rad
     wind = column - left
     play = truck.lash_half_rad + sw.lash_half_rad
     torque = state.dry[2]
     if abs(wind) > play:
         wound = wind - math.copysign(play, wind)
         soft = 1.0 - sw.linkage_soft * math.exp(-abs(wound) * sw.linkage_harden)
+        soft *= 1.0 + truck.laws.linkage_hardening * abs(wound)
         torque += truck.linkage * soft * wound
     step = wind - state.dry_at[2]
     state.dry_at[2] = wind
@@ -101,7 +136,7 @@ def coupling(v: Views, truck: Truck, state: State, sw: Switches) -> None:
     angle, rate = v.qpos[truck.hitch_qpos], v.qvel[truck.hitch]
     step = angle - state.dry_at[3]
     state.dry_at[3] = angle
-    sticking = 1.0 + 0.35 * math.exp(-abs(rate) / 0.01)
+    sticking = 1.0 + sw.hitch_sticking * math.exp(-abs(rate) / 0.01)
     limit = truck.hitch_friction + sw.hitch_friction * sticking
     state.dry[3] = dahl(state.dry[3], step, limit, 0.003)
     v.qfrc[truck.hitch] -= state.dry[3]
@@ -114,7 +149,8 @@ def driveline(v: Views, truck: Truck, state: State, sw: Switches, commands: Comm
     force = commands.throttle * truck.power_w / max(speed, 3.0)
     force -= truck.engine_drag_n * (1.0 - commands.throttle)
     goal = sw.retarder_n * max(0.0, 1.0 - commands.throttle / 0.05)
-    goal *= math.tanh((speed / 16.0) ** 2)
+    if sw.retarder_at_mps > 0.0:
+        goal *= math.tanh((speed / sw.retarder_at_mps) ** 2)
     state.extra[4] += dt / 0.35 * (goal - state.extra[4])
     force -= state.extra[4]
     if sw.shuffle_n != 0.0:
@@ -131,6 +167,8 @@ def air(v: Views, truck: Truck, sw: Switches, speed: float) -> None:
     for unit in range(2):
         body = truck.units[2 * unit]
         area = truck.drag_area[unit]
+        if truck.laws.drag_exponent != 2.0:
+            area *= (max(speed, 1.0) / 25.0) ** (truck.laws.drag_exponent - 2.0)
         area += sw.drag_area[unit] * (0.85 + 0.15 * (speed / 22.0))
         force = 0.5 * truck.air_density * area * speed * speed
         cx, sx = v.xmat[body, 0], v.xmat[body, 3]

@@ -10,7 +10,6 @@ from proving_ground.layout import DELAY_STEPS, Commands, State, Truck, Views
 from proving_ground.sheet import PSI_PA
 from proving_ground.switches import Switches
 
-POLYTROPIC = 1.25
 GAS_SPEED_MPS = 293.5        # sqrt(R T) of air at 300 K
 TIRE_VOLUME_M3 = 0.106
 
@@ -50,14 +49,15 @@ def brakes(v: Views, truck: Truck, state: State, sw: Switches, dt: float) -> Non
         psi = (state.chamber[hub] - truck.push_out_pa - sw.brake_hold[hub]) / PSI_PA
         torque = 0.0
         if psi > 0.0:
-            torque = psi * (158.0 - 0.12 * psi) * truck.brake[hub] * sw.brake_gain[hub]
-            torque *= 1.0 - sw.fade[group] * (1.0 - math.exp(-state.heat[hub] / 90.0))
+            torque = psi * (truck.laws.brake_linear - truck.laws.brake_drop * psi)
+            torque = torque * truck.brake[hub] * sw.brake_gain[hub]
+            torque *= 1.0 - sw.fade[group] * (1.0 - math.exp(-state.heat[hub] / sw.fade_k))
             v.qfrc[truck.wheel_dof[hub]] -= torque * math.tanh(spin / 0.5)
         state.heat[hub] += dt * (torque * abs(spin) / 16.0e3 - state.heat[hub] / 60.0)
 
 
 @compiled
-def gas(state: State, sw: Switches, dt: float) -> None:
+def gas(truck: Truck, state: State, sw: Switches, dt: float) -> None:
     """Polytropic outflow through each hole, choked above twice the ambient pressure."""
     now = state.time[0]
     if sw.second_tire >= 0 and now >= sw.second_time_s and state.hole[sw.second_tire] == 0.0:
@@ -69,8 +69,9 @@ def gas(state: State, sw: Switches, dt: float) -> None:
             continue
         if tire != sw.second_tire:
             area *= sw.hole_scale
-            if sw.hole_growth_s > 0.0:
-                area *= 0.3 + 0.7 * min(1.0, (now - state.blown_at[tire]) / sw.hole_growth_s)
+            growth_s = sw.hole_growth_s + truck.laws.hole_growth_s
+            if growth_s > 0.0:
+                area *= 0.3 + 0.7 * min(1.0, (now - state.blown_at[tire]) / growth_s)
         ratio = AMBIENT_PA / state.pressure[tire]
         if ratio >= 0.999:
             state.pressure[tire] = AMBIENT_PA
@@ -78,5 +79,5 @@ def gas(state: State, sw: Switches, dt: float) -> None:
         flow = 0.6847
         if ratio > 0.5283:
             flow = math.sqrt(7.0 * (ratio ** (2.0 / 1.4) - ratio ** (2.4 / 1.4)))
-        state.pressure[tire] -= dt * POLYTROPIC * state.pressure[tire] * (
+        state.pressure[tire] -= dt * truck.laws.polytropic * state.pressure[tire] * (
             area * GAS_SPEED_MPS / TIRE_VOLUME_M3 * flow)

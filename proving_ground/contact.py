@@ -5,14 +5,12 @@ from __future__ import annotations
 import math
 
 from proving_ground.compiled import compiled
+from proving_ground.laws import Laws
 from proving_ground.layout import ROAD_STEP_M, FloatArray, State, Truck, Views
-from proving_ground.multibody import STIFFNESS_N_PER_M, STIFFNESS_N_PER_M2
 from proving_ground.switches import Switches
-from proving_ground.tire import cornering_slope, steady_forces
+from proving_ground.tire import cornering_slope, relaxation_length, steady_forces
 
 AMBIENT_PA = 101325.0
-RIM_RADIUS_M = 0.375
-RIM_N_PER_M2 = 1.39e7
 ROOT_BODY = 1
 
 
@@ -53,16 +51,17 @@ def road_height(road: FloatArray, x: float, left: bool) -> float:
 
 
 @compiled
-def vertical_force(deflection: float, rate: float, fill: float, radius: float) -> float:
+def vertical_force(deflection: float, rate: float, fill: float, radius: float,
+                   laws: Laws) -> float:
     """Radial tire force, N: quadratic rubber and air, then rim on folded carcass."""
     if deflection <= 0.0:
         return 0.0
-    soft = 0.087 + 0.913 * fill
-    force = soft * deflection * (STIFFNESS_N_PER_M + STIFFNESS_N_PER_M2 * deflection)
+    soft = laws.carcass + (1.0 - laws.carcass) * fill
+    force = soft * deflection * (laws.radial + laws.radial_rise * deflection)
     damping = 2500.0
-    rim = deflection - (radius - RIM_RADIUS_M)
+    rim = deflection - (radius - laws.rim_radius_m)
     if rim > 0.0:
-        force += RIM_N_PER_M2 * rim * rim
+        force += laws.rim * rim * rim
         damping += 4.0e5 * min(rim, 0.03)
     return max(0.0, force + damping * rate)
 
@@ -81,8 +80,8 @@ def extra_steer(axle: int, v: Views, truck: Truck, sw: Switches) -> float:
 
 @compiled
 def friction_at(x: float, sw: Switches) -> float:
-    """Friction relative to the dry road: falls over 6 m from where the effect begins."""
-    s = (x - sw.friction_x_m) / 6.0
+    """Friction relative to the dry road: falls over a length from where the effect begins."""
+    s = (x - sw.friction_x_m) / sw.friction_length_m
     if s <= 0.0:
         return 1.0
     return 1.0 - sw.friction_drop * (1.0 - math.exp(-s * s))
@@ -121,7 +120,7 @@ def one_tire(v: Views, truck: Truck, state: State, sw: Switches, dt: float, hub:
     east, north, up = point_velocity(v, carrier, px, py, ground)
     vx, vy = east * ly - north * lx, east * lx + north * ly
     fill = max(0.0, (state.pressure[tire] - AMBIENT_PA) / truck.pressure_pa)
-    load = vertical_force(deflection, -up, fill, truck.radius_m)
+    load = vertical_force(deflection, -up, fill, truck.radius_m, truck.laws)
     state.tire_fz[tire] = load
     if load <= 1.0:
         state.tire_fx[tire] = 0.0
@@ -138,42 +137,55 @@ def tangential(v: Views, truck: Truck, state: State, sw: Switches, dt: float, hu
                load: float, deflection: float, fill: float, vx: float, vy: float, tilt: float,
                x: float) -> float:
     """Advance the tangential forces of a tire, brake its wheel by rolling loss; the trail, m."""
-    spin = v.qvel[truck.wheel_dof[hub]]
+    spin, laws = v.qvel[truck.wheel_dof[hub]], truck.laws
     soft = max(0.0, 1.0 - fill)
     rolling = truck.radius_m - deflection * (0.333 - 0.17 * min(1.0, soft))
-    rim = min(1.0, max(0.0, (deflection - (truck.radius_m - RIM_RADIUS_M)) / 0.028))
-    kept = 1.0 - rim * rim * (3.0 - 2.0 * rim) * (1.0 - sw.flat_cornering)
-    slope = cornering_slope(load, fill) * truck.cornering[hub // 2] * kept
+    rim = min(1.0, max(0.0, (deflection - (truck.radius_m - laws.rim_radius_m)) / 0.028))
+    flat = min(1.0, laws.flat_keeps + sw.flat_cornering)
+    kept = 1.0 - rim * rim * (3.0 - 2.0 * rim) * (1.0 - flat)
+    slope = cornering_slope(load, fill, laws) * truck.cornering[hub // 2] * kept
     roll_speed = abs(spin) * rolling + 0.3
     sx, sy = (rolling * spin - vx) / roll_speed, -vy / roll_speed
-    grip = friction_at(x, sw) * (1.0 - 0.35 * rim)
+    grip = friction_at(x, sw) * (1.0 - laws.flat_grip_lost * rim)
     peak = (1.0 - sw.saturation[hub // 2] * (0.6 + 0.4 * load / 27.0e3)) * (0.4 + 0.6 * kept)
-    fx, fy, trail = steady_forces(load, sx, sy, slope, grip, peak)
-    fy += 0.12 * load * (truck.camber_rad[hub] - tilt) * (1.0 - 0.7 * rim)
+    fx, fy, trail = steady_forces(load, sx, sy, slope, grip, peak, laws)
+    fy += laws.camber * load * (truck.camber_rad[hub] - tilt) * (1.0 - 0.7 * rim)
     travel = roll_speed * dt
-    stretch = slope / 380.0e3 * (1.0 + sw.relaxation * (0.5 + 0.5 * load / 18.0e3))
+    stretch = relaxation_length(load, slope, sy, laws)
+    if sw.relaxation_even:
+        stretch *= 1.0 + sw.relaxation
+    else:
+        stretch *= 1.0 + sw.relaxation * (0.5 + 0.5 * load / 18.0e3)
     length_x = load * 14.0 / 900.0e3
     state.tire_fx[tire] += (1.0 - math.exp(-travel / max(length_x, 0.05))) * (
         fx - state.tire_fx[tire])
     state.tire_fy[tire] += (1.0 - math.exp(-travel / max(stretch, 0.10))) * (
         fy - state.tire_fy[tire])
-    loss = rolling_loss(vx, soft, rim)
+    loss = rolling_loss(vx, soft, rim, laws)
     if state.time[0] >= state.blown_at[tire]:
         state.flat_distance[tire] += abs(vx) * dt
         rub = 1.0 - math.exp(-state.flat_distance[tire] / 4.0)
-        loss += sw.flat_drag * rim * rub * (0.75 + 0.25 * math.tanh(vx / 12.0)) * (
-            load / 25.0e3) ** 0.2
+        if sw.flat_drag_even:
+            loss += sw.flat_drag * rim
+        else:
+            loss += sw.flat_drag * rim * rub * (0.75 + 0.25 * math.tanh(vx / 12.0)) * (
+                load / 25.0e3) ** 0.2
     v.qfrc[truck.wheel_dof[hub]] -= loss * load * rolling * math.tanh(spin / 0.5)
     # A belt passes on power without loss: its lever is the rolling radius, not the hub's height.
     twist = state.tire_fx[tire] * (rolling - (truck.radius_m - deflection))
     for i in range(3):
         v.xfrc[truck.wheel[hub], 3 + i] -= twist * v.xmat[truck.carrier[hub], 3 * i + 1]
     swell = 1.0 + 0.55 * soft * (1.0 - rim) - 0.5 * rim
-    return truck.radius_m * load / 27.0e3 * (0.102 - 0.026 * load / 27.0e3) * swell * trail
+    share = load / 27.0e3
+    full = truck.radius_m * load / 27.0e3 * (laws.trail - laws.trail_drop * share)
+    return full * swell * trail
 
 
 @compiled
-def rolling_loss(speed: float, soft: float, rim: float) -> float:
-    """Rolling resistance over load: quadratic in speed, grows as air is lost, 0.15 on the rim."""
-    good = 0.0047 + 2.8e-6 * speed * speed
-    return good * (1.0 + 1.2 * soft) * (1.0 - rim) + 0.15 * rim
+def rolling_loss(speed: float, soft: float, rim: float, laws: Laws) -> float:
+    """Rolling resistance over load: grows with speed squared and lost air; its own on the rim."""
+    good = laws.rolling + laws.rolling_rise * speed * speed
+    flat = laws.flat_drag
+    if laws.flat_drag_exponent != 0.0:
+        flat *= (max(abs(speed), 1.0) / 20.0) ** laws.flat_drag_exponent
+    return good * (1.0 + laws.rolling_soft * soft) * (1.0 - rim) + flat * rim

@@ -35,7 +35,10 @@ def gust(v: Views, truck: Truck, state: State, sw: Switches, speed: float) -> No
     s = (state.time[0] - sw.gust_s) / sw.gust_length_s
     if s <= 0.0 or s >= 1.0:
         return
-    wind = sw.gust_mps * 0.5 * (1.0 - math.cos(2.0 * math.pi * s))
+    if sw.gust_steady:
+        wind = sw.gust_mps * min(1.0, s / 0.1, (1.0 - s) / 0.1)
+    else:
+        wind = sw.gust_mps * 0.5 * (1.0 - math.cos(2.0 * math.pi * s))
     angle = math.atan2(wind, speed)
     area = 9.0 if sw.gust_body == 0 else 22.0
     force = 0.5 * truck.air_density * area * (speed * speed + wind * wind) * 1.1 * math.sin(angle)

@@ -63,4 +63,21 @@ KINDS = (
     FaultKind("lever_arm", (_instrument("tractor"), _instrument("trailer")), 1.5, "1",
               "multiple of (0.8, +-0.35, 0.3) m", "steer"),
 )
-FAULTS: dict[str, FaultKind] = {kind.name: kind for kind in KINDS}
+IN_TABLES = tuple(kind.name for kind in KINDS)
+# Faults without an amount: they are there or not.
+WHOLE = (
+    FaultKind("channel_sign", _one("tractor_yaw_rate_radps", "tractor_ay_mps2",
+              "tractor_roll_rad", "steering_wheel_angle_rad", "trailer_yaw_rate_radps"),
+              1.0, "1", "inverted", "steer", signed=False),
+    FaultKind("channel_swap", (("tractor_ax_mps2", "tractor_ay_mps2"),
+              ("tractor_roll_rate_radps", "tractor_pitch_rate_radps"),
+              ("tractor_roll_rad", "tractor_pitch_rad"),
+              ("hub_speed_steer_left_radps", "hub_speed_steer_right_radps"),
+              ("trailer_ax_mps2", "trailer_ay_mps2")),
+              1.0, "1", "exchanged", "steer", signed=False),
+    FaultKind("gravity_convention", tuple(
+              tuple(f"{unit}_{axis}_mps2" for axis in ("ax", "ay", "az"))
+              for unit in ("tractor", "trailer")),
+              1.0, "1", "gravity not as stated", "steer", signed=False),
+)
+FAULTS: dict[str, FaultKind] = {kind.name: kind for kind in (*KINDS, *WHOLE)}

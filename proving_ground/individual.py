@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from proving_ground.laws import Laws, usual
 from proving_ground.sheet import HUBS, TIRES, load_sheet
 
 FloatArray = NDArray[np.float64]
@@ -29,6 +30,7 @@ class Individual:
     steering_zero_rad: float = 0.0
     drag_scale: float = 1.0
     road_seed: int = 0
+    laws: Laws = field(default_factory=usual)
 
 
 def nominal() -> Individual:

@@ -73,10 +73,18 @@ def apply_fault(values: dict[str, FloatArray], fault: Fault) -> dict[str, FloatA
         roll = values["tractor_roll_rad"]
         lateral = values["tractor_ay_mps2"] + fault.size * 9.81 * np.sin(roll)
         return {**out, "tractor_ay_mps2": lateral}
+    if fault.name == "channel_swap":
+        one, other = fault.channels
+        return {**out, one: values[other], other: values[one]}
+    if fault.name == "gravity_convention":
+        level = without_gravity(values)
+        return {**out, **{channel: level[channel] for channel in fault.channels}}
     time = np.arange(len(next(iter(values.values())))) / RATE_HZ
     for channel in fault.channels:
         signal = values[channel]
-        if fault.name == "channel_delay":
+        if fault.name == "channel_sign":
+            out[channel] = -signal
+        elif fault.name == "channel_delay":
             out[channel] = np.interp(time - fault.size, time, signal)
         elif fault.name in ("yaw_rate_bias", "steering_angle_offset"):
             out[channel] = signal + fault.size

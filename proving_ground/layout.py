@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from proving_ground.individual import Individual
+from proving_ground.laws import Laws
 from proving_ground.multibody import Multibody
 from proving_ground.sheet import PSI_PA, static_loads
 
@@ -85,6 +86,7 @@ class Truck(NamedTuple):
     push_out_pa: float
     lashing: FloatArray            # stiffness, damping of the payload
     road: FloatArray               # left and right track unevenness over distance
+    laws: Laws
 
 
 class State(NamedTuple):
@@ -190,7 +192,7 @@ def truck(individual: Individual, body: Multibody) -> Truck:
         brake_delay_s=brake["delay_s"], brake_lag_s=brake["lag_s"],
         push_out_pa=brake["push_out_psi"] * PSI_PA,
         lashing=np.array([lashing["stiffness_n_per_m"], lashing["damping_ns_per_m"]]),
-        road=road_profile(individual.road_seed),
+        road=road_profile(individual.road_seed), laws=individual.laws,
     )
 
 

@@ -18,10 +18,9 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
+from proving_ground.laws import Laws
 from proving_ground.sheet import HUBS, static_loads
 
-STIFFNESS_N_PER_M = 900.0e3     # one tire, linear part at 110 psi
-STIFFNESS_N_PER_M2 = 1.2e6      # quadratic part
 KNUCKLE_KG = 20.0
 
 
@@ -43,23 +42,24 @@ class Multibody:
     wheel_height_m: NDArray[np.float64]    # per axle, at rest
 
 
-def tire_deflection_m(load_n: float) -> float:
+def tire_deflection_m(load_n: float, laws: Laws) -> float:
     """Static deflection of one inflated tire: the positive root of k1 d + k2 d^2 = load."""
-    k1, k2 = STIFFNESS_N_PER_M, STIFFNESS_N_PER_M2
+    k1, k2 = laws.radial, laws.radial_rise
     return (-k1 + math.sqrt(k1 * k1 + 4.0 * k2 * load_n)) / (2.0 * k2)
 
 
-def wheel_heights(sheet: dict[str, Any]) -> list[float]:
+def wheel_heights(sheet: dict[str, Any], laws: Laws) -> list[float]:
     """Height of each axle's wheel centers over the road under static load, m."""
     loads = static_loads(sheet).axle_n()
     counts = [4 if axle["duals"] else 2 for axle in sheet["axles"]]
     radius = sheet["tire"]["free_radius_m"]
-    return [radius - tire_deflection_m(load / n) for load, n in zip(loads, counts, strict=True)]
+    return [radius - tire_deflection_m(load / n, laws)
+            for load, n in zip(loads, counts, strict=True)]
 
 
-def build(sheet: dict[str, Any], step_s: float) -> Multibody:
-    """Compile the MuJoCo model of a sheet."""
-    heights = wheel_heights(sheet)
+def build(sheet: dict[str, Any], step_s: float, laws: Laws) -> Multibody:
+    """Compile the MuJoCo model of a sheet whose tires follow `laws`."""
+    heights = wheel_heights(sheet, laws)
     model = mujoco.MjModel.from_xml_string(_document(sheet, heights, step_s))
 
     def body(name: str) -> int:

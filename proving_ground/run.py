@@ -23,7 +23,6 @@ STEP_S = 0.0008333333333333334
 STEPS_A_SAMPLE = 12
 SETTLE_S = 2.0
 LOWEST_SPEED_MPS = 3.0
-HOLE_M2 = 0.0026
 
 
 @dataclass(frozen=True)
@@ -66,7 +65,7 @@ class Rig:
 
     def __init__(self, individual: Individual) -> None:
         self.individual = individual
-        self.body: Multibody = build(individual.sheet, STEP_S)
+        self.body: Multibody = build(individual.sheet, STEP_S, individual.laws)
         self._constants = truck(individual, self.body)
         self._loop: Callable[..., None] = compiled_loop()
 
@@ -87,7 +86,7 @@ class Rig:
             time_s = (k - settle) * SAMPLE_S
             if not blown and time_s >= manoeuvre.blowout_s - 1.0e-9:
                 blown = True
-                _blow(state, manoeuvre.blown)
+                _blow(state, manoeuvre.blown, self.individual.laws.hole_m2)
             if k > 0:
                 now = _command(operator, time_s, sample)
             commands[k] = now
@@ -115,10 +114,10 @@ class Rig:
             data.qvel[self.body.wheel_dofs[hub]] = speed / rolling
 
 
-def _blow(state: State, tires: tuple[str, ...]) -> None:
+def _blow(state: State, tires: tuple[str, ...], hole_m2: float) -> None:
     for name in tires:
         index = TIRES.index(name)
-        state.hole[index] = HOLE_M2
+        state.hole[index] = hole_m2
         state.blown_at[index] = state.time[0]
 
 

@@ -11,8 +11,9 @@ import numpy as np
 
 from proving_ground.cases import CaseSpec, EffectSpec, FaultSpec, check
 from proving_ground.ci import ci_cases
-from proving_ground.effects import FAMILIES, LISTED, UNLISTED
+from proving_ground.effects import FAMILIES, IN_TABLES, LISTED, UNLISTED
 from proving_ground.faults import FAULTS
+from proving_ground.faults import IN_TABLES as FAULTS_IN_TABLES
 
 Pools = dict[str, tuple[tuple[str, ...], tuple[str, ...]]]
 
@@ -90,7 +91,7 @@ class Table:
     def cases(self) -> list[CaseSpec]:
         """All cases of the set."""
         counts = COUNTS[self.name]
-        listed, unlisted, faults = list(LISTED), list(UNLISTED), list(FAULTS)
+        listed, unlisted, faults = list(IN_TABLES), list(UNLISTED), list(FAULTS_IN_TABLES)
         rows = [self._null(i) for i in range(counts.null)]
         for i in range(counts.single):
             rows.append(self._physics("single", [listed[i % len(listed)]],
@@ -155,6 +156,7 @@ class Table:
     def _taken_out(self, number: int) -> CaseSpec:
         """An effect whose whole family the diagnosis must do without."""
         family = list(FAMILIES.values())[number % len(FAMILIES)]
+        family = tuple(name for name in family if name in IN_TABLES or name in FAULTS)
         listed = [name for name in family if name in LISTED]
         sigma = max(self._turn(number, len(FAMILIES)), 10.0)
         case = self._physics("unknown", [listed[(number // len(FAMILIES)) % len(listed)]], sigma)
@@ -165,7 +167,7 @@ class Table:
         sigma = self._sigmas[2 + number % 2]
         one = self._effect(first, sigma)
         if number % 4 == 3:
-            fault = list(FAULTS)[number % len(FAULTS)]
+            fault = FAULTS_IN_TABLES[number % len(FAULTS_IN_TABLES)]
             return self._build("pair", one.kind.needs, (one,),
                                (FaultSpec(fault, number, 1.0, sigma),))
         two = self._effect(second, sigma)

@@ -1,6 +1,8 @@
-"""TMeasy tire forces: piecewise rational curves over a generalized slip, first-order dynamics.
+"""Tire forces: three families over a generalized slip, first-order dynamics.
 
-References: Rill, Road Vehicle Dynamics (2012), ch. 3; cornering stiffness after the spec sheet.
+References: Rill, Road Vehicle Dynamics (2012), ch. 3 (TMeasy); Pacejka, Tire and Vehicle Dynamics
+(2012), ch. 3 (brush) and 4.3 (Magic Formula, similarity); cornering stiffness after the
+spec sheet.
 Known differences from a real tire: no temperature, no tread wear, no turn slip.
 """
 
@@ -9,8 +11,9 @@ from __future__ import annotations
 import math
 
 from proving_ground.compiled import compiled
+from proving_ground.laws import BRUSH, LENGTH, LOADED, MAGIC, POWER, SINE, Laws
 
-REFERENCE_N = 27.0e3
+STATED_LOAD_N = 26.5e3       # load at which POWER and SINE have their reference slope
 
 
 @compiled
@@ -27,26 +30,34 @@ def steady_curve(slip: float, slope: float, slip_peak: float, peak: float,
 
 
 @compiled
-def cornering_slope(load: float, fill: float) -> float:
-    """Cornering stiffness, N/rad: quadratic in load; softer gas gives a stiffer short contact."""
-    quadratic = load * (7.40 - 3.604e-5 * load)
+def cornering_slope(load: float, fill: float, laws: Laws) -> float:
+    """Cornering stiffness, N/rad; softer gas gives a stiffer short contact."""
+    if laws.slope_law == POWER:
+        base = laws.slope_reference * (load / STATED_LOAD_N) ** laws.slope_shape
+    elif laws.slope_law == SINE:
+        base = laws.slope_reference * (
+            math.sin(2.0 * math.atan(load / laws.slope_shape))
+            / math.sin(2.0 * math.atan(STATED_LOAD_N / laws.slope_shape)))
+    else:
+        base = load * (laws.slope - laws.slope_drop * load)
     soft = 1.0 - fill
-    return quadratic * (1.0 + 0.62 * soft * (1.0 - 0.012e-3 * load) - 0.15 * soft * soft)
+    return base * (1.0 + laws.soft_gain * soft * (1.0 - 0.012e-3 * load)
+                   - laws.soft_loss * soft * soft)
 
 
 @compiled
 def steady_forces(load: float, sx: float, sy: float, slope_y: float, friction: float,
-                  peak_y_scale: float) -> tuple[float, float, float]:
-    """Steady (fx, fy) in newtons and the trail fraction left, from longitudinal and lateral slip.
-
-    The two curves are joined by the angle of the normalized slip vector.
-    """
-    over = load / REFERENCE_N - 1.0
-    slope_x = load * (14.0 - 3.0 * over)
-    peak_x = friction * load * (0.80 - 0.10 * over)
-    peak_y = friction * load * (0.80 - 0.06 * over) * peak_y_scale
-    at_x = max(0.13, 2.05 * peak_x / slope_x)
-    at_y = max(0.27, 2.05 * peak_y / max(slope_y, 1.0))
+                  peak_y_scale: float, laws: Laws) -> tuple[float, float, float]:
+    """Steady (fx, fy) in newtons and the trail fraction left, from slip along and across."""
+    over = load / laws.reference_n - 1.0
+    slope_x = load * (laws.slope_x - laws.slope_x_drop * over)
+    peak_x = friction * load * (laws.peak_x - laws.peak_x_drop * over)
+    peak_y = friction * load * (laws.peak_y - laws.peak_y_drop * over) * peak_y_scale
+    if laws.family == MAGIC or laws.family == BRUSH:
+        fx, fy = similar(sx, sy, slope_x, slope_y, peak_x, peak_y, laws)
+        return fx, fy, trail_fraction(abs(sy) * (0.20 / laws.trail_zero))
+    at_x = max(laws.slip_x, 2.05 * peak_x / slope_x)
+    at_y = max(laws.slip_y, 2.05 * peak_y / max(slope_y, 1.0))
     norm_x = at_x / (at_x + at_y) + (peak_x / slope_x) / (peak_x / slope_x + peak_y / slope_y)
     norm_y = at_y / (at_x + at_y) + (peak_y / slope_y) / (peak_x / slope_x + peak_y / slope_y)
     nx, ny = sx / norm_x, sy / norm_y
@@ -58,9 +69,42 @@ def steady_forces(load: float, sx: float, sy: float, slope_y: float, friction: f
     at = math.sqrt((at_x / norm_x * c) ** 2 + (at_y / norm_y * s) ** 2)
     peak = math.sqrt((peak_x * c) ** 2 + (peak_y * s) ** 2)
     slide_at = math.sqrt((0.75 / norm_x * c) ** 2 + (0.85 / norm_y * s) ** 2)
-    slide = math.sqrt((0.74 * peak_x * c) ** 2 + (0.76 * peak_y * s) ** 2)
+    slide = math.sqrt((laws.slide_x * peak_x * c) ** 2 + (laws.slide_y * peak_y * s) ** 2)
     force = steady_curve(slip, slope, at, peak, max(slide_at, 1.2 * at), slide)
-    return force * c, force * s, trail_fraction(abs(sy))
+    return force * c, force * s, trail_fraction(abs(sy) * (0.20 / laws.trail_zero))
+
+
+@compiled
+def similar(sx: float, sy: float, slope_x: float, slope_y: float, peak_x: float, peak_y: float,
+            laws: Laws) -> tuple[float, float]:
+    """Magic Formula or brush over the slip that similarity makes of both directions, N."""
+    kx = slope_x * sx / max(peak_x, 1.0)
+    ky = slope_y * sy / max(peak_y, 1.0)
+    k = math.sqrt(kx * kx + ky * ky)
+    if k < 1.0e-9:
+        return 0.0, 0.0
+    if laws.family == MAGIC:
+        b = k / laws.shape
+        share = math.sin(laws.shape * math.atan(b - laws.curvature * (b - math.atan(b))))
+    elif k < 3.0:
+        share = k - k * k / 3.0 + k * k * k / 27.0
+    else:
+        share = laws.slide_y + (1.0 - laws.slide_y) * math.exp(-(k - 3.0) / 4.0)
+    return share * peak_x * kx / k, share * peak_y * ky / k
+
+
+@compiled
+def relaxation_length(load: float, slope: float, slip: float, laws: Laws) -> float:
+    """Rolled length over which the lateral force follows its slip, m."""
+    if laws.relaxation_law == LENGTH:
+        length = laws.relaxation
+    elif laws.relaxation_law == LOADED:
+        length = laws.relaxation * (load / STATED_LOAD_N) ** laws.relaxation_exponent
+    else:
+        length = slope / laws.relaxation
+    if laws.relaxation_shrinks > 0.0:
+        length *= 1.0 - laws.relaxation_shrinks * min(1.0, abs(slip) / 0.2)
+    return length
 
 
 @compiled

@@ -41,18 +41,23 @@ def decimals(channel: str) -> int:
 
 
 def write_csv(path: Path, name: str, manoeuvre: Manoeuvre, readings: dict[str, FloatArray],
-              gravity_removed: bool) -> None:
-    """Write one recording; a channel that is absent has no column, a gap is an empty cell."""
+              gravity_removed: bool, time_s: FloatArray | None = None, stated: bool = True
+              ) -> None:
+    """Write one recording; a channel that is absent has no column, a gap is an empty cell.
+
+    `time_s`: time stamps, every 10 ms if None. `stated`: whether the head tells filters and noise.
+    """
     count = len(next(iter(readings.values())))
     accelerometers = "accelerometers: gravity removed" if gravity_removed else STRAPDOWN
+    rest = [line for line in HEADER[3:] if stated or not line.startswith(("noise", "filters"))]
     head = [f"recording: {name}", f"test: {manoeuvre.words}",
-            f"target_speed_mps: {manoeuvre.speed_mps:.3f}", *HEADER[:3], accelerometers,
-            *HEADER[3:]]
+            f"target_speed_mps: {manoeuvre.speed_mps:.3f}", *HEADER[:3], accelerometers, *rest]
+    stamps = 0.01 * np.arange(count) if time_s is None else time_s
     event = [""] * count
-    at = round(manoeuvre.blowout_s * 100.0)
+    at = int(np.searchsorted(stamps, manoeuvre.blowout_s - 0.005))
     if at < count:
         event[at] = "+".join(manoeuvre.blown)
-    names, texts = ["time_s"], [[f"{0.01 * k:.2f}" for k in range(count)]]
+    names, texts = ["time_s"], [[f"{stamp:.2f}" for stamp in stamps.tolist()]]
     for channel, values in readings.items():
         if "blowout" not in names and channel not in COMMANDS:
             names.append("blowout")

@@ -10,12 +10,14 @@ from proving_ground.effects.base import Active, EffectKind, Place
 from proving_ground.effects.brakes import BRAKES
 from proving_ground.effects.families import FAMILIES
 from proving_ground.effects.outside import OUTSIDE
-from proving_ground.effects.running_gear import RUNNING_GEAR
+from proving_ground.effects.running_gear import GEAR, RUNNING_GEAR
 from proving_ground.effects.tires import TIRES_EFFECTS
 from proving_ground.effects.unlisted import UNLISTED
 
 LISTED: dict[str, EffectKind] = {
-    kind.name: kind for kind in (*TIRES_EFFECTS, *RUNNING_GEAR, *BRAKES, *OUTSIDE)
+    kind.name: kind for kind in (*TIRES_EFFECTS, *RUNNING_GEAR, *BRAKES, *OUTSIDE, *GEAR)
 }
+# The sealed tables walk these in this order; names that came later are drawn by the worlds.
+IN_TABLES = tuple(kind.name for kind in (*TIRES_EFFECTS, *RUNNING_GEAR, *BRAKES, *OUTSIDE))
 
-__all__ = ["FAMILIES", "LISTED", "UNLISTED", "Active", "EffectKind", "Place"]
+__all__ = ["FAMILIES", "IN_TABLES", "LISTED", "UNLISTED", "Active", "EffectKind", "Place"]

@@ -82,6 +82,12 @@ class EffectKind:
     event: bool = False
     lowest: float = 1.0e-3            # severity below which the name would no longer fit
     guess: float = 40.0               # usual detectability at severity one, where a search begins
+    others: tuple[Setter, ...] = ()   # the same effect by other laws of the literature
+    end: float = 1.2                  # severity of the physical end
+
+    def by_law(self, law: int) -> Setter:
+        """The setter of a law: 0 is `set`, then `others`."""
+        return (self.set, *self.others)[law % (1 + len(self.others))]
 
 
 def combine(actives: list[Active]) -> Switches:

@@ -46,9 +46,32 @@ def _fade(s: float, place: Place, sign: float, when: float) -> Active:
                   Strength("torque lost when hot", lost, "1"))
 
 
+def _first_order_lag(s: float, place: Place, sign: float, when: float) -> Active:
+    """A dead time and no other change: a longer hose."""
+    late = max(0.7 * s, 0.006)
+    return Active({"slow_delay": only(3, group_index(place), late)},
+                  Strength("extra lag", late, "s"))
+
+
+def _gain(s: float, place: Place, sign: float, when: float) -> Active:
+    """One brake gains less or more by one factor, down to a brake that is dead."""
+    gain = float(np.clip(1.0 + s * (0.8 if sign > 0.0 else -0.85), 0.0, 3.0))
+    gains = np.ones(len(HUBS))
+    gains[hub_index(place)] = gain
+    return Active({"brake_gain": gains}, Strength("torque ratio to a sound brake", gain, "1"))
+
+
+def _early_fade(s: float, place: Place, sign: float, when: float) -> Active:
+    """Friction falls with the first warmth of the drum."""
+    lost = float(np.clip(0.7 * s, 0.0, 0.95))
+    return Active({"fade": only(3, group_index(place), lost), "fade_k": 35.0},
+                  Strength("torque lost when hot", lost, "1"))
+
+
 BRAKES = (
-    EffectKind("brake_lag", _lag, GROUPS, "brake", lowest=0.02, guess=400.0),
+    EffectKind("brake_lag", _lag, GROUPS, "brake", lowest=0.02, guess=400.0,
+               others=(_first_order_lag,), end=1.0),
     EffectKind("brake_imbalance", _imbalance, tuple(at_hub(hub) for hub in HUBS), "brake",
-               signed=True, guess=90.0),
-    EffectKind("brake_fade", _fade, GROUPS, "brake", guess=45.0),
+               signed=True, guess=90.0, others=(_gain,), end=1.18),
+    EffectKind("brake_fade", _fade, GROUPS, "brake", guess=45.0, others=(_early_fade,), end=1.1),
 )

@@ -12,7 +12,7 @@ FAMILIES: dict[str, tuple[str, ...]] = {
     "the flat tire": ("blown_tire_drag", "blown_tire_cornering", "slow_deflation"),
     "across the course": ("crosswind", "road_bank", "payload_shift"),
     "steering": ("steering_compliance", "steering_lash", "roll_steer", "axle_misalignment",
-                 "steering_angle_offset"),
+                 "steering_angle_offset", "steering_lag", "steering_ratio"),
     "another tire lost": ("secondary_blowout",),
     "grip": ("tire_saturation", "friction_change", "tire_relaxation"),
     "the coupling": ("fifth_wheel_friction",),

@@ -13,7 +13,7 @@ from proving_ground.effects.base import (
     at_tire,
     tire_index,
 )
-from proving_ground.switches import FLAT_KEEPS
+from proving_ground.laws import usual
 
 STEER_TIRES = (at_tire("steer_left"), at_tire("steer_right"))
 LATER_TIRES = tuple(at_tire(name) for name in (
@@ -31,8 +31,9 @@ def _drag(s: float, place: Place, sign: float, when: float) -> Active:
 
 def _cornering(s: float, place: Place, sign: float, when: float) -> Active:
     """The flat keeps more of its slope, and of its peak with it; it has hardly any to lose."""
-    kept = min(FLAT_KEEPS + 0.80 * s, 1.0)
-    return Active({"flat_cornering": kept}, Strength("cornering kept by the flat", kept, "1"),
+    more = 0.80 * s
+    kept = min(usual().flat_keeps + more, 1.0)
+    return Active({"flat_cornering": more}, Strength("cornering kept by the flat", kept, "1"),
                   when)
 
 
@@ -55,6 +56,38 @@ def _relaxation(s: float, place: Place, sign: float, when: float) -> Active:
     return Active({"relaxation": 2.5 * s}, Strength("relaxation length ratio", 1 + 1.7 * s, "1"))
 
 
+def _relaxation_even(s: float, place: Place, sign: float, when: float) -> Active:
+    """A relaxation length that is longer by one factor at every load."""
+    return Active({"relaxation": 2.0 * s, "relaxation_even": True},
+                  Strength("relaxation length ratio", 1 + 2.0 * s, "1"))
+
+
+def _even_drag(s: float, place: Place, sign: float, when: float) -> Active:
+    """Another rolling resistance on the rim from the first turn on, whatever speed and load."""
+    extra = sign * s * (0.20 if sign > 0.0 else 0.08)
+    return Active({"flat_drag": extra, "flat_drag_even": True},
+                  Strength("extra rolling resistance", extra, "N/N"), when)
+
+
+def _small_hole(s: float, place: Place, sign: float, when: float) -> Active:
+    """A smaller hole, as small from the first instant."""
+    scale = float(1.0 / (1.0 + 14.0 * s))
+    return Active({"hole_scale": scale}, Strength("hole area ratio", scale, "1"), when)
+
+
+def _torn_open(s: float, place: Place, sign: float, when: float) -> Active:
+    """A hole of the usual size that tears open slowly."""
+    growth = 4.0 * s
+    return Active({"hole_growth_s": growth}, Strength("time to tear open", growth, "s"), when)
+
+
+def _sudden_friction(s: float, place: Place, sign: float, when: float) -> Active:
+    """The road is slippery from one line on."""
+    lost = float(np.clip(0.75 * s, 0.0, 0.85))
+    return Active({"friction_drop": lost, "friction_x_m": when, "friction_length_m": 0.5},
+                  Strength("friction lost", lost, "1"), onset_x_m=when)
+
+
 def _saturation(s: float, place: Place, sign: float, when: float) -> Active:
     """The peak falls, and with it all but the first part of the curve."""
     lost = float(np.clip(0.65 * s, 0.0, 0.85))
@@ -71,14 +104,18 @@ def _friction(s: float, place: Place, sign: float, when: float) -> Active:
 
 
 TIRES_EFFECTS = (
-    EffectKind("blown_tire_drag", _drag, STEER_TIRES, "blowout", signed=True, guess=100.0),
+    EffectKind("blown_tire_drag", _drag, STEER_TIRES, "blowout", signed=True, guess=100.0,
+               others=(_even_drag,), end=1.6),
     EffectKind("blown_tire_cornering", _cornering, STEER_TIRES, "blowout",
                guess=9.0),
-    EffectKind("slow_deflation", _slow, STEER_TIRES, "blowout", lowest=0.004, guess=3200.0),
+    EffectKind("slow_deflation", _slow, STEER_TIRES, "blowout", lowest=0.004, guess=3200.0,
+               others=(_small_hole, _torn_open), end=1.5),
     EffectKind("secondary_blowout", _second, LATER_TIRES, "any", event=True,
                lowest=0.15, guess=25.0),
-    EffectKind("tire_relaxation", _relaxation, (Place(),), "quick steer", guess=95.0),
+    EffectKind("tire_relaxation", _relaxation, (Place(),), "quick steer", guess=95.0,
+               others=(_relaxation_even,)),
     EffectKind("tire_saturation", _saturation,
                tuple(at_axle(group) for group in GROUP_AXLES), "hard steer", guess=50.0),
-    EffectKind("friction_change", _friction, (Place(),), "limit", event=True, guess=40.0),
+    EffectKind("friction_change", _friction, (Place(),), "limit", event=True, guess=40.0,
+               others=(_sudden_friction,), end=1.1),
 )

@@ -103,7 +103,7 @@ def test_case_survives_its_file(tmp_path: Path, tables: dict[str, list[CaseSpec]
 
 
 def test_shipped_examples_are_cases() -> None:
-    examples = (Path(proving_ground.__file__).parent / "examples").glob("*.yaml")
+    examples = (Path(proving_ground.__file__).parents[1] / "docs/example_cases").glob("*.yaml")
     assert {path.stem: read_case(path).effects[0].where.hub for path in examples} == {
         "weak_trailer_brake": "trailer_2_left", "loose_tread": "steer_left"}
 

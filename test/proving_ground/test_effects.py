@@ -14,7 +14,7 @@ CANONICAL = {
     "steering_compliance", "steering_lash", "roll_steer", "tire_relaxation", "tire_saturation",
     "friction_change", "crosswind", "aerodynamic_drag", "road_grade", "road_bank",
     "driveline_drag", "brake_lag", "brake_imbalance", "brake_fade", "axle_misalignment",
-    "payload_shift", "fifth_wheel_friction"}
+    "payload_shift", "fifth_wheel_friction", "steering_lag", "steering_ratio"}
 KINDS = {**LISTED, **UNLISTED}
 SHOWING = {"blowout": "blowout_brake", "quick steer": "random_steer", "hard steer": "hard_double",
            "steer": "random_steer", "small steer": "random_steer", "kingpin": "blowout_brake",

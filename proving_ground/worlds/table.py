@@ -1,0 +1,137 @@
+"""Which cases a world holds: a cycle of 24 cases, 10 of them with nothing missing.
+
+Any run of 24 numbers holds every group in its proportions, so a quick measurement takes one cycle
+and a full one as many as there is time for. Severities are continuous, a tenth of them at the
+physical end (a dead brake, a road of ice).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from proving_ground.cases import CaseSpec, EffectSpec, FaultSpec, check
+from proving_ground.effects import FAMILIES, LISTED, UNLISTED
+from proving_ground.faults import FAULTS, WHOLE
+from proving_ground.table import MISSING
+from proving_ground.worlds.runs import choose_runs
+
+Rng = np.random.Generator
+WORLDS = ("w1", "w2", "w4")
+FIRST_SEED = {"w1": 2_000_000, "w2": 3_000_000, "w4": 5_000_000}
+# n nothing, s one effect, p two, f an instrument, u of no list, t taken out of the library
+CYCLE = "nsnsnfnsnsnpnsnsntnsfuss"
+GROUP = {"n": "null", "s": "single", "p": "pair", "f": "sensor", "u": "unknown", "t": "unknown"}
+WHOLE_NAMES = tuple(kind.name for kind in WHOLE)
+SIGMAS = (4.0, 150.0)
+ENDS = 0.1                        # share of single effects at their physical end
+
+
+@dataclass(frozen=True)
+class Turn:
+    """Place of a case in its world: number, letter, and how often the letter came before."""
+
+    number: int
+    letter: str
+    before: int
+
+    @classmethod
+    def of(cls, number: int) -> Turn:
+        """The turn of a case number."""
+        rounds, at = divmod(number, len(CYCLE))
+        letter = CYCLE[at]
+        return cls(number, letter, rounds * CYCLE.count(letter) + CYCLE[:at].count(letter))
+
+
+def world_cases(world: str, first: int = 0, count: int = len(CYCLE)) -> list[CaseSpec]:
+    """Cases `first` to `first + count - 1` of a world.
+
+    Raises:
+        ValueError: no world of that name.
+    """
+    if world not in WORLDS:
+        raise ValueError(f"world: {world!r}, expected one of {WORLDS}")
+    return [_case(world, Turn.of(number)) for number in range(first, first + count)]
+
+
+def _case(world: str, turn: Turn) -> CaseSpec:
+    seed = FIRST_SEED[world] + turn.number
+    rng = np.random.default_rng([seed, 101])
+    if world != "w4":
+        return truck_case(world, world, turn, seed, rng)
+    truth = ("w1", "w2", "w2")[turn.number % 3]
+    return _roughened(truck_case("w4", truth, turn, seed, rng), rng)
+
+
+def _roughened(spec: CaseSpec, rng: Rng) -> CaseSpec:
+    """The same case with rough instruments, half of them without baseline runs."""
+    bare = bool(rng.random() < 0.5)
+    return replace(spec, rough=True, baseline=() if bare else spec.baseline, dropouts=False)
+
+
+def truck_case(world: str, truth: str, turn: Turn, seed: int, rng: Rng) -> CaseSpec:
+    """A case with a truck."""
+    group = GROUP[turn.letter]
+    effects, faults, without = _causes(turn, rng)
+    needs = [effect.kind.needs for effect in effects] or [FAULTS[f.name].needs for f in faults]
+    runs = choose_runs(needs, turn.number, rng)
+    choices = MISSING if not faults else tuple(
+        names for names in MISSING if not any("trailer" in name for name in names))
+    missing = choices[int(rng.integers(len(choices)))]
+    if any(f.name == "channel_swap" for f in faults):
+        missing = ()
+    if effects and effects[0].name == "secondary_blowout" and rng.random() < 0.5:
+        missing = ("tire_pressure",)
+    return check(CaseSpec(f"{world}-{seed}", group, seed, *runs, effects, faults, missing,
+                          bool(rng.random() < 0.15), without, truth))
+
+
+def _causes(turn: Turn, rng: Rng
+            ) -> tuple[tuple[EffectSpec, ...], tuple[FaultSpec, ...], tuple[str, ...]]:
+    """What is concealed: effects, instrument faults, names taken out of the library."""
+    if turn.letter == "n":
+        return (), (), ()
+    if turn.letter == "s":
+        return (_effect(_walk(tuple(LISTED), turn.before), rng, rng.random() < ENDS),), (), ()
+    if turn.letter == "p":
+        first, second = rng.choice(sorted(LISTED), 2, replace=False)
+        pair = [_effect(str(name), rng) for name in (first, second)]
+        if turn.before % 4 == 3:
+            return (pair[0],), (_fault(_walk(tuple(FAULTS), turn.before // 4), rng),), ()
+        return tuple(pair), (), ()
+    if turn.letter == "f":
+        return (), (_fault(_walk(tuple(FAULTS), turn.before), rng),), ()
+    if turn.letter == "u":
+        return (_effect(_walk(tuple(UNLISTED), turn.before), rng),), (), ()
+    family = _walk(tuple(FAMILIES), turn.before)
+    listed = [name for name in FAMILIES[family] if name in LISTED]
+    return (_effect(str(rng.choice(listed)), rng),), (), FAMILIES[family]
+
+
+def _walk(names: tuple[str, ...], number: int) -> str:
+    """Names one after the other in strides, so that a few draws already differ in kind."""
+    stride = next(step for step in (7, 5, 3, 1) if np.gcd(step, len(names)) == 1)
+    return names[stride * number % len(names)]
+
+
+def wanted_sigma(rng: Rng) -> float:
+    """A wanted detectability, uniform in its logarithm."""
+    return float(f"{np.exp(rng.uniform(*np.log(SIGMAS))):.3g}")
+
+
+def _effect(name: str, rng: Rng, at_end: bool = False) -> EffectSpec:
+    kind = LISTED.get(name) or UNLISTED[name]
+    sign = float(rng.choice([-1.0, 1.0])) if kind.signed else 1.0
+    place, law = int(rng.integers(len(kind.places))), int(rng.integers(1 + len(kind.others)))
+    if at_end:
+        return EffectSpec(name, place, -1.0 if name == "brake_imbalance" else sign, None,
+                          kind.end, law)
+    return EffectSpec(name, place, sign, wanted_sigma(rng), law=law)
+
+
+def _fault(name: str, rng: Rng) -> FaultSpec:
+    place, sign = int(rng.integers(len(FAULTS[name].places))), float(rng.choice([-1.0, 1.0]))
+    if name in WHOLE_NAMES:
+        return FaultSpec(name, place, sign, None, 1.0)
+    return FaultSpec(name, place, sign, wanted_sigma(rng))
