@@ -8,7 +8,9 @@ from setuptools import find_packages, setup
 
 PACKAGE = "truck_blowout_sim"
 ROOT = Path(__file__).resolve().parent
-VERBS = ("run", "import", "export", "compare", "diagnose", "prove", "recover", "validate")
+VERBS = (
+    "run", "import", "export", "compare", "diagnose", "prove", "recover", "validate", "vehicle",
+)
 NODES = ("simulator", "player", "lane_keeper", "urdf")
 
 

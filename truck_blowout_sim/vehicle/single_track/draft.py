@@ -51,7 +51,7 @@ class Draft:
     def ruled(self, key: str, value: float, rules: Rules, *names: str) -> None:
         """Set a value computed with rules; their relative spreads add up as squares."""
         spread = sum(rules.relative_spread(name) ** 2 for name in names) ** 0.5 * abs(value)
-        self.put(key, value, RULE + "; ".join(rules.source(name) for name in names), spread)
+        self.put(key, value, RULE + "; ".join(dict.fromkeys(map(rules.source, names))), spread)
 
     def tree(self) -> Branch:
         """The draft as the tree of a file."""
