@@ -18,7 +18,7 @@ from truck_blowout_sim.diagnosis.case.runs import prepare_run
 from truck_blowout_sim.diagnosis.case.study import Study
 from truck_blowout_sim.diagnosis.settings import Settings, load_settings
 from truck_blowout_sim.recordings import INPUT_NAMES, Recording, Series
-from truck_blowout_sim.simulation.drive import Drive, run_drive
+from truck_blowout_sim.simulation.drive import Drive, execute
 from truck_blowout_sim.simulation.equilibrium import InitialState
 from truck_blowout_sim.simulation.replay import as_recording
 from truck_blowout_sim.vehicle import Packed, load_vehicle, pack
@@ -99,8 +99,8 @@ def _recorded(truck: Packed, changes: Sequence[tuple[str, float]], seed: int, st
     inputs[:, 2:] = (1.5e5 * np.clip(2.0 * (t - 4.8), 0.0, 1.0))[:, None]
     none = np.zeros(0, dtype=np.int64)
     drive = Drive(InitialState(speed_mps=20.0), STEP_S, 4, inputs, np.zeros(0), none, none)
-    exact = as_recording(name, truck.vehicle, drive,
-                         run_drive(truck.with_values(dict(changes)), drive), ())
+    changed = truck.with_values(dict(changes))
+    exact = as_recording(name, changed, drive, execute(changed, drive), ())
     rng = np.random.default_rng(seed)
     channels = {key: exact[key] for key in INPUT_NAMES}
     for key, series in exact.channels.items():

@@ -23,7 +23,8 @@ from truck_blowout_sim.comparison.sources import find_recording
 from truck_blowout_sim.comparison.words import labels_for
 from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.recordings import Recording, read_recording
-from truck_blowout_sim.simulation.replay import as_recording, drive_from, run_drive
+from truck_blowout_sim.simulation.drive import execute
+from truck_blowout_sim.simulation.replay import as_recording, drive_from
 from truck_blowout_sim.vehicle import Packed, Vehicle, load_vehicle, pack
 
 DEFAULT_VEHICLE = "international_9400i_trailmobile"
@@ -99,8 +100,8 @@ def compare(recording: Recording | str | os.PathLike[str],
     recording, marks = _recording(recording, packed.vehicle)
     tell("simulating", 0.1)
     drive = drive_from(recording, packed.vehicle, step_s=step_s, impose_speed=impose_speed)
-    model = as_recording(f"{recording.name} (simulated)", packed.vehicle, drive,
-                         run_drive(packed, drive), recording.blowouts)  # fmt: skip
+    model = as_recording(f"{recording.name} (simulated)", packed, drive, execute(packed, drive),
+                         recording.blowouts)  # fmt: skip
     imposed = bool(drive.speed.size)
     pairs = pairs_of(recording, model)
     if not pairs:

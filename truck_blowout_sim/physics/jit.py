@@ -24,11 +24,15 @@ Function = TypeVar("Function", bound=Callable[..., Any])
 
 
 def _digest() -> str:
-    """Digest of every source file under physics/ and of the Numba version."""
+    """Digest of Numba's version, of physics/, and of what simulation/ compiles with it."""
     root = Path(__file__).parent
     digest = hashlib.sha256(numba.__version__.encode())
     for path in sorted(root.rglob("*.py")):
         digest.update(path.read_bytes())
+    for path in sorted((root.parent / "simulation").rglob("*.py")):
+        source = path.read_bytes()
+        if b"physics.jit" in source:
+            digest.update(source)
     return digest.hexdigest()[:16]
 
 

@@ -3,7 +3,7 @@
 The truck of a course is driven once and its state kept every so often. A truck that differs from it
 only after some instant branches off there, with the same bits as if it had been driven whole.
 
-Known limits: no drive with a driver, whose memory is not kept.
+Known limits: no drive with a driver or with conditions, whose memory is not kept.
 Validated with: test/simulation/test_course.py (every timed effect of the diagnosis, bit for bit).
 """
 
@@ -52,10 +52,10 @@ def drive_course(packed: Packed, drive: Drive) -> Course:
     """Drive a truck and keep its state on the way.
 
     Raises:
-        ValueError: the drive has a driver.
+        ValueError: the drive has a driver, or events that wait for a condition.
     """
-    if drive.pilot.size:
-        raise ValueError("a driver's memory is not kept")
+    if drive.pilot.size or drive.watch.size:
+        raise ValueError("the memory of a driver or a condition is not kept")
     n, part = drive.inputs.shape[0], max(round(KEPT_EVERY_S / drive.step_s), 1)
     steps = tuple(range(0, max(n, 1), part))
     x = initial_vector(packed, drive.initial, drive.step_s, drive.warm)

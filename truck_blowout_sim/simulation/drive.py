@@ -9,10 +9,11 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from truck_blowout_sim.physics.layout import N_WORK, TIRE_S, TOPOLOGY
+from truck_blowout_sim.physics.layout import GLOBAL_S, N_WORK, TIRE_S, TOPOLOGY
 from truck_blowout_sim.physics.observe import output_names
+from truck_blowout_sim.simulation.ending import Ending, ending_of, rolled_over_rad
 from truck_blowout_sim.simulation.equilibrium import InitialState, initial_vector
-from truck_blowout_sim.simulation.loop import run_loop
+from truck_blowout_sim.simulation.loop import WATCH, run_loop
 from truck_blowout_sim.vehicle import Packed, Vehicle
 
 Floats = NDArray[np.float64]
@@ -35,6 +36,8 @@ class Drive:
         pilot: the driver's parameters (`loop.PILOT`), or empty.
         path: [n, 2] points the driver follows, in map.
         warm: equilibrium of a similar truck at the same start, to settle from; or None.
+        watch: [n, len(WATCH)] conditions that events wait for.
+        blow_watch: condition of each blowout whose step is -1; ``blow_delays``: steps after it.
     """
 
     initial: InitialState
@@ -47,6 +50,9 @@ class Drive:
     pilot: Floats = field(default_factory=lambda: np.zeros(0))
     path: Floats = field(default_factory=lambda: np.zeros((0, 2)))
     warm: Floats | None = None
+    watch: Floats = field(default_factory=lambda: np.zeros((0, len(WATCH))))
+    blow_watch: Integers | None = None
+    blow_delays: Integers | None = None
 
     @property
     def n_rows(self) -> int:
@@ -65,20 +71,33 @@ class Drive:
         return self.speed.size > 0 and self.pilot.size == 0
 
 
+@dataclass(frozen=True, eq=False)
+class Ran:
+    """What came out of a run.
+
+    Attributes:
+        out: [n_rows, n_outputs]; NaN after the run ended before its time.
+        inputs: [n_steps, 5] as driven.
+        blow_steps: step of each blowout, -1 of one that never came.
+        ending: how the run ended before its time, or None.
+    """
+
+    out: Floats
+    inputs: Floats
+    blow_steps: Integers
+    ending: Ending | None
+
+
 def run_drive(packed: Packed, drive: Drive) -> Floats:
-    """Run a prepared drive: [n_rows, n_outputs]; rows after a failure are NaN."""
-    return execute(packed, drive)[0]
+    """Run a prepared drive: [n_rows, n_outputs]; rows after its end before time are NaN."""
+    return execute(packed, drive).out
 
 
-def execute(packed: Packed, drive: Drive, progress: Progress | None = None
-            ) -> tuple[Floats, Floats]:
+def execute(packed: Packed, drive: Drive, progress: Progress | None = None) -> Ran:
     """Run a prepared drive.
 
     Args:
         progress: called now and then with the share that is done.
-
-    Returns:
-        Outputs [n_rows, n_outputs], NaN after a failure, and the inputs [n_steps, 5] as driven.
     """
     n, driven = drive.inputs.shape[0], Driven(packed, drive)
     x = initial_vector(packed, drive.initial, drive.step_s, drive.warm)
@@ -90,16 +109,17 @@ def execute(packed: Packed, drive: Drive, progress: Progress | None = None
             break
         if progress:
             progress(last / max(n, 1))
-    return out, driven.inputs
+    return Ran(out, driven.inputs, driven.blow_steps, driven.ending(x))
 
 
 class Driven:
     """A truck and its drive, ready for the loop; what a run changes of them is its own copy."""
 
     def __init__(self, packed: Packed, drive: Drive) -> None:
-        self._drive, self._topology = drive, packed.topology
+        self._drive, self._packed, self._topology = drive, packed, packed.topology
         self._params, self._pilot = packed.params.copy(), drive.pilot.copy()
-        self.inputs = drive.inputs.copy()
+        self.inputs, self.blow_steps = drive.inputs.copy(), drive.blow_steps.copy()
+        self._watch, self._rolls = drive.watch.copy(), rolled_over_rad(packed)
         self._slots = (self._topology[TOPOLOGY.state_tire_at] + drive.blown * len(TIRE_S)
                        + TIRE_S.blown_time_s)
         self._mass_kg, self._work = total_mass_kg(packed), np.zeros(N_WORK)
@@ -108,13 +128,20 @@ class Driven:
         """Drive on from step ``first`` to ``last``, state ``x`` and rows ``out`` in place.
 
         Returns:
-            False once the state stopped being finite.
+            False once the run ended before its time.
         """
-        drive = self._drive
-        return bool(run_loop(
+        drive, nothing = self._drive, np.zeros_like(self.blow_steps)
+        return not run_loop(
             x, self._params, self._topology, self.inputs, drive.step_s, drive.every, first, last,
-            drive.initial.time_s, drive.blow_steps, self._slots, drive.speed, self._mass_kg,
-            self._pilot, drive.path, self._work, out))
+            drive.initial.time_s, self.blow_steps, self._slots,
+            nothing if drive.blow_watch is None else drive.blow_watch,
+            nothing if drive.blow_delays is None else drive.blow_delays,
+            self._watch, drive.speed, self._mass_kg, self._pilot, drive.path, self._rolls,
+            self._work, out)
+
+    def ending(self, x: Floats) -> Ending | None:
+        """How the run ended before its time in state ``x``; None if it did not."""
+        return ending_of(x, self._packed, self._rolls, float(x[GLOBAL_S.time_s]))
 
 
 def names_of(vehicle: Vehicle) -> tuple[str, ...]:

@@ -7,9 +7,18 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
+from truck_blowout_sim.physics.layout import INPUT
 from truck_blowout_sim.recordings import INPUT_NAMES
-from truck_blowout_sim.simulation.loop import PILOT
-from truck_blowout_sim.simulation.scenario_schema import FollowSpec, ScenarioSpec, SweepSpec
+from truck_blowout_sim.simulation.loop import WATCH
+from truck_blowout_sim.simulation.pilot import PILOT, PILOT_SIZE, REACT_STEERING, REACT_THROTTLE
+from truck_blowout_sim.simulation.scenario_schema import (
+    FollowSpec,
+    HoldSpec,
+    ReactionSpec,
+    ScenarioSpec,
+    SweepSpec,
+    WhenSpec,
+)
 from truck_blowout_sim.vehicle import Packed
 
 Floats = NDArray[np.float64]
@@ -21,17 +30,19 @@ def input_table(spec: ScenarioSpec, times_s: Floats, recorded: Floats | None) ->
     table = np.zeros((times_s.size, len(INPUT_NAMES))) if recorded is None else recorded.copy()
     steering = spec.steering
     if steering and steering.table:
-        table[:, 0] = np.interp(times_s, steering.table.time_s, steering.table.angle_rad)
+        table[:, INPUT.steering_wheel_angle_rad] = np.interp(
+            times_s, steering.table.time_s, steering.table.angle_rad)
     elif steering and steering.sweep:
-        table[:, 0] = sweep(steering.sweep, times_s)
+        table[:, INPUT.steering_wheel_angle_rad] = sweep(steering.sweep, times_s)
     if spec.throttle:
-        table[:, 1] = np.interp(times_s, spec.throttle.time_s, spec.throttle.opening)
+        table[:, INPUT.throttle] = np.interp(times_s, spec.throttle.time_s, spec.throttle.opening)
     elif spec.hold:
-        table[:, 1] = 0.0
-    for column, circuit in enumerate(_CIRCUITS, start=2):
+        table[:, INPUT.throttle] = 0.0
+    for circuit in _CIRCUITS:
         pressure = getattr(spec.brakes, circuit) if spec.brakes else None
         if pressure:
-            table[:, column] = np.interp(times_s, pressure.time_s, pressure.pressure_pa)
+            table[:, getattr(INPUT, f"brake_pressure_{circuit}_pa")] = np.interp(
+                times_s, pressure.time_s, pressure.pressure_pa)
     return table
 
 
@@ -50,24 +61,68 @@ def sweep(spec: SweepSpec, times_s: Floats) -> Floats:
 
 def speed_to_hold(spec: ScenarioSpec, times_s: Floats) -> Floats:
     """Speed [m/s] to hold at ``times_s``, NaN where the throttle table rules; empty without."""
-    if spec.hold is None:
-        return np.zeros(0)
-    return np.where(times_s <= spec.hold.until_s, spec.hold.speed_mps, np.nan)
+    hold = spec.hold
+    if hold is None:
+        reacts = spec.reaction is not None and spec.reaction.throttle == "speed_held"
+        return np.full(times_s.size, np.nan) if reacts else np.zeros(0)
+    wanted = (np.interp(times_s, hold.profile.time_s, hold.profile.speed_mps) if hold.profile
+              else np.full(times_s.size, hold.speed_mps))
+    return np.where(times_s <= hold.until_s, wanted, np.nan)
 
 
-def pilot_of(spec: ScenarioSpec, packed: Packed, hand_wheel_rad: float) -> tuple[Floats, Floats]:
-    """The compiled driver's parameters and path; both empty if nothing is closed-loop."""
+def pilot_of(spec: ScenarioSpec, packed: Packed, inputs: Floats, watch: int) -> tuple[Floats,
+                                                                                      Floats]:
+    """The compiled driver's parameters and path; both empty if nothing is closed-loop.
+
+    Args:
+        inputs: the first ones of the run; ``watch``: number of the reaction's condition, or -1.
+    """
     follow = spec.steering.follow if spec.steering else None
-    if spec.hold is None and follow is None:
+    if spec.hold is None and follow is None and spec.reaction is None:
         return np.zeros(0), np.zeros((0, 2))
-    pilot = np.zeros(len(PILOT))
-    pilot[PILOT.hand_wheel_rad] = hand_wheel_rad
+    pilot = np.zeros(PILOT_SIZE)
+    pilot[PILOT.hand_wheel_rad] = inputs[INPUT.steering_wheel_angle_rad]
+    pilot[PILOT.throttle_sum] = inputs[INPUT.throttle]
+    pilot[PILOT.noticed_s] = np.inf
     if spec.hold:
-        pilot[PILOT.hold] = 1.0
-        pilot[PILOT.hold_gain_spm] = spec.hold.gain_spm
-        pilot[PILOT.hold_integral_pm] = spec.hold.integral_pm
-        pilot[PILOT.throttle_sum] = steady_throttle(packed, spec.hold.speed_mps)
+        _hold(pilot, spec.hold)
+        first_mps = spec.hold.profile.speed_mps[0] if spec.hold.profile else spec.hold.speed_mps
+        pilot[PILOT.throttle_sum] = steady_throttle(packed, first_mps)
+    if spec.reaction:
+        _react(pilot, spec.reaction, watch)
+        if spec.hold is None and spec.reaction.throttle == "speed_held" and not spec.recording:
+            _hold(pilot, HoldSpec())
     return _with_path(pilot, follow)
+
+
+def watch_row(when: WhenSpec) -> Floats:
+    """A condition as a row of the compiled loop's table."""
+    row = np.full(len(WATCH), np.nan)
+    row[WATCH.met_s] = np.inf
+    for key in WATCH._fields[:-1]:
+        row[getattr(WATCH, key)] = getattr(when, key)
+    return row
+
+
+def _hold(pilot: Floats, hold: HoldSpec) -> None:
+    pilot[PILOT.hold] = 1.0
+    pilot[PILOT.hold_gain_spm] = hold.gain_spm
+    pilot[PILOT.hold_integral_pm] = hold.integral_pm
+
+
+def _react(pilot: Floats, reaction: ReactionSpec, watch: int) -> None:
+    pilot[PILOT.react] = 1.0
+    pilot[PILOT.react_watch] = watch
+    pilot[PILOT.react_time_s] = reaction.time_s
+    pilot[PILOT.react_steering] = REACT_STEERING.index(reaction.steering)
+    pilot[PILOT.react_throttle] = REACT_THROTTLE.index(reaction.throttle)
+    pilot[PILOT.react_throttle_over_s] = reaction.throttle_over_s
+    pilot[PILOT.react_brake_pa] = reaction.brake_pa
+    pilot[PILOT.react_brake_delay_s] = reaction.brake_delay_s
+    pilot[PILOT.react_brake_over_s] = reaction.brake_over_s
+    if pilot[PILOT.hold_gain_spm] == 0.0:  # a speed held only in answer: the usual driver's gains
+        pilot[PILOT.hold_gain_spm] = HoldSpec().gain_spm
+        pilot[PILOT.hold_integral_pm] = HoldSpec().integral_pm
 
 
 def _with_path(pilot: Floats, follow: FollowSpec | None) -> tuple[Floats, Floats]:

@@ -9,8 +9,16 @@ from numpy.typing import NDArray
 
 from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.recordings import INPUT_NAMES, Blowout, Recording, Series, channels_for
-from truck_blowout_sim.simulation.drive import Drive, names_of, run_drive, total_mass_kg
+from truck_blowout_sim.simulation.drive import (
+    Drive,
+    Ran,
+    execute,
+    names_of,
+    run_drive,
+    total_mass_kg,
+)
 from truck_blowout_sim.simulation.equilibrium import InitialState
+from truck_blowout_sim.simulation.plausible import diverged
 from truck_blowout_sim.simulation.start import initial_state, start_time_s
 from truck_blowout_sim.vehicle import Packed, Vehicle, pack
 
@@ -39,6 +47,9 @@ def drive_from(recording: Recording, vehicle: Vehicle, *, step_s: float = 0.001,
     impose = bool(missing - {"steering_wheel_angle_rad"}) if impose_speed is None else impose_speed
     start, end = start_time_s(recording), recording.end_s
     n_steps = round((end - start) / step_s)
+    if n_steps < 1:
+        raise InputError(f"lasts {end - start:g} s", file=recording.name,
+                         expected=f"inputs over {step_s:g} s or more, one step of the simulation")
     times = start + step_s * np.arange(n_steps, dtype=np.float64)
     speed = _speed(recording, times) if impose else np.zeros(0)
     steps, tires = _blowouts(recording, vehicle, start, step_s)
@@ -52,31 +63,40 @@ def simulate_inputs(vehicle: Vehicle | Packed, recording: Recording, *, step_s: 
     """The model driven by a recording: a recording with the same clock.
 
     Raises:
-        InputError: see :func:`drive_from`; or the state stopped being finite.
+        InputError: see :func:`drive_from`.
+        DivergedError: the run left the range of the model.
     """
     packed = vehicle if isinstance(vehicle, Packed) else pack(vehicle)
     drive = drive_from(recording, packed.vehicle, step_s=step_s, rate_hz=rate_hz, initial=initial,
                        impose_speed=impose_speed)
-    out = run_drive(packed, drive)
-    return as_recording(f"{recording.name} (simulated)", packed.vehicle, drive, out,
+    return as_recording(f"{recording.name} (simulated)", packed, drive, execute(packed, drive),
                         recording.blowouts)
 
 
-def as_recording(name: str, vehicle: Vehicle, drive: Drive, out: Floats,
+def as_recording(name: str, packed: Packed, drive: Drive, ran: Ran,
                  blowouts: Sequence[Blowout], metadata: dict[str, str] | None = None) -> Recording:
-    """Outputs and inputs of a run as a recording; stops where the state stopped being finite."""
+    """Outputs and inputs of a run as a recording; up to the instant at which a unit rolled over.
+
+    Raises:
+        DivergedError: the run left the range of the model.
+    """
+    if ran.ending is not None and not ran.ending.rolled_over:
+        raise diverged(packed, drive, ran.ending, name)
+    out, vehicle = ran.out, packed.vehicle
     good = np.isfinite(out).all(axis=1)
     n = int(np.argmin(good)) if not good.all() else good.size
     times = drive.times_s[:n]
     known = _channels(vehicle)
     channels = {key: Series(times, out[:n, k]) for k, key in enumerate(names_of(vehicle))
                 if key in known}
-    held = drive.inputs[np.minimum(np.arange(n) * drive.every, len(drive.inputs) - 1)]
+    held = ran.inputs[np.minimum(np.arange(n) * drive.every, len(ran.inputs) - 1)]
     channels |= {key: Series(times, held[:, k]) for k, key in enumerate(INPUT_NAMES)}
     text = {"vehicle": vehicle.name, "step_s": repr(drive.step_s), **(metadata or {})}
     notes: tuple[str, ...] = (STATED_SPEED_WORDS,) if drive.speed_imposed else ()
-    if n < good.size:
-        notes += (f"simulation stopped at {times[-1]:.2f} s: the state was no longer finite",)
+    if ran.ending is not None:
+        text |= {"rolled_over_unit": ran.ending.unit, "rolled_over_s": f"{ran.ending.time_s:.3f}"}
+        notes += (f"{ran.ending.words} at {ran.ending.time_s:.2f} s; the run ends there, because "
+                  "what a side does on the ground is beyond the model",)
     return Recording(name, channels, tuple(blowouts), text, notes)
 
 

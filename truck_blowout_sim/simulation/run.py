@@ -13,9 +13,10 @@ from numpy.typing import NDArray
 from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.recordings import Blowout, Recording, read_recording
 from truck_blowout_sim.resources import config_file
-from truck_blowout_sim.simulation.drive import Drive, Progress, execute
+from truck_blowout_sim.simulation.drive import Drive, Progress, Ran, execute
 from truck_blowout_sim.simulation.driver import input_table, pilot_of, speed_to_hold
 from truck_blowout_sim.simulation.equilibrium import InitialState
+from truck_blowout_sim.simulation.events import events_of
 from truck_blowout_sim.simulation.inputs import Inputs
 from truck_blowout_sim.simulation.replay import as_recording, drive_from
 from truck_blowout_sim.simulation.scenario import Scenario, load_scenario
@@ -35,22 +36,46 @@ def simulate(vehicle: Vehicle | Packed, scenario: Scenario | str | PathLike[str]
         progress: called now and then with the share that is done.
 
     Returns:
-        Inputs as driven, outputs and blowouts. The same arguments give the same bits.
+        Inputs as driven, outputs and blowouts; up to the instant at which a unit rolled over, which
+        then stands in metadata and notes. The same arguments give the same bits.
 
     Raises:
         InputError: the scenario cannot be used, or not with this vehicle.
+        DivergedError: the run left the range of the model.
     """
     loaded = scenario if isinstance(scenario, Scenario) else load_scenario(scenario)
     packed, drive, blowouts = prepare(vehicle, loaded, step_s=step_s, rate_hz=rate_hz)
-    out, inputs = execute(packed, drive, progress)
-    metadata = {"scenario": loaded.name, "title": loaded.title}
-    return as_recording(loaded.name, packed.vehicle, replace(drive, inputs=inputs), out, blowouts,
-                        metadata)
+    return run_prepared(packed, drive, blowouts, loaded, progress=progress)
+
+
+def run_prepared(packed: Packed, drive: Drive, blowouts: tuple[Blowout, ...], scenario: Scenario, *,
+                 progress: Progress | None = None) -> Recording:
+    """Run what `prepare` gave for a scenario; see `simulate`."""
+    ran = execute(packed, drive, progress)
+    metadata = {"scenario": scenario.name, "title": scenario.title}
+    return as_recording(scenario.name, packed, replace(drive, inputs=ran.inputs), ran,
+                        burst(packed, drive, ran, blowouts), metadata)
+
+
+def burst(packed: Packed, drive: Drive, ran: Ran, timed: tuple[Blowout, ...]
+          ) -> tuple[Blowout, ...]:
+    """What really burst: at its time, or when its condition was met, before the run ended."""
+    waited: dict[int, list[str]] = {}
+    for b in np.flatnonzero((drive.blow_steps < 0) & (ran.blow_steps >= 0)):
+        tire = packed.names.tires[drive.blown[b]]
+        waited.setdefault(int(ran.blow_steps[b]), []).append(tire)
+    start, n = drive.initial.time_s, len(drive.inputs)
+    met = [Blowout(start + step * drive.step_s, tuple(tires))
+           for step, tires in waited.items() if step < n]
+    last = ran.ending.time_s if ran.ending else math.inf
+    return tuple(sorted((e for e in (*timed, *met) if e.time_s <= last), key=lambda e: e.time_s))
 
 
 def prepare(vehicle: Vehicle | Packed, scenario: Scenario, *, step_s: float = 0.001,
             rate_hz: float = 100.0) -> tuple[Packed, Drive, tuple[Blowout, ...]]:
-    """The truck on the scenario's road, what drives it, and what bursts when.
+    """The truck on the scenario's road, what drives it, and what bursts at which instant.
+
+    Blowouts that wait for a condition are in the drive alone.
 
     Raises:
         InputError: see :func:`simulate`.
@@ -66,17 +91,18 @@ def prepare(vehicle: Vehicle | Packed, scenario: Scenario, *, step_s: float = 0.
     if spec.recording:
         recording = _recording(scenario).between(spec.start_s, spec.end_s)
         base = drive_from(recording, packed.vehicle, step_s=step_s, rate_hz=rate_hz)
-        blowouts = blowouts or recording.blowouts
+        blowouts = blowouts if spec.blowouts else recording.blowouts
     recorded = np.pad(base.inputs, ((0, max(n_steps - len(base.inputs), 0)), (0, 0)), "edge"
                       )[:n_steps] if base else None
     inputs = input_table(spec, times, recorded)
     initial = _initial(scenario, base, inputs)
-    pilot, path = pilot_of(spec, packed, initial.inputs.steering_wheel_angle_rad)
     speed = speed_to_hold(spec, times)
-    if base and base.speed.size and not speed.size:
+    if base and base.speed.size and spec.hold is None:
         speed = np.pad(base.speed, (0, max(n_steps - base.speed.size, 0)), "edge")[:n_steps]
-    steps, tires = _events(blowouts, packed.vehicle, spec.start_s, step_s)
-    drive = Drive(initial, step_s, every, inputs, speed, steps, tires, pilot, path)
+    events = events_of(scenario, packed.vehicle, blowouts, step_s)
+    pilot, path = pilot_of(spec, packed, inputs[0], events.reaction)
+    drive = Drive(initial, step_s, every, inputs, speed, events.steps, events.tires, pilot, path,
+                  watch=events.watch, blow_watch=events.conditions, blow_delays=events.delays)
     return packed, drive, blowouts
 
 
@@ -131,12 +157,3 @@ def _initial(scenario: Scenario, base: Drive | None, inputs: NDArray[np.float64]
     start = spec.start
     return InitialState(speed_mps=start.speed_mps, x_m=start.x_m, y_m=start.y_m,
                         yaw_rad=start.yaw_rad, time_s=spec.start_s, inputs=first)
-
-
-def _events(blowouts: tuple[Blowout, ...], vehicle: Vehicle, start_s: float, step_s: float
-            ) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """Step and tire number of each blowout."""
-    pairs = [(max(round((event.time_s - start_s) / step_s), 0), vehicle.tires.index(tire))
-             for event in blowouts for tire in event.tires]
-    table = np.array(pairs, dtype=np.int64).reshape(-1, 2)
-    return table[:, 0].copy(), table[:, 1].copy()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import pairwise
@@ -11,12 +12,19 @@ from pathlib import Path
 from truck_blowout_sim.errors import InputError, quoted
 from truck_blowout_sim.recordings import Blowout
 from truck_blowout_sim.resources import config_file, config_names
-from truck_blowout_sim.simulation.scenario_schema import BlowoutEventSpec, ScenarioSpec
+from truck_blowout_sim.simulation.scenario_schema import (
+    BlowoutEventSpec,
+    HoldSpec,
+    ScenarioSpec,
+    WhenSpec,
+)
 from truck_blowout_sim.vehicle import Vehicle
 from truck_blowout_sim.vehicle.document import Branch, Leaf, Place, read_document
+from truck_blowout_sim.vehicle.fields import rules
 from truck_blowout_sim.vehicle.reading import Notes, build, to_number, unknown
 
 _KIND = "scenarios"
+NOTHING = "none"  # in place of tires: nothing bursts
 
 
 @dataclass(frozen=True)
@@ -58,19 +66,26 @@ class Scenario:
         return replace(self, spec=replace(self.spec, blowouts=specs), places={})
 
     def blowouts_of(self, vehicle: Vehicle) -> tuple[Blowout, ...]:
-        """Its blowouts with hubs resolved into tires.
+        """Its blowouts at instants, with hubs resolved into tires; those on a condition are not.
 
         Raises:
             InputError: a name that is neither a hub nor a tire of the vehicle.
         """
         return tuple(
-            Blowout(event.time_s, tuple(self._tires(name, event.tires, vehicle)))
+            Blowout(event.time_s, self.tires_of(name, vehicle))
             for name, event in self.spec.blowouts.items()
+            if event.when is None and event.tires != NOTHING
         )
 
-    def _tires(self, event: str, words: str, vehicle: Vehicle) -> list[str]:
+    def tires_of(self, event: str, vehicle: Vehicle) -> tuple[str, ...]:
+        """The tires that burst in one event, hubs resolved.
+
+        Raises:
+            InputError: a name that is neither a hub nor a tire of the vehicle.
+        """
+        words = self.spec.blowouts[event].tires
         tires: list[str] = []
-        for word in words.split("+"):
+        for word in words.split("+") if words != NOTHING else ():
             if word in vehicle.hubs:
                 tires += vehicle.tires_of_hub(word)
             elif word in vehicle.tires:
@@ -79,7 +94,7 @@ class Scenario:
                 problem = f"{quoted(word)} is no hub or tire of {vehicle.name}"
                 place = self.places.get(f"blowouts.{event}.tires", Place("blowout", 1, ""))
                 raise unknown(place, problem, word, (*vehicle.hubs, *vehicle.tires))
-        return tires
+        return tuple(tires)
 
 
 def load_scenario(name_or_path: str | PathLike[str]) -> Scenario:
@@ -139,15 +154,31 @@ def _check(scenario: Scenario, tree: Branch) -> None:
         raise tree.place.error("nothing works the throttle", "hold, throttle or a recording")
     for event in spec.blowouts:
         _check_event(scenario, event)
+    if spec.reaction and spec.reaction.when:
+        _check_when(scenario, "reaction.when", spec.reaction.when)
     _check_steering(scenario)
     _check_tables(scenario)
 
 
 def _check_event(scenario: Scenario, event: str) -> None:
-    spec, place = scenario.spec, scenario.places[f"blowouts.{event}.time_s"]
-    time_s = spec.blowouts[event].time_s
+    spec, found = scenario.spec, scenario.spec.blowouts[event]
+    timed = not math.isnan(found.time_s)
+    if timed == (found.when is not None):
+        raise scenario.places[f"blowouts.{event}"].error(
+            "has a time_s and a when" if timed else "says neither when nor at what time_s",
+            "one of: time_s, when")
+    if found.when is not None:
+        _check_when(scenario, f"blowouts.{event}.when", found.when)
+        return
+    time_s, place = found.time_s, scenario.places[f"blowouts.{event}.time_s"]
     if not spec.start_s <= time_s <= spec.end_s:
         raise _outside(spec, time_s, place)
+
+
+def _check_when(scenario: Scenario, key: str, when: WhenSpec) -> None:
+    if all(math.isnan(value) for value in vars(when).values()):
+        raise scenario.places[key].error("asks for nothing",
+                                         f"one or more of: {', '.join(rules(WhenSpec))}")
 
 
 def _outside(spec: ScenarioSpec, time_s: float, place: Place) -> InputError:
@@ -182,6 +213,8 @@ def _check_tables(scenario: Scenario) -> None:
     if spec.steering and spec.steering.table:
         table = spec.steering.table
         _check_table(scenario, "steering.table", table.time_s, table.angle_rad, "angles")
+    if spec.hold:
+        _check_hold(scenario, spec.hold)
     if spec.throttle:
         _check_table(scenario, "throttle", spec.throttle.time_s, spec.throttle.opening, "openings")
         if max(spec.throttle.opening) > 1.0:
@@ -192,6 +225,15 @@ def _check_tables(scenario: Scenario) -> None:
         if pressure:
             _check_table(scenario, f"brakes.{circuit}", pressure.time_s, pressure.pressure_pa,
                          "pressures")
+
+
+def _check_hold(scenario: Scenario, hold: HoldSpec) -> None:
+    if (hold.profile is not None) == ("hold.speed_mps" in scenario.places):
+        raise scenario.places["hold"].error("needs one speed or one profile",
+                                            "one of: speed_mps, profile")
+    if hold.profile:
+        _check_table(scenario, "hold.profile", hold.profile.time_s, hold.profile.speed_mps,
+                     "speeds")
 
 
 def _check_table(scenario: Scenario, key: str, times: Sequence[float], values: Sequence[float],

@@ -10,8 +10,10 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+from truck_blowout_sim.simulation.pilot import REACT_STEERING, REACT_THROTTLE
 from truck_blowout_sim.vehicle.fields import (
     at_least_zero,
+    choice,
     number,
     numbers,
     positive,
@@ -90,10 +92,20 @@ class ThrottleSpec:
 
 
 @dataclass(frozen=True, kw_only=True)
+class SpeedProfileSpec:
+    """Speed over time, linear between the points, held outside."""
+
+    time_s: tuple[float, ...] = numbers("times of the points, increasing")
+    speed_mps: tuple[float, ...] = numbers("speeds there", low=0.0)
+
+
+@dataclass(frozen=True, kw_only=True)
 class HoldSpec:
     """Speed held with the throttle; afterwards the throttle table rules."""
 
-    speed_mps: float = at_least_zero("speed to hold")
+    speed_mps: float = at_least_zero("speed to hold, where there is no profile", default=0.0)
+    profile: SpeedProfileSpec | None = section(
+        SpeedProfileSpec, "speed to hold over time", optional=True)
     until_s: float = number("up to this time", infinite=True, default=math.inf)
     gain_spm: float = positive("throttle per speed error", default=0.5)
     integral_pm: float = at_least_zero("throttle per distance lost", default=0.1)
@@ -117,11 +129,49 @@ class BrakesSpec:
 
 
 @dataclass(frozen=True, kw_only=True)
-class BlowoutEventSpec:
-    """Tires that burst at one instant."""
+class WhenSpec:
+    """A condition: met at the first instant at which everything it asks for is true."""
 
-    time_s: float = number("instant")
-    tires: str = text("tires or hubs, joined by +")
+    after_s: float = number("not before this time", default=math.nan)
+    speed_below_mps: float = at_least_zero("tractor slower than this", default=math.nan)
+    speed_above_mps: float = at_least_zero("tractor faster than this", default=math.nan)
+    x_past_m: float = number("tractor's center of gravity beyond this x of map", default=math.nan)
+    distance_m: float = at_least_zero("so far driven since the start", default=math.nan)
+    yaw_rate_above_radps: float = at_least_zero(
+        "tractor turns faster than this, to either side", default=math.nan)
+
+
+@dataclass(frozen=True, kw_only=True)
+class BlowoutEventSpec:
+    """Tires that burst at one instant: at a time, or when a condition is met."""
+
+    time_s: float = number("instant; this or `when`", default=math.nan)
+    when: WhenSpec | None = section(WhenSpec, "condition it waits for", optional=True)
+    delay_s: float = at_least_zero("so long after the condition is met", default=0.0)
+    tires: str = text("tires or hubs, joined by +, or none")
+
+
+@dataclass(frozen=True, kw_only=True)
+class ReactionSpec:
+    """What the driver does once a tire has burst; until then hands and feet stay as they are."""
+
+    when: WhenSpec | None = section(
+        WhenSpec, "condition the driver reacts to; the first burst where it is not given",
+        optional=True)
+    time_s: float = number(
+        "reaction time: from burst or condition to the driver's first action; .inf: none, ever",
+        low=0.0, infinite=True, default=1.0)
+    steering: str = choice(
+        "goes on steering as the scenario says, or holds the hand wheel where it is",
+        REACT_STEERING, default="as_before")
+    throttle: str = choice(
+        "as the scenario says, lifted, or used to hold the speed of the burst",
+        REACT_THROTTLE, default="as_before")
+    throttle_over_s: float = at_least_zero("time over which the throttle is lifted", default=0.3)
+    brake_pa: float = at_least_zero("control pressure of all circuits; 0: no braking", default=0.0)
+    brake_delay_s: float = at_least_zero(
+        "from the driver's first action to the brake pedal", default=0.2)
+    brake_over_s: float = at_least_zero("time over which the pressure rises", default=0.3)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -138,4 +188,6 @@ class ScenarioSpec:
     throttle: ThrottleSpec | None = section(ThrottleSpec, "throttle", optional=True)
     hold: HoldSpec | None = section(HoldSpec, "speed held", optional=True)
     brakes: BrakesSpec | None = section(BrakesSpec, "brakes", optional=True)
+    reaction: ReactionSpec | None = section(
+        ReactionSpec, "what the driver does about a burst", optional=True)
     blowouts: Mapping[str, BlowoutEventSpec] = sections(BlowoutEventSpec, "what bursts, by name")

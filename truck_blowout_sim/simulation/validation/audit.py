@@ -47,7 +47,7 @@ class Audit:
 
 def audit(packed: Packed, drive: Drive) -> Audit:
     """Run a drive, the closed-loop driver's inputs replayed, and balance every step."""
-    _, inputs = execute(packed, drive)
+    inputs = execute(packed, drive).inputs
     topo, params = packed.topology, packed.params.copy()
     x = initial_vector(packed, drive.initial, drive.step_s)
     slots = topo[TOPOLOGY.state_tire_at] + drive.blown * len(TIRE_S) + TIRE_S.blown_time_s
