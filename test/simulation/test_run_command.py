@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 
+from truck_blowout_sim.cli.main import main
 from truck_blowout_sim.recordings import read_recording
 
 
@@ -66,10 +67,13 @@ def test_csv_values_and_blowouts_of_ones_own(tmp_path: Path) -> None:
     (("fishhook", "--format", "xls"), "expected bag or csv"),
     (("fishhook", "--step-s", "1"), "step_s is 1.0"),
 ])
-def test_bad_usage_is_one_line_and_leaves_nothing(tmp_path: Path, words: tuple[str, ...], line: str
-                                                  ) -> None:
-    done = run(*words, cwd=tmp_path)
-    assert done.returncode == 2
-    assert done.stderr.count("\n") == 1
-    assert line in done.stderr
+def test_bad_usage_is_one_line_and_leaves_nothing(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str],
+    words: tuple[str, ...], line: str
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert main(["run", *words]) == 2
+    said = capsys.readouterr().err
+    assert said.count("\n") == 1
+    assert line in said
     assert list(tmp_path.iterdir()) == []

@@ -7,6 +7,7 @@ A verb declares ``force: bool = FORCE`` and ``as_json: bool = JSON`` among its p
 from __future__ import annotations
 
 import os
+import sys
 from collections.abc import Iterable, Mapping, Sequence
 from os import PathLike
 from pathlib import Path
@@ -20,6 +21,28 @@ FORCE: Any = typer.Option(False, "--force", help="Replace what already exists at
 JSON: Any = typer.Option(
     False, "--json", help="Print the result as one JSON object instead of text."
 )
+
+YES: Any = typer.Option(
+    False, "--yes", help="Simulate implausible input without asking, as 300 deg of road wheel."
+)
+
+
+def ask_about(problems: Sequence[str], yes: bool) -> None:
+    """Ask a person whether to go on in spite of problems; a pipe is refused.
+
+    Args:
+        problems: clauses; empty: nothing to ask.
+        yes: the user has said so already (`--yes`).
+
+    Raises:
+        InputError: nobody can be asked, or the answer was no.
+    """
+    if not problems or yes:
+        return
+    words = f"no truck does this: {'; '.join(problems)}"
+    if not sys.stdin.isatty() or not typer.confirm(f"{words}. Simulate it all the same?",
+                                                   err=True):
+        raise InputError(words, expected="plausible input, or --yes to simulate it all the same")
 
 
 def claim(output: str | PathLike[str], *, force: bool = False,

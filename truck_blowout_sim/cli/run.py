@@ -10,12 +10,15 @@ import typer
 from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 
-from truck_blowout_sim.cli.outputs import FORCE, claim
+from truck_blowout_sim.cli.outputs import FORCE, JSON, YES, ask_about, claim, say
 from truck_blowout_sim.cli.settings import parse_blowouts, set_values
 from truck_blowout_sim.errors import InputError, quoted
-from truck_blowout_sim.recordings import Recording, write_recording
-from truck_blowout_sim.simulation.run import simulate
-from truck_blowout_sim.simulation.scenario import Scenario, load_scenario
+from truck_blowout_sim.recordings import write_recording
+from truck_blowout_sim.simulation.drive import Drive, Ran, execute
+from truck_blowout_sim.simulation.measures import measure
+from truck_blowout_sim.simulation.plausible import implausible
+from truck_blowout_sim.simulation.run import prepare, recorded
+from truck_blowout_sim.simulation.scenario import load_scenario
 from truck_blowout_sim.simulation.summary import summarize
 from truck_blowout_sim.vehicle import Packed, load_vehicle, pack
 
@@ -41,7 +44,9 @@ def command(
     form: str = typer.Option("bag", "--format", help="bag or csv."),
     step_s: float = typer.Option(0.001, help="Step [s]."),
     rate_hz: float = typer.Option(100.0, help="Rate of the recording [Hz]."),
+    yes: bool = YES,
     force: bool = FORCE,
+    as_json: bool = JSON,
 ) -> None:
     """Simulate a scenario without ROS, faster than real time, and write a bag."""
     if form not in _SUFFIX:
@@ -54,30 +59,41 @@ def command(
     if form == "csv" and target.suffix != ".csv":
         target = target.with_name(f"{target.name}.csv")
     claim(target, force=force, inputs=[loaded.path, truck.vehicle.path])
-    recording, factor = _run(truck, loaded, step_s, rate_hz)
+    packed, drive, blowouts = prepare(truck, loaded, step_s=step_s, rate_hz=rate_hz)
+    ask_about(implausible(packed, drive), yes)
+    ran, factor = _run(packed, drive, loaded.name)
+    recording = recorded(packed, drive, ran, blowouts, loaded)
     write_recording(recording, target)
     for note in recording.notes:
         typer.echo(f"note: {note}", err=True)
-    typer.echo(summarize(recording))
-    typer.echo(f"{target}: {len(recording.channels)} channels, {recording.start_s:g} s to "
-               f"{recording.end_s:g} s, {factor:.0f} times faster than real time")
+    result = {
+        "output": str(target), "scenario": loaded.name, "vehicle": packed.vehicle.name,
+        "start_s": recording.start_s, "end_s": recording.end_s, "summary": summarize(recording),
+        "blowouts": [{"time_s": b.time_s, "tires": b.tires} for b in recording.blowouts],
+        "measures": measure(packed, drive, ran, loaded.spec.lane_width_m).as_row(),
+    }
+    say(as_json, result, [
+        str(result["summary"]),
+        f"{target}: {len(recording.channels)} channels, {recording.start_s:g} s to "
+        f"{recording.end_s:g} s, {factor:.0f} times faster than real time"])
 
 
-def _run(truck: Packed, scenario: Scenario, step_s: float, rate_hz: float
-         ) -> tuple[Recording, float]:
+def _run(packed: Packed, drive: Drive, name: str) -> tuple[Ran, float]:
     """The run, and simulated seconds a wall second; loading of compiled code is not counted."""
     marks: list[tuple[float, float]] = []
-    bar = Progress(TextColumn(scenario.name), BarColumn(), TimeRemainingColumn(),
+    bar = Progress(TextColumn(name), BarColumn(), TimeRemainingColumn(),
                    console=Console(stderr=True), transient=True,
                    disable=not sys.stderr.isatty())
     with bar:
-        task = bar.add_task(scenario.name, total=1.0)
+        task = bar.add_task(name, total=1.0)
 
         def show(share: float) -> None:
             marks.append((perf_counter(), share))
             bar.update(task, completed=share)
 
-        recording = simulate(truck, scenario, step_s=step_s, rate_hz=rate_hz, progress=show)
+        ran = execute(packed, drive, show)
+    if len(marks) < 2:
+        return ran, 0.0
     (start, done), (end, share) = marks[0], marks[-1]
-    seconds = (share - done) * (scenario.spec.end_s - scenario.spec.start_s)
-    return recording, seconds / max(end - start, 1e-9)
+    seconds = (share - done) * len(drive.inputs) * drive.step_s
+    return ran, seconds / max(end - start, 1e-9)

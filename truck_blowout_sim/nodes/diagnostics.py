@@ -10,6 +10,7 @@ from rclpy.node import Node
 
 from truck_blowout_sim.nodes.clock import NS, PaceMeter
 from truck_blowout_sim.nodes.inputs import Input
+from truck_blowout_sim.simulation.ending import NOT_FINITE, Ending
 
 OK, WARN, ERROR = DiagnosticStatus.OK, DiagnosticStatus.WARN, DiagnosticStatus.ERROR
 
@@ -92,11 +93,13 @@ def recorder_status(name: str, values: Mapping[str, str]) -> DiagnosticStatus:
     return status(name, OK, words, values)
 
 
-def state_status(name: str, finite: bool, blown: Sequence[str]) -> DiagnosticStatus:
-    """Whether the model's state is finite, and which tires are blown."""
-    values = {"finite": str(finite).lower(), "blown": " ".join(blown)}
-    if not finite:
-        return status(name, ERROR, "state is not finite: stopped; call reset", values)
+def state_status(name: str, ending: Ending | None, blown: Sequence[str]) -> DiagnosticStatus:
+    """Whether the truck can go on, and which tires are blown."""
+    finite, over = ending is None or ending.kind != NOT_FINITE, ending and ending.rolled_over
+    values = {"finite": str(finite).lower(), "rolled_over": ending.unit if ending and over else "",
+              "blown": " ".join(blown)}
+    if ending is not None:
+        return status(name, ERROR, f"{ending.words}: stopped; call reset", values)
     return status(name, OK, "state is finite", values)
 
 

@@ -55,7 +55,7 @@ class Reporter:
             ),
             diagnostics.inputs_status(f"{name}: inputs", plant.bank.inputs, plant.now_ns),
             diagnostics.recorder_status(f"{name}: recorder", simulator.recorder.state),
-            diagnostics.state_status(f"{name}: state", plant.truck.finite, plant.truck.blown),
+            diagnostics.state_status(f"{name}: state", plant.truck.ending, plant.truck.blown),
             diagnostics.clock_status(f"{name}: clock", self._node, following),
         ]  # fmt: skip
         if not self._warned and entries[-1].level == diagnostics.WARN:

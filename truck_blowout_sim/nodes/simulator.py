@@ -126,9 +126,9 @@ class Simulator:
         if self.clock:
             self.clock.publish(self.plant.now_ns)
         self.outputs.publish()
-        if not self.plant.truck.finite:
+        if ending := self.plant.truck.ending:
             self.paused = True
-            self.log.fatal("the state is not finite any more: stopped; call reset")
+            self.log.fatal(f"{ending.words} at {self.plant.now_ns / NS:.3f} s: stopped; call reset")
 
     def close(self) -> None:
         """Finish the bag."""
@@ -158,8 +158,8 @@ class Simulator:
 
     def resume(self) -> Reply:
         """Let time run."""
-        if not self.plant.truck.finite:
-            return False, "the state is not finite: call reset first"
+        if ending := self.plant.truck.ending:
+            return False, f"{ending.words}: call reset first"
         if self.paused and isinstance(self.pace, FollowPace):
             self.followed.rejoin()
         self.paused = False

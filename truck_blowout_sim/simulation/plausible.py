@@ -42,20 +42,6 @@ def implausible(packed: Packed, drive: Drive) -> tuple[str, ...]:
     return tuple(found)
 
 
-def refuse_implausible(packed: Packed, drive: Drive, how: str) -> None:
-    """Refuse what no truck does.
-
-    Args:
-        how: how to run it all the same.
-
-    Raises:
-        InputError: names everything that is implausible.
-    """
-    if found := implausible(packed, drive):
-        raise InputError(f"no truck does this: {'; '.join(found)}",
-                         expected=f"plausible input, or {how}")
-
-
 class DivergedError(InputError):
     """A run that left the range of the model: no result. Says the instant and likeliest cause."""
 

@@ -45,16 +45,15 @@ def simulate(vehicle: Vehicle | Packed, scenario: Scenario | str | PathLike[str]
     """
     loaded = scenario if isinstance(scenario, Scenario) else load_scenario(scenario)
     packed, drive, blowouts = prepare(vehicle, loaded, step_s=step_s, rate_hz=rate_hz)
-    return run_prepared(packed, drive, blowouts, loaded, progress=progress)
+    return recorded(packed, drive, execute(packed, drive, progress), blowouts, loaded)
 
 
-def run_prepared(packed: Packed, drive: Drive, blowouts: tuple[Blowout, ...], scenario: Scenario, *,
-                 progress: Progress | None = None) -> Recording:
-    """Run what `prepare` gave for a scenario; see `simulate`."""
-    ran = execute(packed, drive, progress)
+def recorded(packed: Packed, drive: Drive, ran: Ran, blowouts: tuple[Blowout, ...],
+             scenario: Scenario) -> Recording:
+    """The recording of what `prepare` gave for a scenario and `execute` ran; see `simulate`."""
     metadata = {"scenario": scenario.name, "title": scenario.title}
-    return as_recording(scenario.name, packed, replace(drive, inputs=ran.inputs), ran,
-                        burst(packed, drive, ran, blowouts), metadata)
+    return as_recording(scenario.name, packed, drive, ran, burst(packed, drive, ran, blowouts),
+                        metadata)
 
 
 def burst(packed: Packed, drive: Drive, ran: Ran, timed: tuple[Blowout, ...]

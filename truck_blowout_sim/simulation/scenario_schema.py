@@ -184,6 +184,8 @@ class ScenarioSpec:
     start: StartSpec | None = section(StartSpec, "how the truck starts", optional=True)
     recording: str = text("a recording that drives what is not said below", default="")
     road: str = text("a road file instead of the vehicle's", default="")
+    lane_width_m: float = positive(
+        "lane whose edges count in the measures of a run; 12 ft, AASHTO", default=3.66)
     steering: SteeringSpec | None = section(SteeringSpec, "hand wheel", optional=True)
     throttle: ThrottleSpec | None = section(ThrottleSpec, "throttle", optional=True)
     hold: HoldSpec | None = section(HoldSpec, "speed held", optional=True)

@@ -8,7 +8,6 @@ from numpy.typing import NDArray
 from truck_blowout_sim.recordings import Recording
 from truck_blowout_sim.vehicle.units import MILE_PER_HOUR_MPS
 
-_ROLLED_OVER_RAD = 0.7
 _STANDING_MPS = 0.05
 
 
@@ -41,6 +40,8 @@ def _yaw(recording: Recording) -> str:
     peak = int(np.argmax(np.abs(rate.value)))
     side = "left" if rate.value[peak] > 0.0 else "right"
     size = abs(np.degrees(rate.value[peak]))
+    if size < 0.05:
+        return "no yaw"
     return f"yaw rate at most {size:.1f} deg/s to the {side}, at {rate.time_s[peak]:.1f} s"
 
 
@@ -49,17 +50,13 @@ def _place(recording: Recording) -> str:
     x, y = recording["tractor_x_m"].value, recording["tractor_y_m"].value
     yaw = recording["tractor_yaw_rad"].value[0]
     off = np.cos(yaw) * (y[-1] - y[0]) - np.sin(yaw) * (x[-1] - x[0])
+    if abs(off) < 0.05:
+        return "ended on the line it started on"
     side = "left" if off > 0.0 else "right"
     return f"ended {abs(off):.1f} m {side} of the line it started on"
 
 
 def _rolled_over(recording: Recording) -> list[str]:
-    words = []
-    for unit in ("tractor", "trailer"):
-        if f"{unit}_roll_rad" not in recording:
-            continue
-        roll = recording[f"{unit}_roll_rad"]
-        over = np.flatnonzero(np.abs(roll.value) > _ROLLED_OVER_RAD)
-        if over.size:
-            words.append(f"the {unit} rolled over at {roll.time_s[over[0]]:.1f} s")
-    return words
+    if unit := recording.metadata.get("rolled_over_unit"):
+        return [f"the {unit} rolled over at {float(recording.metadata['rolled_over_s']):.2f} s"]
+    return []

@@ -9,6 +9,7 @@ from truck_blowout_sim.errors import InputError, quoted
 from truck_blowout_sim.physics.layout import GLOBAL_S, N_WORK, TIRE_S, TOPOLOGY
 from truck_blowout_sim.physics.observe import observe, output_names
 from truck_blowout_sim.physics.step import advance
+from truck_blowout_sim.simulation.ending import Ending, ending_of, rolled_over_rad
 from truck_blowout_sim.simulation.equilibrium import InitialState, initial_vector
 from truck_blowout_sim.simulation.inputs import Inputs
 from truck_blowout_sim.vehicle import Packed, Vehicle, pack
@@ -40,6 +41,7 @@ class Truck:
         self._start = initial_vector(self.packed, self.initial, step_s)
         self.state = self._start.copy()
         self._steps = 0
+        self._rolls = rolled_over_rad(self.packed)
 
     @property
     def time_s(self) -> float:
@@ -50,6 +52,11 @@ class Truck:
     def finite(self) -> bool:
         """False once the core met a non-finite acceleration."""
         return bool(self.state[GLOBAL_S.nonfinite] == 0.0)
+
+    @property
+    def ending(self) -> Ending | None:
+        """Why the truck cannot go on: rolled over, out of the model's range; None while it can."""
+        return ending_of(self.state, self.packed, self._rolls, self.time_s)
 
     def advance(self, inputs: Inputs, n_steps: int = 1) -> None:
         """Advance ``n_steps`` steps with ``inputs`` held."""
