@@ -10,6 +10,7 @@ PACKAGE = "truck_blowout_sim"
 ROOT = Path(__file__).resolve().parent
 VERBS = (
     "run", "import", "export", "compare", "diagnose", "prove", "recover", "validate", "vehicle",
+    "view", "plot",
 )
 NODES = ("simulator", "player", "lane_keeper", "urdf")
 
@@ -55,7 +56,7 @@ setup(
     python_requires=">=3.10",
     packages=find_packages(include=[PACKAGE, f"{PACKAGE}.*", "proving_ground", "proving_ground.*"]),
     package_data={
-        PACKAGE: ["py.typed", "*/templates/*"],
+        PACKAGE: ["py.typed", "*/templates/*", "report/viewer/assets/*", "report/viewer/vendor/*"],
         "proving_ground": ["*.yaml", "sealed/*"],
     },
     data_files=[

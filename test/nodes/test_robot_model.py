@@ -10,10 +10,10 @@ import pytest
 from numpy.typing import NDArray
 
 from truck_blowout_sim import InitialState, Inputs, Truck, load_vehicle
-from truck_blowout_sim.nodes.geometry import hub_places
 from truck_blowout_sim.nodes.outputs import GROUPS, OutputTable
 from truck_blowout_sim.nodes.urdf import urdf_of
 from truck_blowout_sim.recordings.encoder import RowEncoder
+from truck_blowout_sim.vehicle.places import hub_places
 
 ROOT = Path(__file__).resolve().parents[2]
 NAME = "international_9400i_trailmobile"

@@ -26,6 +26,7 @@ VERBS: dict[str, tuple[str, str]] = {
     "diagnose": ("diagnose", "Locate, name and fit what the model lacks to explain recordings."),
     "prove": ("prove", "Run the concealed-effect benchmark and write its table."),
     "vehicle": ("vehicle", "Show loads, handling and what was filled in of a vehicle file."),
+    "view": ("view", "Show the truck of a run moving in 3-D, in one HTML file."),
     "recover": ("recover", "Make a bag readable again whose writer was killed."),
     "validate": ("validate", "Measure the model against the published figures of the test."),
 }

@@ -15,9 +15,9 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from truck_blowout_sim.nodes.geometry import HubPlace, hub_places
 from truck_blowout_sim.recordings.channels import JOINT_STATE, Channel, Place
 from truck_blowout_sim.vehicle import Vehicle
+from truck_blowout_sim.vehicle.places import HubPlace, hub_places
 
 FloatArray = NDArray[np.float64]
 

@@ -13,8 +13,8 @@ from std_msgs.msg import ColorRGBA
 from visualization_msgs.msg import Marker, MarkerArray
 
 from truck_blowout_sim.nodes.clock import NS
-from truck_blowout_sim.nodes.geometry import HubPlace, hub_places
 from truck_blowout_sim.vehicle import Vehicle
+from truck_blowout_sim.vehicle.places import HubPlace, hub_places
 
 METERS_PER_NEWTON = 1.0 / 20000.0
 """Length of an arrow: 1 m for 20 kN."""

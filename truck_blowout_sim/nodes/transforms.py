@@ -11,10 +11,10 @@ from numpy.typing import NDArray
 from rclpy.node import Node
 
 from truck_blowout_sim.nodes.clock import NS
-from truck_blowout_sim.nodes.geometry import hitch_of
 from truck_blowout_sim.nodes.qos import event, publisher, reliable
 from truck_blowout_sim.recordings.angles import quaternion
 from truck_blowout_sim.vehicle import Vehicle
+from truck_blowout_sim.vehicle.places import hitch_of
 
 
 def tf_message_class() -> type[Any] | None:

@@ -12,9 +12,9 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from truck_blowout_sim.errors import InputError
-from truck_blowout_sim.nodes.geometry import HubPlace, hitch_of, hub_places
 from truck_blowout_sim.nodes.simulator_parameters import DEFAULT_VEHICLE
 from truck_blowout_sim.vehicle import Vehicle, load_vehicle
+from truck_blowout_sim.vehicle.places import HubPlace, hitch_of, hub_places
 
 _COLORS = {"tractor": "0.15 0.30 0.55 1", "trailer": "0.80 0.80 0.78 1", "tire": "0.08 0.08 0.08 1"}
 _BODY_HEIGHT_M = {"tractor": 2.6, "trailer": 2.7}

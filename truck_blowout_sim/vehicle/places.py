@@ -1,4 +1,4 @@
-"""Where the parts of a vehicle are, in the frames that are published.
+"""Where the parts of a vehicle are, in the frames of its units.
 
 x forward, y left, z up from a unit's `base_link`; the vehicle file measures x rearward from the
 unit's origin and z from the road.
@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from truck_blowout_sim.vehicle import Vehicle
+from truck_blowout_sim.vehicle.vehicle import Vehicle
 
 
 @dataclass(frozen=True)

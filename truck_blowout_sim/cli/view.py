@@ -1,0 +1,108 @@
+"""`truck-blowout view`: the truck moving in three dimensions, as one HTML file or a film."""
+
+from __future__ import annotations
+
+import sys
+import webbrowser
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import typer
+from rich.console import Console
+from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
+
+from truck_blowout_sim.cli.outputs import FORCE, JSON, claim, say
+from truck_blowout_sim.cli.shown_runs import read_runs, vehicle_of
+from truck_blowout_sim.errors import InputError, nearest, quoted
+from truck_blowout_sim.recordings import Recording
+
+if TYPE_CHECKING:
+    from truck_blowout_sim.report.viewer import RunToShow
+
+_VIEWS = ("chase", "front left", "front right", "side", "top", "driver")
+
+
+def command(
+    runs: list[str] = typer.Argument(
+        help="Bags, .mcap, .csv or .mat files, or the name of a shipped recording. The first run"
+        " is drawn solid, further ones as ghosts or side by side."
+    ),
+    output: Path | None = typer.Option(
+        None, "-o", "--output", help="HTML file to write; the first run's name by default."
+    ),
+    vehicle: str | None = typer.Option(
+        None, help="Vehicle file to draw, by name or path; by default the one the run names."
+    ),
+    video: Path | None = typer.Option(
+        None, help="Film to write too, .mp4; needs ffmpeg and Chromium or Chrome."
+    ),
+    camera: str = typer.Option("chase", help=f"Camera of the film: {', '.join(_VIEWS)}."),
+    start_s: float | None = typer.Option(None, "--start", help="Start of the film, s."),
+    end_s: float | None = typer.Option(None, "--end", help="End of the film, s."),
+    speed: float = typer.Option(1.0, min=0.01, max=100.0,
+                                help="Seconds of the run per second of the film."),
+    dark: bool = typer.Option(False, "--dark", help="Film in dark colors."),
+    open_page: bool = typer.Option(False, "--open", help="Open the page in the browser."),
+    force: bool = FORCE,
+    as_json: bool = JSON,
+) -> None:
+    """Show the truck moving in 3-D: one HTML file that needs neither server nor network.
+
+    Example: truck-blowout view out/steer_axle_blowout test_2013_steer_blowout -o both.html
+    """
+    from truck_blowout_sim.report.viewer import write_viewer
+
+    _check_view(camera)
+    recordings = read_runs(runs)
+    target = claim(output or Path(f"{Path(runs[0].rstrip('/')).stem}.html"), force=force,
+                   inputs=runs)
+    if video is not None:
+        if video.suffix != ".mp4":
+            raise InputError(f"--video {quoted(str(video))}", expected="a name that ends in .mp4")
+        claim(video, force=force, inputs=runs)
+    shown = [_shown(recording, vehicle) for recording in recordings]
+    write_viewer(shown, target)
+    result = {
+        "page": str(target), "bytes": target.stat().st_size, "runs": [r.name for r in recordings],
+        "assumptions": {one.recording.name: list(one.motion.assumptions) for one in shown},
+        "video": None if video is None else str(video),
+    }
+    lines = [f"{target}: {', '.join(r.name for r in recordings)}, {target.stat().st_size / 1e6:.1f}"
+             " MB, opens from the disk in any browser"]
+    lines += [f"{one.recording.name}: {words}"
+              for one in shown for words in one.motion.assumptions]
+    if video is not None:
+        pictures = _film(target, video, camera, start_s, end_s, speed, dark)
+        lines.append(f"{video}: {pictures} pictures")
+    say(as_json, result, lines)
+    if open_page:
+        webbrowser.open(target.resolve().as_uri())
+
+
+def _check_view(camera: str) -> None:
+    if camera not in _VIEWS:
+        raise InputError(f"--camera {quoted(camera)}", expected=nearest(camera, _VIEWS))
+
+
+def _shown(recording: Recording, wanted: str | None) -> RunToShow:
+    from truck_blowout_sim.motion import motion_of
+    from truck_blowout_sim.report.viewer import RunToShow
+
+    vehicle, guess = vehicle_of(recording, wanted)
+    motion = motion_of(recording, vehicle)
+    if guess:
+        motion = replace(motion, assumptions=(guess, *motion.assumptions))
+    return RunToShow(recording, motion, vehicle)
+
+
+def _film(page: Path, video: Path, camera: str, start_s: float | None, end_s: float | None,
+          speed: float, dark: bool) -> int:
+    from truck_blowout_sim.report.viewer.film import Film, write_film
+
+    bar = Progress(TextColumn(f"filming {video.name}"), BarColumn(), TimeRemainingColumn(),
+                   console=Console(stderr=True), transient=True, disable=not sys.stderr.isatty())
+    with bar:
+        task = bar.add_task("", total=1.0)
+        film = Film(view=camera, start_s=start_s, end_s=end_s, speed=speed, dark=dark)
+        return write_film(page, video, film, lambda share: bar.update(task, completed=share))
