@@ -2,10 +2,10 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+import trial_faults as faults
+from trial_drive import make_run
 
 from truck_blowout_sim.diagnosis.sensors import correct, sensor_gate
-from truck_blowout_sim.diagnosis.sensors import trial_faults as faults
-from truck_blowout_sim.diagnosis.sensors.trial_drive import make_run
 
 RUN = make_run(30, 12.0)
 

@@ -2,8 +2,9 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+import trial_faults as faults
+from trial_drive import make_run
 
-from truck_blowout_sim.diagnosis.sensors import trial_faults as faults
 from truck_blowout_sim.diagnosis.sensors.distortions import (
     Bias,
     Delay,
@@ -14,7 +15,6 @@ from truck_blowout_sim.diagnosis.sensors.distortions import (
     Turn,
 )
 from truck_blowout_sim.diagnosis.sensors.identities import channel_names
-from truck_blowout_sim.diagnosis.sensors.trial_drive import make_run
 
 EXACT = make_run(4, 12.0, noise=0.0)
 N = channel_names("tractor")

@@ -5,11 +5,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import trial_faults as faults
+from trial_drive import make_run
 
 from truck_blowout_sim import read_recording
 from truck_blowout_sim.diagnosis.sensors import correct, sensor_gate
-from truck_blowout_sim.diagnosis.sensors import trial_faults as faults
-from truck_blowout_sim.diagnosis.sensors.trial_drive import make_run
 from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.recordings import Recording, Series
 

@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import pytest
+from trial_drive import METADATA, make_run
 
 from truck_blowout_sim import load_vehicle
 from truck_blowout_sim.diagnosis.sensors import (
@@ -9,7 +10,6 @@ from truck_blowout_sim.diagnosis.sensors import (
     stated_geometry,
     vehicle_geometry,
 )
-from truck_blowout_sim.diagnosis.sensors.trial_drive import METADATA, make_run
 from truck_blowout_sim.recordings import Recording
 
 

@@ -2,8 +2,9 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from trial_drive import make_run
 
-from truck_blowout_sim.diagnosis.sensors import stated_geometry
+from truck_blowout_sim.diagnosis.sensors import sensor_gate, stated_geometry
 from truck_blowout_sim.diagnosis.sensors.case import make_case
 from truck_blowout_sim.diagnosis.sensors.hubs import free_rolling
 from truck_blowout_sim.diagnosis.sensors.identities import (
@@ -14,7 +15,6 @@ from truck_blowout_sim.diagnosis.sensors.identities import (
 from truck_blowout_sim.diagnosis.sensors.signals import Signals, read_signals
 from truck_blowout_sim.diagnosis.sensors.slow import hitch_position, yaw_closure
 from truck_blowout_sim.diagnosis.sensors.system import assemble
-from truck_blowout_sim.diagnosis.sensors.trial_drive import make_run
 from truck_blowout_sim.diagnosis.sensors.windows import make_windows
 from truck_blowout_sim.recordings import Blowout, Series
 
@@ -96,5 +96,29 @@ def test_missing_channels_drop_their_identities_only() -> None:
     assert {i.name for i in rows.identities} == {
         "tractor lateral acceleration", "tractor longitudinal acceleration", "tractor roll rate",
         "tractor pitch rate", "trailer heading rate", "trailer roll rate", "trailer pitch rate",
-        "tractor hub speeds",
+        "tractor hub speeds", "tractor speed against position",
     }  # fmt: skip
+
+
+def test_speed_is_held_against_positions_where_no_lateral_speed_was_recorded() -> None:
+    lean = make_run(60, 15.0).only_channels(["tractor_x_m", "tractor_y_m", "tractor_vx_mps"])
+    assert sensor_gate([lean]).clean
+    fast = lean.with_channels({"tractor_vx_mps": Series(lean["tractor_vx_mps"].time_s,
+                                                        1.03 * lean["tractor_vx_mps"].value)})
+    (finding,) = sensor_gate([fast]).findings
+    assert finding.name == "speed_scale"
+    assert finding.parameters["scale_error"].value == pytest.approx(0.03, abs=0.004)
+
+
+def test_the_articulation_angle_is_held_against_both_yaw_rates() -> None:
+    run = make_run(61, 15.0)
+    time_s = run["tractor_yaw_rad"].time_s
+    bend = run["trailer_yaw_rad"].value - run["tractor_yaw_rad"].value
+    rates = run.only_channels(["tractor_yaw_rate_radps", "trailer_yaw_rate_radps"])
+    rates = rates.with_channels({"articulation_rad": Series(time_s, bend)})
+    assert sensor_gate([rates]).clean
+    gyro = rates["tractor_yaw_rate_radps"]
+    spoilt = rates.with_channels({"tractor_yaw_rate_radps": Series(time_s, gyro.value + 0.01)})
+    (finding,) = sensor_gate([spoilt]).findings
+    assert finding.name == "yaw_rate_bias"
+    assert set(finding.alternatives) or finding.body == "tractor"

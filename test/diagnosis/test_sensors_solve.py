@@ -2,14 +2,14 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+import trial_faults as faults
 from scipy.stats import chi2 as chi2_law
+from trial_drive import make_run
 
-from truck_blowout_sim.diagnosis.sensors import trial_faults as faults
 from truck_blowout_sim.diagnosis.sensors.case import Case, Hypothesis, make_case
 from truck_blowout_sim.diagnosis.sensors.judgement import admissible, family_p
 from truck_blowout_sim.diagnosis.sensors.solve import noise_inflation, refine, solve
 from truck_blowout_sim.diagnosis.sensors.system import assemble, normal_equations
-from truck_blowout_sim.diagnosis.sensors.trial_drive import make_run
 
 
 def hypothesis(case: Case, name: str, instrument: str, *, everywhere: bool = True) -> Hypothesis:

@@ -2,10 +2,10 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+import trial_faults as faults
+from trial_drive import make_run
 
 from truck_blowout_sim.diagnosis.sensors import sensor_gate
-from truck_blowout_sim.diagnosis.sensors import trial_faults as faults
-from truck_blowout_sim.diagnosis.sensors.trial_drive import make_run
 
 WHEEL = "steering_wheel_angle_rad"
 RUNS = [make_run(40 + k, 12.0, steer=0.3) for k in range(3)]

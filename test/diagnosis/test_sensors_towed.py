@@ -2,9 +2,10 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+import trial_faults as faults
+from trial_drive import make_run
 
 from truck_blowout_sim.diagnosis.sensors import sensor_gate, stated_geometry
-from truck_blowout_sim.diagnosis.sensors import trial_faults as faults
 from truck_blowout_sim.diagnosis.sensors.signals import read_signals
 from truck_blowout_sim.diagnosis.sensors.towed import (
     BEND,
@@ -13,7 +14,6 @@ from truck_blowout_sim.diagnosis.sensors.towed import (
     hitch_force,
     with_reckoned,
 )
-from truck_blowout_sim.diagnosis.sensors.trial_drive import make_run
 from truck_blowout_sim.diagnosis.sensors.windows import make_windows
 from truck_blowout_sim.recordings import Recording
 

@@ -2,11 +2,11 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from trial_drive import METADATA, make_run
 
 from truck_blowout_sim.diagnosis.sensors.case import make_case
 from truck_blowout_sim.diagnosis.sensors.rows import whiten
 from truck_blowout_sim.diagnosis.sensors.system import assemble, normal_equations
-from truck_blowout_sim.diagnosis.sensors.trial_drive import METADATA, make_run
 from truck_blowout_sim.diagnosis.sensors.windows import make_windows
 from truck_blowout_sim.recordings import Recording, Series
 

@@ -2,9 +2,9 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from trial_drive import make_run
 
 from truck_blowout_sim.diagnosis.sensors.catalogue import candidates
-from truck_blowout_sim.diagnosis.sensors.trial_drive import make_run
 from truck_blowout_sim.diagnosis.sensors.words import equation, next_test, sentence
 
 CANDIDATES = candidates(set(make_run(1, 3.0).channels))

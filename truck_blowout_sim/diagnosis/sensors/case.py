@@ -15,10 +15,16 @@ from truck_blowout_sim.diagnosis.sensors.geometry import Geometry, stated_geomet
 from truck_blowout_sim.diagnosis.sensors.hubs import hub_identity, rolling_radii
 from truck_blowout_sim.diagnosis.sensors.identities import (
     Identity,
+    articulation_identities,
     body_identities,
     hitch_identities,
 )
 from truck_blowout_sim.diagnosis.sensors.noise import Noise, believable, channel_noise
+from truck_blowout_sim.diagnosis.sensors.path import (
+    distance_name,
+    path_identities,
+    with_distance,
+)
 from truck_blowout_sim.diagnosis.sensors.signals import Signals, read_signals
 from truck_blowout_sim.diagnosis.sensors.towed import hitch_force, with_reckoned
 from truck_blowout_sim.recordings import Recording
@@ -95,7 +101,9 @@ def make_case(
 ) -> Case:
     """Read the recordings and list what to ask."""
     everything = [*recordings, *baseline]
-    signals = tuple(with_reckoned(read_signals(recording)) for recording in everything)
+    signals = tuple(
+        with_distance(with_reckoned(read_signals(recording))) for recording in everything
+    )
     lengths = stated_geometry(everything, geometry)
     reference = signals[len(recordings) :] if baseline else signals
     radii = rolling_radii(reference, lengths)
@@ -108,7 +116,7 @@ def make_case(
         signals=signals,
         is_baseline=(False,) * len(recordings) + (True,) * len(baseline),
         noise=tuple(
-            believable(channel_noise(r.only_channels(list(s.values))))
+            _with_distance_noise(believable(channel_noise(r.only_channels(list(s.values)))))
             for r, s in zip(everything, signals, strict=True)
         ),
         geometry=lengths,
@@ -123,11 +131,19 @@ def make_case(
     )
 
 
+def _with_distance_noise(noise: Mapping[str, Noise]) -> Mapping[str, Noise]:
+    """The reckoned distance is as noisy as the positions that it is made of."""
+    return {**noise, **{distance_name(unit): noise[f"{unit}_x_m"]
+                        for unit in ("tractor", "trailer") if f"{unit}_x_m" in noise}}  # fmt: skip
+
+
 def asked(case: Case, signals: Signals) -> tuple[Identity, ...]:
     """Identities that a recording has the channels for."""
     found = [i for unit in ("tractor", "trailer") for i in body_identities(unit)]
     found += hitch_identities(case.geometry)
     found += hitch_force(signals, case.geometry)
+    found += articulation_identities()
+    found += path_identities(signals)
     kept = [i for i in found if i.available(signals)]
     for unit in ("tractor", "trailer"):
         hub = hub_identity(signals, unit, case.radii, case.geometry)

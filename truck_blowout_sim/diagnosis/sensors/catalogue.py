@@ -24,7 +24,7 @@ from truck_blowout_sim.diagnosis.sensors.distortions import (
     Scale,
     Turn,
 )
-from truck_blowout_sim.diagnosis.sensors.identities import channel_names
+from truck_blowout_sim.diagnosis.sensors.identities import ARTICULATION, channel_names
 from truck_blowout_sim.diagnosis.sensors.towed import ROLL
 
 _GYRO_RADPS = float(np.radians(0.006))
@@ -43,6 +43,8 @@ _HEIGHT_M = 0.5
 _HUB_DELAY_S = 0.02  # wheels follow the road with the tire's own lag
 _ROLL_LEAK = 0.02
 _RADIUS_KNOWN, _RADIUS_UNKNOWN = 0.0015, 0.05
+# A turning potentiometer at the kingpin: its zero is set by eye, its gain by its maker.
+_ARTICULATION_ZERO_RAD, _ARTICULATION_SCALE = float(np.radians(0.5)), 0.01
 _UNITS = ("tractor", "trailer")
 _TRAILER_FACTOR = 2.0
 
@@ -72,6 +74,13 @@ def imperfections(
                             and _hub_belongs(c, unit)))  # fmt: skip
         radius = _RADIUS_KNOWN if radius_known else _RADIUS_UNKNOWN
         found.append(Imperfection(Scale("rolling_radius", unit, f"{unit} hubs", hubs), (radius,)))
+    bend = (ARTICULATION,)
+    found += [
+        Imperfection(Bias("angle_bias", "", "articulation", bend, "bias", "rad"),
+                     (_ARTICULATION_ZERO_RAD,)),
+        Imperfection(Scale("articulation_scale", "", "articulation", bend), (_ARTICULATION_SCALE,)),
+        Imperfection(Delay("channel_delay", "", "articulation", bend), (_HUB_DELAY_S,)),
+    ]  # fmt: skip
     hubs = tuple(sorted(c for c in present if c.startswith("hub_speed_")))
     found.append(Imperfection(Delay("channel_delay", "", "hub speeds", hubs), (_HUB_DELAY_S,)))
     kept = [(i, _recorded(i.distortion, present)) for i in found]

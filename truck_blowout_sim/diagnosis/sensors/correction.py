@@ -10,6 +10,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from truck_blowout_sim.diagnosis.sensors.distortions import Convention
 from truck_blowout_sim.diagnosis.sensors.findings import SensorFinding
 from truck_blowout_sim.diagnosis.sensors.signals import read_signals
 from truck_blowout_sim.recordings import Recording, Series
@@ -27,12 +28,16 @@ def correct(recording: Recording, findings: Sequence[SensorFinding]) -> Recordin
     Returns:
         A copy; late channels keep their samples with earlier stamps, nothing is resampled.
     """
+    meant = [f for f in findings if isinstance(f.distortion, Convention)]
     late = [f for f in findings if f.name == "channel_delay"]
-    other = [f for f in findings if f.name != "channel_delay"]
+    other = [f for f in findings if f not in meant and f not in late]
+    for finding in meant:
+        assert isinstance(finding.distortion, Convention)
+        recording = finding.distortion.mended(recording)
     for finding in [*late, *other]:
         recording = _without(recording, finding)
     if findings:
-        said = "; ".join(f"{f.name} of {f.instrument} taken out" for f in [*late, *other])
+        said = "; ".join(f"{f.name} of {f.instrument} taken out" for f in [*meant, *late, *other])
         recording = recording.with_metadata(sensor_correction=said)
     return recording
 

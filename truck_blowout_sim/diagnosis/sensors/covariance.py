@@ -54,7 +54,7 @@ def noise_blocks(
         for channel, factor in identity.rates:
             i = names.index(channel)
             differentiated[a, i] = -factor * sigma[i]
-            if channel.endswith(("_x_m", "_y_m")):
+            if channel.endswith(("_x_m", "_y_m", "_distance_reckoned_m")):
                 wander_m = _WANDER_M[channel.split("_")[0]]
                 extra[a] = 2.0 * wander_m**2 / (_WANDER_S * windows.period_s)
     moved = np.where(valid[:, :, None], differentiated[None], 0.0)

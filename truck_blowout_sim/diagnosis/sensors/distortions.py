@@ -11,13 +11,14 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from truck_blowout_sim.diagnosis.sensors.identities import channel_names
-from truck_blowout_sim.diagnosis.sensors.signals import GRAVITY_MPS2
+from truck_blowout_sim.diagnosis.sensors.signals import GRAVITY_MPS2, Signals, stated_gravity
+from truck_blowout_sim.recordings import Recording, Series
 
 FloatArray = NDArray[np.float64]
 Reader = Callable[[str], FloatArray]
@@ -188,3 +189,74 @@ class LeverArm(Distortion):
         if channel == n["ay"]:
             return np.asarray(dr * x - dp * z - (r**2 + p**2) * y + p * q * x + q * r * z)
         return np.asarray(dp * y - dq * x - (p**2 + q**2) * z + p * r * x + q * r * y)
+
+
+@dataclass(frozen=True)
+class Convention(Distortion):
+    """Another meaning of a channel; there is no amount to estimate."""
+
+    @property
+    def parameters(self) -> tuple[tuple[str, str], ...]:
+        """None."""
+        return ()
+
+    def slope(self, index: int, channel: str, read: Reader, period_s: float) -> FloatArray:
+        """Never asked: without parameter there is no slope."""
+        raise LookupError(f"{self.name} has no parameter {index}")
+
+    @abstractmethod
+    def read(self, signals: Signals) -> Signals:
+        """The signals under this meaning."""
+
+    @abstractmethod
+    def mended(self, recording: Recording) -> Recording:
+        """The recording as the stated convention would have it."""
+
+
+@dataclass(frozen=True)
+class Sign(Convention):
+    """The channels are positive the other way."""
+
+    def read(self, signals: Signals) -> Signals:
+        """With the signs changed."""
+        return signals.with_values({c: -signals[c] for c in self.channels if c in signals})
+
+    def mended(self, recording: Recording) -> Recording:
+        """With the signs changed."""
+        return recording.with_channels({
+            c: Series(recording[c].time_s, -recording[c].value)
+            for c in self.channels if c in recording})  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Swap(Convention):
+    """Two channels are exchanged."""
+
+    def read(self, signals: Signals) -> Signals:
+        """Exchanged again."""
+        first, second = self.channels
+        if first not in signals or second not in signals:
+            return signals
+        return signals.with_values({first: signals[second], second: signals[first]})
+
+    def mended(self, recording: Recording) -> Recording:
+        """Exchanged again."""
+        first, second = self.channels
+        if first not in recording or second not in recording:
+            return recording
+        return recording.with_channels({first: recording[second], second: recording[first]})
+
+
+@dataclass(frozen=True)
+class GravityConvention(Convention):
+    """Accelerations said to be free of gravity are not, or the reverse."""
+
+    def read(self, signals: Signals) -> Signals:
+        """With gravity read where it was said to be removed, and the reverse."""
+        return replace(signals, gravity=1.0 - signals.gravity)
+
+    def mended(self, recording: Recording) -> Recording:
+        """With the statement in its metadata that holds."""
+        reads = stated_gravity(recording) > 0.0
+        held = "gravity removed" if reads else "strapdown: gravity included"
+        return recording.with_metadata(accelerometers=held)

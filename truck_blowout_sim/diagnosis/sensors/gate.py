@@ -16,11 +16,13 @@ from numpy.typing import NDArray
 
 from truck_blowout_sim.diagnosis.fit.quantiles import NINETY
 from truck_blowout_sim.diagnosis.sensors.case import Case, make_case, undone
+from truck_blowout_sim.diagnosis.sensors.conventions import FoundConvention, find_conventions
 from truck_blowout_sim.diagnosis.sensors.findings import Amount, GateResult, SensorFinding
-from truck_blowout_sim.diagnosis.sensors.geometry import Geometry
+from truck_blowout_sim.diagnosis.sensors.geometry import Geometry, stated_geometry
 from truck_blowout_sim.diagnosis.sensors.judgement import determined
 from truck_blowout_sim.diagnosis.sensors.residuals import broken_identities, identity_residuals
 from truck_blowout_sim.diagnosis.sensors.search import Found, SearchResult, applied, search
+from truck_blowout_sim.diagnosis.sensors.signals import read_signals
 from truck_blowout_sim.diagnosis.sensors.steering import steering_zero
 from truck_blowout_sim.diagnosis.sensors.words import equation, next_test, sentence
 from truck_blowout_sim.recordings import Recording
@@ -50,9 +52,11 @@ def sensor_gate(
     """
     if not recordings:
         raise ValueError("at least one recording is needed")
+    stated, recordings, baseline = _as_meant(recordings, baseline, geometry)
     case = make_case(recordings, baseline, geometry)
     result = search(case)
-    findings = [
+    findings = [*stated]
+    findings += [
         _finding(found, knows_roll=_has_roll(case, found.hypothesis.distortion.unit))
         for found in result.found
     ]
@@ -60,7 +64,9 @@ def sensor_gate(
         undone(s, applied(result.found), baseline=b)
         for s, b in zip(case.signals, case.is_baseline, strict=True)
     ]
-    zero, wheel, notes = steering_zero(signals, case.is_baseline, [*recordings, *baseline])
+    zero, wheel, notes = steering_zero(
+        signals, case.is_baseline, [*recordings, *baseline], case.geometry.steering_ratio
+    )
     if wheel is not None:
         findings.append(wheel)
     residuals = identity_residuals(result)
@@ -75,6 +81,42 @@ def sensor_gate(
         rows=result.rows,
         mounting=_mounting(case, result),
         notes=(*_notes(case), *notes),
+    )
+
+
+def _as_meant(
+    recordings: Sequence[Recording], baseline: Sequence[Recording], geometry: Geometry | None
+) -> tuple[list[SensorFinding], list[Recording], list[Recording]]:
+    """Signs, axes and gravity that are not as stated, and the recordings read as they are meant."""
+    everything = [*recordings, *baseline]
+    flags = [False] * len(recordings) + [True] * len(baseline)
+    found = find_conventions([read_signals(r) for r in everything], flags, everything,
+                             stated_geometry(everything, geometry))  # fmt: skip
+    runs, sound = list(recordings), list(baseline)
+    for one in found:
+        runs = [one.convention.mended(r) for r in runs]
+        sound = [one.convention.mended(r) for r in sound] if one.everywhere else sound
+    return [_convention(one) for one in found], runs, sound
+
+
+def _convention(found: FoundConvention) -> SensorFinding:
+    kind = found.convention
+    names = tuple(dict.fromkeys([kind.name, *(rival.name for rival in found.rivals)]))
+    return SensorFinding(
+        name=kind.name,
+        body=kind.unit,
+        instrument=kind.instrument,
+        channels=kind.channels,
+        parameters={},
+        delta_chi2=2.0 * found.log_ratio,
+        p_value=min(1.0, found.tests * float(np.exp(-found.log_ratio))),
+        aliases=names,
+        alternatives=tuple(f"{r.name} of {r.instrument}" for r in found.rivals),
+        in_baseline=found.everywhere,
+        sentence=sentence(kind, (), ()),
+        equation=equation(kind.name),
+        next_test=next_test(kind.name, names),
+        distortion=kind,
     )
 
 

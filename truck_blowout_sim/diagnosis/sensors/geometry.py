@@ -37,6 +37,7 @@ class Geometry:
         trailer_behind_kingpin_m: trailer instruments behind the kingpin; ``None`` if not stated.
         trailer_height_m: trailer instruments above the road.
         track_m: track of each axle by name (the hub's name without its side).
+        steering_ratio: hand-wheel angle per road-wheel angle.
     """
 
     hitch_behind_steer_m: float = 5.50
@@ -46,6 +47,7 @@ class Geometry:
     trailer_behind_kingpin_m: float | None = None
     trailer_height_m: float = 1.20
     track_m: Mapping[str, float] = field(default_factory=dict)
+    steering_ratio: float = 22.0
 
     @property
     def knows_hitch(self) -> bool:
@@ -85,11 +87,13 @@ def vehicle_geometry(vehicle: Vehicle) -> Geometry:
     front_m = min(axle.x_m for axle in axles.values() if axle.unit == "tractor")
     track_m = {name: axle.track_m for name, axle in axles.items()}
     tractor_m = tractor.base_link.x_m - front_m
+    ratio = vehicle.spec.steering.ratio if vehicle.spec.steering else Geometry.steering_ratio
     if tractor.hitch is None or trailer is None or trailer.hitch is None:
         return Geometry(
             tractor_behind_steer_m=tractor_m,
             tractor_height_m=tractor.base_link.z_m,
             track_m=track_m,
+            steering_ratio=ratio,
         )
     return Geometry(
         hitch_behind_steer_m=tractor.hitch.x_m - front_m,
@@ -99,6 +103,7 @@ def vehicle_geometry(vehicle: Vehicle) -> Geometry:
         trailer_behind_kingpin_m=trailer.base_link.x_m - trailer.hitch.x_m,
         trailer_height_m=trailer.base_link.z_m,
         track_m=track_m,
+        steering_ratio=ratio,
     )
 
 

@@ -23,6 +23,7 @@ from truck_blowout_sim.diagnosis.sensors.geometry import Geometry
 from truck_blowout_sim.diagnosis.sensors.signals import GRAVITY_MPS2, Signals
 
 FloatArray = NDArray[np.float64]
+ARTICULATION = "articulation_rad"
 Algebraic = Callable[[Signals], FloatArray]
 
 
@@ -127,6 +128,28 @@ def hitch_identities(geometry: Geometry) -> tuple[Identity, ...]:
             "hitch velocity sideways", "m/s", "v_tractor + w x l = v_trailer + w x l (sideways)",
             needs, uses, lambda s: difference(s, 1), (), 0.002),
     )  # fmt: skip
+
+
+def articulation_identities() -> tuple[Identity, ...]:
+    """The articulation angle against the headings, or against the yaw rates, of both units."""
+    a, b = _names("tractor"), _names("trailer")
+    return (
+        Identity(
+            "articulation against headings", "rad", "articulation = yaw_trailer - yaw_tractor",
+            (ARTICULATION, a["yaw"], b["yaw"]), (),
+            lambda s: np.asarray(_wrapped(s[ARTICULATION] - s[b["yaw"]] + s[a["yaw"]])),
+            (), 1e-4),
+        Identity(
+            "articulation rate", "rad/s", "d(articulation)/dt = r_trailer - r_tractor",
+            (ARTICULATION, a["r"], b["r"]), (a["roll"], a["pitch"], a["q"], b["roll"], b["pitch"],
+                                             b["q"]),
+            lambda s: np.asarray(_heading_rate(s, b) - _heading_rate(s, a)),
+            ((ARTICULATION, 1.0),), 1e-4),
+    )  # fmt: skip
+
+
+def _wrapped(angle: FloatArray) -> FloatArray:
+    return np.asarray((angle + np.pi) % (2.0 * np.pi) - np.pi)
 
 
 def with_kinematic_accelerations(smooth: Signals) -> Signals:

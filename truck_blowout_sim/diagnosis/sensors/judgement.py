@@ -18,11 +18,14 @@ FloatArray = NDArray[np.float64]
 # A rival within this of the best sum of squares cannot be told from it (odds of about 90 to 1).
 ALIAS_CHI2 = 9.0
 _PER_PARAMETER = 2.0  # what a parameter must earn when hypotheses of different size compete
+# Beyond these a "correction" would erase the channel it corrects, and every residual with it.
+_FARTHEST = {"rad/s": 0.5, "scale_error": 0.5, "roll_leak": 2.0, "s": 0.6, "m": 10.0}
 _NEVER_ALONE = ("_x_m", "_y_m", "_vx_mps", "_vy_mps", "_roll_rad", "_pitch_rad")
 _ODD = 6.0
 _CLEAR = 3.0  # standard errors
 _WILDEST_SCALE = 0.45
 _NEAREST_M = 0.18  # a tape measure errs less
+_AT_BOUND = 0.98  # of what a parameter can be: the search's end, not the instrument's
 _FARTHEST_M = {"forward": 3.0, "left": 1.5, "up": 3.0}  # nobody errs by more; the body ends before
 
 
@@ -38,12 +41,27 @@ def admissible(hypothesis: Hypothesis, amounts: Sequence[float]) -> bool:
     Nothing arrives early, no gain is off by half, nothing sits beside the truck.
     """
     kind = hypothesis.distortion
+    if at_bound(hypothesis, amounts):
+        return False
     if isinstance(kind, Delay):
         return amounts[0] > 0.0
     if isinstance(kind, LeverArm):
         inside = all(abs(a) < _FARTHEST_M[d] for d, a in zip(kind.directions, amounts, strict=True))
         return inside and max(abs(a) for a in amounts) > _NEAREST_M
     return not isinstance(kind, Scale) or abs(amounts[0]) < _WILDEST_SCALE
+
+
+def farthest(hypothesis: Hypothesis) -> FloatArray:
+    """How far the search follows each parameter."""
+    return np.array([
+        _FARTHEST[name if name in _FARTHEST else si_unit]
+        for name, si_unit in hypothesis.distortion.parameters
+    ])  # fmt: skip
+
+
+def at_bound(hypothesis: Hypothesis, amounts: Sequence[float]) -> bool:
+    """Whether a parameter was stopped by the end of the search: then it is no estimate."""
+    return bool(np.any(np.abs(np.array(amounts)) >= _AT_BOUND * farthest(hypothesis)))
 
 
 def determined(amounts: Sequence[float], sigmas: FloatArray) -> list[int]:

@@ -23,7 +23,7 @@ FloatArray = NDArray[np.float64]
 GRAVITY_MPS2 = 9.81
 _SMOOTH_S = 0.08
 _MAX_GAP_FACTOR = 2.5
-_ASKED = ("tractor_", "trailer_", "hub_speed_", "brake_pressure_")
+_ASKED = ("tractor_", "trailer_", "hub_speed_", "brake_pressure_", "articulation_")
 _WIENER_BINS = 9
 _WIENER_MARGIN = 2.0
 
@@ -148,6 +148,14 @@ def read_signals(recording: Recording) -> Signals:
         gravity=stated_gravity(recording),
         blown_since_s=_blown_hubs(recording),
     )
+
+
+def read_wheel(signals: Signals, recording: Recording) -> FloatArray | None:
+    """The hand-wheel angle on the grid of the signals; None where it was not recorded."""
+    wheel = "steering_wheel_angle_rad"
+    if wheel not in recording or len(recording[wheel]) < 2:
+        return None
+    return np.asarray(recording.at(wheel, signals.time_s), dtype=np.float64)
 
 
 def stated_gravity(recording: Recording) -> float:

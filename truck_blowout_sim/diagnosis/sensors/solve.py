@@ -14,6 +14,7 @@ from scipy.linalg import cho_factor, cho_solve
 
 from truck_blowout_sim.diagnosis.sensors.case import Applied, Case, Hypothesis
 from truck_blowout_sim.diagnosis.sensors.distortions import Distortion
+from truck_blowout_sim.diagnosis.sensors.judgement import farthest
 from truck_blowout_sim.diagnosis.sensors.rows import Rows
 from truck_blowout_sim.diagnosis.sensors.system import Normal, System, assemble, normal_equations
 
@@ -21,8 +22,6 @@ FloatArray = NDArray[np.float64]
 
 # How large a fault of each kind could conceivably be; keeps undetermined directions finite.
 _CONCEIVABLE = {"rad/s": 0.1, "1": 1.0, "s": 0.5, "m": 3.0}
-# Beyond these a "correction" would erase the channel it corrects, and every residual with it.
-_FARTHEST = {"rad/s": 0.5, "scale_error": 0.5, "roll_leak": 2.0, "s": 0.6, "m": 10.0}
 # Correlation of a normal error between the baseline runs and the others: it may change by its
 # own size from one day to the next.
 _REPEATS = 0.5
@@ -114,11 +113,8 @@ def refine(
 
 def _held(hypothesis: Hypothesis, amounts: FloatArray) -> FloatArray:
     """Amounts kept within what an instrument can do."""
-    limits = [
-        _FARTHEST[name if name in _FARTHEST else si_unit]
-        for name, si_unit in hypothesis.distortion.parameters
-    ]
-    return np.asarray(np.clip(amounts, -np.array(limits), np.array(limits)), dtype=np.float64)
+    limits = farthest(hypothesis)
+    return np.asarray(np.clip(amounts, -limits, limits), dtype=np.float64)
 
 
 def noise_inflation(system: System) -> dict[str, float]:

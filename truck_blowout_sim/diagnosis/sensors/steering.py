@@ -38,8 +38,9 @@ _SMOOTH_S = 0.2
 _STRIDE_S = 0.25
 _BRAKE_FREE_PA = 8000.0
 _SLOWEST_MPS = 4.0
-_SCATTER_RAD = float(np.radians(1.4))  # between runs of one sound truck, from play and wander
-_NORMAL_ZERO_RAD = float(np.radians(1.1))  # 0.05 deg at the road wheel, ratio 22
+# At the road wheels; the hand wheel shows them times the ratio.
+_SCATTER_RAD = float(np.radians(0.064))  # between runs of one sound truck, from play and wander
+_NORMAL_ZERO_RAD = float(np.radians(0.05))  # toe and straight-ahead setting of a sound axle
 _SIGNIFICANT = 4.0
 _SAME_STANCE_RAD = float(np.radians(0.15))
 _LEAST_SAMPLES = 8
@@ -57,7 +58,8 @@ class _Run:
 
 
 def steering_zero(
-    signals: Sequence[Signals], is_baseline: Sequence[bool], recordings: Sequence[Recording]
+    signals: Sequence[Signals], is_baseline: Sequence[bool], recordings: Sequence[Recording],
+    ratio: float = 22.0,
 ) -> tuple[SteeringZero | None, SensorFinding | None, tuple[str, ...]]:
     """Estimate the hand-wheel zero and say whether its sensor is to blame.
 
@@ -65,6 +67,7 @@ def steering_zero(
         signals: corrected for other sensor faults.
         is_baseline: flag of each.
         recordings: the same, for the hand wheel itself.
+        ratio: hand-wheel angle per road-wheel angle.
 
     Returns:
         The zero, a finding if it is far off, and notes.
@@ -80,7 +83,7 @@ def steering_zero(
     offsets = _intercepts([run.wheel for run in runs], [run.motion for run in runs])
     here = [offsets[k] for k, run in enumerate(runs) if not run.is_baseline]
     there = [offsets[k] for k, run in enumerate(runs) if run.is_baseline]
-    scatter = _scatter(here, there)
+    scatter = _scatter(ratio, here, there)
     zero = SteeringZero(
         offset_rad=float(np.mean(here)),
         sigma_rad=scatter / float(np.sqrt(len(here))),
@@ -88,29 +91,29 @@ def steering_zero(
         baseline_sigma_rad=scatter / float(np.sqrt(len(there))) if there else None,
         by_recording={run.name: float(o) for run, o in zip(runs, offsets, strict=True)},
     )
-    finding, notes = _judge(zero, runs)
+    finding, notes = _judge(zero, runs, ratio)
     return zero, finding, notes
 
 
-def _scatter(*groups: Sequence[float]) -> float:
+def _scatter(ratio: float, *groups: Sequence[float]) -> float:
     """Scatter of the zero between runs of one kind: at least the usual one.
 
     A sensor is off by the same angle in every run; where runs disagree, the truck is at fault.
     """
     squares = sum(float(np.sum(np.square(np.array(g) - np.mean(g)))) for g in groups if g)
     freedom = sum(len(g) - 1 for g in groups if g)
-    return max(_SCATTER_RAD, float(np.sqrt(squares / freedom)) if freedom else 0.0)
+    return max(ratio * _SCATTER_RAD, float(np.sqrt(squares / freedom)) if freedom else 0.0)
 
 
 def _judge(
-    zero: SteeringZero, runs: Sequence[_Run]
+    zero: SteeringZero, runs: Sequence[_Run], ratio: float
 ) -> tuple[SensorFinding | None, tuple[str, ...]]:
     if zero.baseline_rad is not None and zero.baseline_sigma_rad is not None:
         offset = zero.offset_rad - zero.baseline_rad
         sigma = float(np.hypot(zero.sigma_rad, zero.baseline_sigma_rad))
     else:
         offset = zero.offset_rad
-        sigma = float(np.hypot(zero.sigma_rad, _NORMAL_ZERO_RAD))
+        sigma = float(np.hypot(zero.sigma_rad, ratio * _NORMAL_ZERO_RAD))
     if abs(offset) < _SIGNIFICANT * sigma:
         return None, ()
     moved = _stance_change(runs)

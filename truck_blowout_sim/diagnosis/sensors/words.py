@@ -10,9 +10,12 @@ from collections.abc import Sequence
 import numpy as np
 
 from truck_blowout_sim.diagnosis.fit.quantiles import NINETY
-from truck_blowout_sim.diagnosis.sensors.distortions import Distortion
+from truck_blowout_sim.diagnosis.sensors.distortions import Convention, Distortion
 
 _EQUATIONS = {
+    "channel_sign": "measured = -true",
+    "channel_swap": "first_measured = second, second_measured = first",
+    "gravity_convention": "a_measured = a_stated +- g along the axis",
     "yaw_rate_bias": "r_measured = r + bias",
     "yaw_rate_scale": "r_measured = (1 + scale_error) r",
     "lateral_accel_scale": "ay_measured = (1 + scale_error) ay",
@@ -24,6 +27,9 @@ _EQUATIONS = {
 }
 
 _TESTS = {
+    "channel_sign": "turn left slowly by hand: which channels go up tells which are inverted",
+    "channel_swap": "tilt or turn the instrument about one axis at a time, standing",
+    "gravity_convention": "stand still on a slope: an accelerometer that reads gravity shows it",
     "yaw_rate_bias": "stand still or drive straight for 20 s: a bias stays, a gain error vanishes",
     "yaw_rate_scale": "turn a known angle (full circle): the integrated yaw rate shows the gain",
     "lateral_accel_scale": "steady circle at two speeds with roll angle recorded",
@@ -69,11 +75,16 @@ def sentence(
     where = distortion.instrument or "instrument"
     kept = range(len(amounts)) if shown_parameters is None else shown_parameters
     names = distortion.parameters
+    if isinstance(distortion, Convention):
+        return f"{_SAYINGS[distortion.name].format(where=where)}."
     shown = [f"{names[k][0]} {_shown(amounts[k], sigmas[k], names[k][1])}" for k in kept]
     return f"{_SAYINGS[distortion.name].format(where=where)}: {', '.join(shown)}."
 
 
 _SAYINGS = {
+    "channel_sign": "The {where} is recorded with the opposite sign",
+    "channel_swap": "The channels {where} are exchanged",
+    "gravity_convention": "The {where} do not treat gravity as the recording says",
     "yaw_rate_bias": "The {where} reads off by a constant",
     "yaw_rate_scale": "The {where} has a wrong gain",
     "lateral_accel_scale": "The {where} has a wrong gain",

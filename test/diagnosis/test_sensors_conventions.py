@@ -1,0 +1,87 @@
+"""Signs, exchanged channels and gravity: read off the log before anything else."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+from trial_drive import make_run
+from trial_faults import delayed
+
+from truck_blowout_sim.diagnosis.sensors import correct, sensor_gate
+from truck_blowout_sim.diagnosis.sensors.conventions import find_conventions
+from truck_blowout_sim.diagnosis.sensors.geometry import stated_geometry
+from truck_blowout_sim.diagnosis.sensors.signals import read_signals
+from truck_blowout_sim.recordings import Recording, Series
+
+RUN = make_run(20, 15.0)
+WHEEL = "steering_wheel_angle_rad"
+FEW = (WHEEL, "tractor_vx_mps", "tractor_yaw_rate_radps", "tractor_ay_mps2", "tractor_vy_mps")
+
+
+def inverted(*channels: str) -> Callable[[Recording], Recording]:
+    return lambda r: r.with_channels({c: Series(r[c].time_s, -r[c].value) for c in channels})
+
+
+def exchanged(first: str, second: str) -> Callable[[Recording], Recording]:
+    return lambda r: r.with_channels({first: r[second], second: r[first]})
+
+
+def gravity(r: Recording) -> Recording:
+    return r.with_metadata(accelerometers="gravity removed")
+
+
+def names(*runs: Recording) -> list[tuple[str, tuple[str, ...]]]:
+    found = find_conventions([read_signals(r) for r in runs], [False] * len(runs), runs,
+                             stated_geometry(runs))  # fmt: skip
+    return [(f.convention.name, f.convention.channels) for f in found]
+
+
+@pytest.mark.parametrize(("change", "name", "channels"), [
+    (inverted("tractor_yaw_rate_radps"), "channel_sign", ("tractor_yaw_rate_radps",)),
+    (inverted("trailer_ay_mps2"), "channel_sign", ("trailer_ay_mps2",)),
+    (inverted("tractor_vy_mps"), "channel_sign", ("tractor_vy_mps",)),
+    (inverted("tractor_roll_rad"), "channel_sign", ("tractor_roll_rad",)),
+    (inverted(WHEEL), "channel_sign", (WHEEL,)),
+    (exchanged("tractor_ax_mps2", "tractor_ay_mps2"), "channel_swap",
+     ("tractor_ax_mps2", "tractor_ay_mps2")),
+    (exchanged("tractor_yaw_rate_radps", "trailer_yaw_rate_radps"), "channel_swap",
+     ("tractor_yaw_rate_radps", "trailer_yaw_rate_radps")),
+])  # fmt: skip
+def test_a_reading_that_is_not_as_stated_is_named(
+    change: Callable[[Recording], Recording], name: str, channels: tuple[str, ...]
+) -> None:
+    assert names(change(RUN)) == [(name, channels)]
+
+
+def test_gravity_that_is_said_to_be_removed_and_is_not() -> None:
+    assert [name for name, _ in names(gravity(RUN))] == ["gravity_convention"]
+
+
+def test_with_few_channels_the_hand_wheel_decides_which_one_is_inverted() -> None:
+    few = RUN.only_channels(FEW)
+    assert names(inverted("tractor_yaw_rate_radps")(few)) == [
+        ("channel_sign", ("tractor_yaw_rate_radps",))
+    ]
+
+
+def test_a_sound_log_and_a_late_channel_are_left_as_they_are() -> None:
+    assert names(RUN) == []
+    assert names(delayed(["tractor_yaw_rate_radps"], 0.2)(RUN)) == []
+
+
+def test_two_faults_of_wiring_are_found_one_after_the_other() -> None:
+    both = inverted("tractor_yaw_rate_radps")(exchanged("trailer_ax_mps2", "trailer_ay_mps2")(RUN))
+    assert {name for name, _ in names(both)} == {"channel_sign", "channel_swap"}
+
+
+def test_the_gate_states_it_and_the_correction_undoes_it() -> None:
+    spoilt = inverted("tractor_yaw_rate_radps")(RUN.only_channels(FEW))
+    (finding,) = sensor_gate([spoilt]).findings
+    assert finding.name == "channel_sign"
+    assert "opposite sign" in finding.sentence
+    mended = correct(spoilt, [finding])
+    assert np.array_equal(mended["tractor_yaw_rate_radps"].value,
+                          RUN["tractor_yaw_rate_radps"].value)  # fmt: skip
+    assert "channel_sign" in mended.metadata["sensor_correction"]
