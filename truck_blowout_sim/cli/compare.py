@@ -11,16 +11,15 @@ from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 from rich.table import Table
 
-from truck_blowout_sim.cli.outputs import FORCE, claim
+from truck_blowout_sim.cli.outputs import FORCE, JSON, claim, say
+from truck_blowout_sim.errors import InputError
 
 if TYPE_CHECKING:
     from truck_blowout_sim.comparison import Comparison
 
-_SHOWN = (
-    "tractor_vx_mps", "tractor_vy_mps", "tractor_yaw_rate_radps", "trailer_yaw_rate_radps",
-    "tractor_along_m", "tractor_across_m", "tractor_roll_rad", "trailer_roll_rad",
+_NUMBERS = (
+    ("rms error", 11), ("peak error", 11), ("at", 8), ("noise σ", 7), ("lag", 8), ("ISO 18571", 14)
 )  # fmt: skip
-_NUMBERS = (("rms error", 11), ("peak error", 11), ("at", 8), ("noise σ", 7), ("ISO 18571", 14))
 
 
 def command(
@@ -47,30 +46,43 @@ def command(
         help="Make the model follow the recorded speed. By default only where throttle or a brake"
         " pressure was not recorded.",
     ),
+    no_model: bool = typer.Option(
+        False, "--no-model", help="Hold two recordings against each other, without a model."
+    ),
     force: bool = FORCE,
+    as_json: bool = JSON,
 ) -> None:
-    """Drive the model with a recording's inputs and report the differences."""
-    from truck_blowout_sim.comparison import compare
+    """Drive the model with a recording's inputs and report the differences.
+
+    Example: truck-blowout compare test.csv --vehicle my_truck.yaml -o comparison
+    """
+    from truck_blowout_sim.comparison import compare, compare_recordings, encode_comparison
     from truck_blowout_sim.report.comparison_page import DATA, PAGE, write_comparison_report
     from truck_blowout_sim.vehicle import load_vehicle
 
     console, loaded = _console(), load_vehicle(vehicle)
-    folders = _folders(recordings, output)
+    if no_model and len(recordings) != 2:
+        raise InputError(f"--no-model with {len(recordings)} recordings", expected="two of them")
+    folders = _folders(recordings[:1] if no_model else recordings, output)
     for folder in folders:
         claim(folder, inputs=recordings, force=force, writes=(PAGE, DATA))
-    for name, folder in zip(recordings, folders, strict=True):
+    for name, folder in zip(recordings, folders, strict=False):
         with _progress() as progress:
             task = progress.add_task("", total=1.0)
 
             def tell(stage: str, share: float) -> None:
                 progress.update(task, description=stage, completed=0.8 * share)  # noqa: B023
 
-            compared = compare(
-                name, loaded, step_s=step_s, impose_speed=impose_speed, progress=tell
-            )
+            compared = (
+                compare_recordings(*recordings, vehicle=loaded, progress=tell) if no_model
+                else compare(name, loaded, step_s=step_s, impose_speed=impose_speed,
+                             contrasted=True, progress=tell)
+            )  # fmt: skip
             progress.update(task, description="drawing", completed=0.8)
             page = write_comparison_report(compared, folder)
-        _print(console, compared, page)
+        say(as_json, encode_comparison(compared), ())
+        if not as_json:
+            _print(console, compared, page)
 
 
 def _folders(recordings: list[str], output: Path) -> list[Path]:
@@ -105,16 +117,21 @@ def _print(console: Console, compared: Comparison, page: Path) -> None:
     table.add_column("channel")
     for title, width in _NUMBERS:
         table.add_column(title, justify="right", no_wrap=True, min_width=width)
-    for channel in (c for c in compared.channels if c.name in _SHOWN):
+    for channel in compared.channels:
         sigma = "" if channel.rms_sigma is None else f"{channel.rms_sigma:.1f}"
         rating = channel.rating
         score = f"{rating.overall:.2f} {rating.grade}" if rating and not channel.imposed else ""
         table.add_row(
             channel.label + (" (imposed)" if channel.imposed else ""),
             channel.shown(channel.rms), channel.shown(channel.peak),
-            f"{channel.peak_time_s:.2f} s", sigma, score,
+            f"{channel.peak_time_s:.2f} s", sigma, _lag(channel.lag_s), score,
         )  # fmt: skip
     console.print(table)
     for note in compared.notes:
         console.print(f"note: {note}", style="dim", highlight=False, soft_wrap=True)
     console.print(f"{page} ({len(compared.channels)} channels)", highlight=False, soft_wrap=True)
+
+
+def _lag(lag_s: float | None) -> str:
+    """How late the record is, where a shift makes both alike."""
+    return "" if lag_s is None else f"{lag_s:+.2f} s"

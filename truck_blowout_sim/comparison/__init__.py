@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from truck_blowout_sim.comparison.comparing import Comparison, compare
+from truck_blowout_sim.comparison.comparing import Comparison, compare, compare_recordings
 from truck_blowout_sim.comparison.errors import ChannelError
 from truck_blowout_sim.comparison.iso18571 import Rating, rate
 from truck_blowout_sim.comparison.result_json import encode_comparison, write_comparison
@@ -13,6 +13,7 @@ __all__ = [
     "Comparison",
     "Rating",
     "compare",
+    "compare_recordings",
     "encode_comparison",
     "rate",
     "verdict",

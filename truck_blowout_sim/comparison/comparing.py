@@ -15,10 +15,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from truck_blowout_sim.comparison.contrast import Contrast, contrast
 from truck_blowout_sim.comparison.errors import ChannelError, channel_error
 from truck_blowout_sim.comparison.noise import channel_sigmas
 from truck_blowout_sim.comparison.pairing import Pair, gravity_is_removed, pairs_of
 from truck_blowout_sim.comparison.provenance import Marks, marks_of
+from truck_blowout_sim.comparison.resets import longest_run
 from truck_blowout_sim.comparison.sources import find_recording
 from truck_blowout_sim.comparison.words import labels_for
 from truck_blowout_sim.errors import InputError
@@ -43,6 +45,8 @@ class Comparison:
         channels: errors in the order of the channel table.
         marks: for a record rebuilt from text, what each sample is (by channel); else empty.
         notes: what was assumed on the way.
+        contrast: what other vehicles reach on the same record; None where it was not asked for.
+        against: what the record is held against, in words: the model, or another recording.
     """
 
     recording: Recording
@@ -53,6 +57,8 @@ class Comparison:
     channels: tuple[ChannelError, ...]
     marks: Mapping[str, Marks]
     notes: tuple[str, ...]
+    contrast: Contrast | None = None
+    against: str = "the model"
 
     def __getitem__(self, name: str) -> ChannelError:
         return next(channel for channel in self.channels if channel.name == name)
@@ -79,7 +85,7 @@ class Comparison:
 
 def compare(recording: Recording | str | os.PathLike[str],
             vehicle: Vehicle | Packed | str | os.PathLike[str] = DEFAULT_VEHICLE, *,
-            step_s: float = 0.001, impose_speed: bool | None = None,
+            step_s: float = 0.001, impose_speed: bool | None = None, contrasted: bool = False,
             progress: Progress | None = None) -> Comparison:  # fmt: skip
     """Drive a vehicle's model with a recording's inputs and report the differences.
 
@@ -89,6 +95,7 @@ def compare(recording: Recording | str | os.PathLike[str],
         step_s: step of the simulation [s].
         impose_speed: make the model follow the recorded speed; ``None``: only where throttle or a
             brake pressure was not recorded.
+        contrasted: also drive other vehicles, to see whether the rating tells vehicles apart.
         progress: called with what is being done and the share that is done, 0 to 1.
 
     Raises:
@@ -98,6 +105,7 @@ def compare(recording: Recording | str | os.PathLike[str],
     packed = _packed(vehicle)
     tell("reading", 0.0)
     recording, marks = _recording(recording, packed.vehicle)
+    recording = longest_run(recording)
     tell("simulating", 0.1)
     drive = drive_from(recording, packed.vehicle, step_s=step_s, impose_speed=impose_speed)
     model = as_recording(f"{recording.name} (simulated)", packed, drive, execute(packed, drive),
@@ -108,9 +116,40 @@ def compare(recording: Recording | str | os.PathLike[str],
         raise InputError("no output channel to compare", file=recording.name,
                          expected="at least one of " + ", ".join(list(model.channels)[:12]))
     channels = _errors(recording, packed.vehicle, pairs, imposed, tell)
+    tell("contrasting", 0.9)
+    others = (contrast(recording, pairs, packed.vehicle.name, impose_speed) if contrasted
+              else None)  # fmt: skip
     tell("done", 1.0)
     return Comparison(recording, model, packed.vehicle, imposed, pairs, channels, marks,
-                      _notes(recording, model))  # fmt: skip
+                      _notes(recording, model), others)  # fmt: skip
+
+
+def compare_recordings(first: Recording | str | os.PathLike[str],
+                       second: Recording | str | os.PathLike[str], *,
+                       vehicle: Vehicle | str | os.PathLike[str] = DEFAULT_VEHICLE,
+                       progress: Progress | None = None) -> Comparison:  # fmt: skip
+    """Hold two recordings against each other, on the clock they share, without a model.
+
+    Args:
+        first: what counts as measured.
+        second: what is held against it.
+        vehicle: names the hubs and tires.
+        progress: called with what is being done and the share that is done, 0 to 1.
+
+    Raises:
+        InputError: unreadable files, or no output channel in common at common times.
+    """
+    tell = progress or _silent
+    loaded = vehicle if isinstance(vehicle, Vehicle) else load_vehicle(vehicle)
+    (one, marks), (other, _) = _recording(first, loaded), _recording(second, loaded)
+    pairs = pairs_of(one, other)
+    if not pairs:
+        raise InputError(f"no output channel in common with {other.name}", file=one.name,
+                         expected="a channel that both recorded at common times")
+    channels = _errors(one, loaded, pairs, False, tell)
+    tell("done", 1.0)
+    return Comparison(one, other, loaded, False, pairs, channels, marks, one.notes + other.notes,
+                      None, other.name)  # fmt: skip
 
 
 def _errors(recording: Recording, vehicle: Vehicle, pairs: Mapping[str, Pair], imposed: bool,
@@ -121,7 +160,7 @@ def _errors(recording: Recording, vehicle: Vehicle, pairs: Mapping[str, Pair], i
     order = {name: k for k, name in enumerate(labels)}
     found = []
     for k, name in enumerate(sorted(pairs, key=lambda n: order.get(n, len(order)))):
-        tell("measuring " + labels.get(name, name), 0.4 + 0.6 * k / len(pairs))
+        tell("measuring " + labels.get(name, name), 0.4 + 0.5 * k / len(pairs))
         follows = imposed and name == "tractor_vx_mps"
         found.append(channel_error(pairs[name], labels.get(name, name),
                                    sigmas.get(name), imposed=follows))  # fmt: skip

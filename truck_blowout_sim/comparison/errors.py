@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from truck_blowout_sim.comparison.iso18571 import Rating, rate
+from truck_blowout_sim.comparison.lag import best_lag_s
 from truck_blowout_sim.comparison.noise import Sigma
 from truck_blowout_sim.comparison.pairing import Pair
 from truck_blowout_sim.comparison.units import DisplayUnit
@@ -39,6 +40,7 @@ class ChannelError:
         final: error at the last instant.
         noise: noise of the channel, ``None`` where none is stated or visible.
         rating: after ISO/TS 18571; ``None`` where the measurement has no shape to rate.
+        lag_s: how much later the record is than the model; None where no shift makes them alike.
         imposed: the model was made to follow this channel, so its error says nothing.
     """
 
@@ -54,16 +56,25 @@ class ChannelError:
     noise: Sigma | None
     rating: Rating | None
     imposed: bool = False
+    lag_s: float | None = None
 
     @property
     def rms_sigma(self) -> float | None:
-        """Rms error in units of the channel's noise; 1 is all that noise explains."""
-        return None if self.noise is None else self.rms / self.noise.value
+        """Rms error in units of the instrument's stated noise; 1 is all that noise explains.
+
+        None where the recording states none: what its samples scatter by may be the truck.
+        """
+        return None if self._instrument is None else self.rms / self._instrument
 
     @property
     def peak_sigma(self) -> float | None:
-        """Size of the peak in units of the channel's noise."""
-        return None if self.noise is None else abs(self.peak) / self.noise.value
+        """Size of the peak in units of the instrument's stated noise."""
+        return None if self._instrument is None else abs(self.peak) / self._instrument
+
+    @property
+    def _instrument(self) -> float | None:
+        known = self.noise is not None and self.noise.source == "stated"
+        return self.noise.value if known and self.noise is not None else None
 
     def shown(self, value: float) -> str:
         """A value of this channel as a person reads it, three significant digits and the unit."""
@@ -86,8 +97,9 @@ def channel_error(pair: Pair, label: str, noise: Sigma | None, *, imposed: bool 
         peak_time_s=float(pair.time_s[peak]),
         final=float(error[-1]),
         noise=noise,
-        rating=_rating(pair, noise),
+        rating=rating_of(pair, noise),
         imposed=imposed,
+        lag_s=best_lag_s(pair),
     )
 
 
@@ -97,7 +109,7 @@ def shortened(value: float) -> str:
     return f"{value:.0f}" if "e+" in text else text
 
 
-def _rating(pair: Pair, noise: Sigma | None) -> Rating | None:
+def rating_of(pair: Pair, noise: Sigma | None = None) -> Rating | None:
     """Rating on an even grid, ``None`` for a channel that only shows its noise."""
     spread = float(np.ptp(pair.measured))
     if spread <= (0.0 if noise is None else 2 * _SIGNAL_OVER_NOISE * noise.value):

@@ -11,6 +11,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from truck_blowout_sim.comparison.contrast import Contrast
 from truck_blowout_sim.comparison.errors import ChannelError
 from truck_blowout_sim.comparison.iso18571 import Rating
 from truck_blowout_sim.comparison.plain_json import json_text
@@ -47,6 +48,8 @@ def encode_comparison(comparison: Comparison) -> Object:
             for event in comparison.recording.blowouts
         ],
         "mean_rating": comparison.mean_rating,
+        "against": comparison.against,
+        "contrast": _contrast(comparison.contrast) if comparison.contrast else None,
         "channels": {channel.name: _channel(channel) for channel in comparison.channels},
         "rebuilt": {
             name: {mark: marks.share(mark) for mark in ("stated", "derived", "interpolated")}
@@ -69,6 +72,7 @@ def _channel(channel: ChannelError) -> Object:
         "final": channel.final,
         "noise_sigma": channel.noise.value if channel.noise else None,
         "noise_source": channel.noise.source if channel.noise else None,
+        "lag_s": channel.lag_s,
         "rms_sigma": channel.rms_sigma,
         "peak_sigma": channel.peak_sigma,
         "display": {
@@ -78,6 +82,11 @@ def _channel(channel: ChannelError) -> Object:
         },
         "iso_18571": _rating(channel.rating) if channel.rating else None,
     }
+
+
+def _contrast(contrast: Contrast) -> Object:
+    return {"rating": contrast.rating, "others": dict(contrast.others),
+            "channels": list(contrast.channels), "separates": contrast.separates}  # fmt: skip
 
 
 def _rating(rating: Rating) -> Object:

@@ -14,6 +14,9 @@ if TYPE_CHECKING:
     from truck_blowout_sim.comparison.comparing import Comparison
     from truck_blowout_sim.comparison.errors import ChannelError
 
+SIDEWAYS_KEY = "lateral_direction"  # metadata: the record had to choose a side
+NOTICED_LAG_S = 0.1  # a driver's hand or a valve takes as long; instruments are faster
+
 _SHORT = {
     "hub_speed": "spin speed",
     "tire_pressure": "tire pressure",
@@ -52,8 +55,8 @@ def verdict(comparison: Comparison) -> str:
         worst = max(comparison.channels, key=lambda c: c.rms_sigma or 0.0)
         said = [f"{worst.label} within {_brief(worst, worst.rms)} rms"]
     imposed = "with the recorded speed imposed, " if comparison.speed_imposed else ""
-    head = f"Over {end - start:.1f} s, {imposed}the model follows {_joined(said)}"
-    return head + _position(comparison) + _rating(comparison) + "."
+    head = f"Over {end - start:.1f} s, {imposed}{comparison.against} follows {_joined(said)}"
+    return head + _position(comparison) + _rating(comparison) + "." + _late(comparison)
 
 
 def _speed(comparison: Comparison) -> list[str]:
@@ -81,17 +84,44 @@ def _position(comparison: Comparison) -> str:
     along, across = comparison["tractor_along_m"], comparison["tractor_across_m"]
     left = "left" if across.final > 0 else "right"
     ahead = "ahead" if along.final > 0 else "behind"
-    return (
+    said = (
         f"; it ends {_brief(along, abs(along.final))} {ahead} and"
         f" {_brief(across, abs(across.final))} to the {left} of the recorded position"
     )
+    if SIDEWAYS_KEY not in comparison.recording.metadata:
+        return said
+    pair = comparison.pairs["tractor_across_m"]
+    mirrored = _brief(across, abs(float(pair.model[-1] + pair.measured[-1])))
+    return (f"{said}, if the truck went to the side that the record assumes; {mirrored} beside it"
+            " if it went to the other side, which the record leaves open")
 
 
 def _rating(comparison: Comparison) -> str:
     overall = comparison.mean_rating
     if overall is None:
         return ""
-    return f"; mean ISO/TS 18571 rating {overall:.2f} ({grade(overall)})"
+    said = f"; mean ISO/TS 18571 rating {overall:.2f} ({grade(overall)})"
+    found = comparison.contrast
+    if found is None:
+        return said
+    name, best = next(iter(found.others.items()))
+    tells = "tells" if found.separates else "hardly tells"
+    return (f"{said}. The rating {tells} vehicles apart: over {len(found.channels)} channels this"
+            f" model has {found.rating:.2f}, {name} {best:.2f}")
+
+
+def _late(comparison: Comparison) -> str:
+    """Channels that fit best at another time, worst first; a rating forgives such a shift."""
+    late = [c for c in comparison.channels
+            if c.lag_s is not None and abs(c.lag_s) >= NOTICED_LAG_S and not c.imposed]  # fmt: skip
+    if not late:
+        return ""
+    worst = max(late, key=lambda c: abs(c.lag_s or 0.0))
+    others = f" ({len(late) - 1} more are shifted, too)" if len(late) > 1 else ""
+    side = "late" if (worst.lag_s or 0.0) > 0.0 else "early"
+    lag = f"{abs(worst.lag_s or 0.0):.2f} s {side}"
+    return (f" The record of the {worst.label} is {lag}: shifted by that, both agree far"
+            f" better{others}.")
 
 
 def _brief(channel: ChannelError, value: float) -> str:

@@ -84,6 +84,7 @@ def _row(channel: ChannelError) -> Mapping[str, object]:
         channel.shown(channel.peak),
         f"{channel.peak_time_s:.2f} s",
         sigma,
+        _ABSENT if channel.lag_s is None else f"{channel.lag_s:+.2f} s",
         *_rating_cells(channel.rating),
     ]
     return {
@@ -93,12 +94,11 @@ def _row(channel: ChannelError) -> Mapping[str, object]:
 
 def _rating_cells(rating: Rating | None) -> list[str]:
     if rating is None:
-        return [_ABSENT] * 6
+        return [_ABSENT] * 5
     scores = (rating.corridor, rating.phase, rating.magnitude, rating.slope)
     return [
         f"{rating.overall:.2f} {rating.grade}",
         *(f"{score:.2f}" for score in scores),
-        f"{rating.shift_s:+.2f} s",
     ]
 
 

@@ -1,0 +1,41 @@
+"""A reset in the middle of a recording is seen, and the longest run is what is compared."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from truck_blowout_sim.comparison.resets import longest_run, reset_times_s
+from truck_blowout_sim.recordings import Recording, Series
+
+TIME = np.arange(0.0, 10.0, 0.01)
+
+
+def driving(reset_at_s: float | None) -> Recording:
+    x = 20.0 * TIME
+    if reset_at_s is not None:
+        x = np.where(reset_at_s <= TIME, x - 20.0 * reset_at_s, x)
+    return Recording("drive", {"tractor_x_m": Series(TIME, x),
+                               "tractor_y_m": Series(TIME, 0.0 * TIME)})  # fmt: skip
+
+
+def test_a_steady_drive_has_no_reset() -> None:
+    whole = driving(None)
+    assert reset_times_s(whole) == ()
+    assert longest_run(whole) is whole
+
+
+def test_a_reset_is_found_and_the_longer_part_kept() -> None:
+    whole = driving(3.0)
+    (at,) = reset_times_s(whole)
+    assert abs(at - 3.0) < 0.02
+    kept = longest_run(whole)
+    assert kept.start_s == at
+    assert kept.end_s == whole.end_s
+    assert "reset at 3.00 s" in kept.notes[-1]
+
+
+def test_a_gap_in_the_samples_is_no_reset() -> None:
+    series = driving(None)["tractor_x_m"]
+    keep = (series.time_s < 4.0) | (series.time_s > 6.0)
+    gap = Recording("gap", {"tractor_x_m": Series(series.time_s[keep], series.value[keep])})
+    assert reset_times_s(gap) == ()
