@@ -5,8 +5,10 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import NDArray
 
 from truck_blowout_sim import (
+    Batch,
     Recording,
     Scenario,
     Truck,
@@ -30,6 +32,8 @@ truck: Truck = Truck(weaker)
 fresh: bool = truck.blow("steer_left")
 state: dict[str, float] = truck.outputs()
 scenario: Scenario = load_scenario("fishhook")
-batch: list[Recording] = simulate_batch(
-    vehicle, scenario, [{"hub.trailer_2_left.brake_gain": gain} for gain in (0.35, 1.0)]
+batch: Batch = simulate_batch(
+    "international_9400i_trailmobile", "fishhook",
+    [{"start.speed_mph": mph} for mph in (25.0, 30.0)], channels=["tractor_yaw_rate_radps"],
 )
+turned: NDArray[np.float64] = batch.series("tractor_yaw_rate_radps")

@@ -26,6 +26,7 @@ if TYPE_CHECKING:
         write_recording,
     )
     from truck_blowout_sim.simulation import (
+        Batch,
         InitialState,
         Inputs,
         Scenario,
@@ -40,6 +41,7 @@ if TYPE_CHECKING:
 __version__ = "0.1.0"
 
 __all__ = [
+    "Batch",
     "Blowout",
     "InitialState",
     "InputError",
@@ -67,8 +69,8 @@ _ROOMS = {
     "diagnosis": ("diagnose",),
     "errors": ("InputError",),
     "recordings": ("Blowout", "Recording", "Series", "read_recording", "write_recording"),
-    "simulation": ("InitialState", "Inputs", "Scenario", "Truck", "load_scenario", "simulate",
-                   "simulate_batch", "simulate_inputs"),
+    "simulation": ("Batch", "InitialState", "Inputs", "Scenario", "Truck", "load_scenario",
+                   "simulate", "simulate_batch", "simulate_inputs"),
     "vehicle": ("Packed", "Vehicle", "load_vehicle", "pack"),
 }
 _ROOM_OF = {name: room for room, names in _ROOMS.items() for name in names}

@@ -53,7 +53,7 @@ def test_run_says_so_and_exits_with_0(tipped: Path, tmp_path: Path,
     assert main(["run", str(tipped), "-o", str(tmp_path / "bag"), "--json"]) == 0
     measures = json.loads(capsys.readouterr().out)["measures"]
     assert measures["rolled_over"] is True
-    assert measures["rolled_over_s"] == measures["end_s"]
+    assert measures["rolled_over_s"] == measures["ended_s"]
 
 
 def test_a_truck_on_too_steep_a_bank_tips_and_says_when(truck: Packed) -> None:

@@ -27,10 +27,10 @@ def measured(fishhook: tuple[Packed, Drive_, Ran]) -> Measures:
 
 def test_peaks_are_taken_from_the_burst_on(measured: Measures) -> None:
     assert measured.blown_s == 3.5
-    assert measured.end_s == pytest.approx(10.0)
-    assert measured.hand_wheel_rad == 0.0  # it is held from 3.2 s on
-    assert 0.02 < measured.articulation_rad < 0.5
-    assert 0.1 < measured.load_transfer < 1.0
+    assert measured.ended_s == pytest.approx(10.0)
+    assert measured.peak_hand_wheel_rad == 0.0  # it is held from 3.2 s on
+    assert 0.02 < measured.peak_articulation_rad < 0.5
+    assert 0.1 < measured.peak_load_transfer < 1.0
     assert not measured.rolled_over
     assert measured.stopped_s is None
 

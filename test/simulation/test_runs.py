@@ -18,7 +18,6 @@ from truck_blowout_sim.simulation import (
     run_drive,
     scenario_names,
     simulate,
-    simulate_batch,
     simulate_inputs,
 )
 from truck_blowout_sim.simulation.summary import summarize
@@ -56,16 +55,6 @@ def test_progress_changes_no_bit_and_ends_at_one(truck: Packed) -> None:
     assert shares == sorted(shares)
     assert shares[-1] == 1.0
     assert len(shares) == 10
-
-
-def test_a_batch_is_bit_for_bit_what_single_runs_are(truck: Packed) -> None:
-    variants = [{"hub.trailer_2_left.brake_gain": 1.0 - 0.1 * k, "steering.ratio": 20.0 + k}
-                for k in range(5)]
-    singles = [simulate(truck.with_values(v), "fishhook") for v in variants]
-    batch = simulate_batch(truck, "fishhook", variants, workers=2)
-    for one, other in zip(singles, batch, strict=True):
-        assert all(one[name] == other[name] for name in one.channels)
-    assert not np.array_equal(batch[0]["tractor_y_m"].value, batch[4]["tractor_y_m"].value)
 
 
 def test_a_batch_of_drives(truck: Packed) -> None:

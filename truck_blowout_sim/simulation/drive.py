@@ -93,14 +93,17 @@ def run_drive(packed: Packed, drive: Drive) -> Floats:
     return execute(packed, drive).out
 
 
-def execute(packed: Packed, drive: Drive, progress: Progress | None = None) -> Ran:
+def execute(packed: Packed, drive: Drive, progress: Progress | None = None, *,
+            start: Floats | None = None) -> Ran:
     """Run a prepared drive.
 
     Args:
         progress: called now and then with the share that is done.
+        start: the settled truck, where it is known already.
     """
     n, driven = drive.inputs.shape[0], Driven(packed, drive)
-    x = initial_vector(packed, drive.initial, drive.step_s, drive.warm)
+    x = (initial_vector(packed, drive.initial, drive.step_s, drive.warm) if start is None
+         else start.copy())
     out = np.full((drive.n_rows, len(names_of(packed.vehicle))), np.nan)
     part = max(round(_PART_S / drive.step_s), 1) if progress else max(n, 1)
     for first in range(0, max(n, 1), part):

@@ -32,35 +32,35 @@ class Measures:
     Attributes:
         blown_s: instant of the first burst; None: nothing burst.
         rolled_over: whether a unit rolled over; ``rolled_over_unit``, ``rolled_over_s``.
-        end_s: instant at which the run ended; ``end_speed_mps`` then.
+        ended_s: instant at which the run ended; ``ended_speed_mps`` then.
         stopped_s: instant of standstill, None: it was still rolling.
         distance_m: driven since the burst.
         lane_departure_m: farthest that a base_link came from the middle of the lane.
         left_lane_s: instant at which a tire left the lane; None: none did.
-        hand_wheel_rad, hand_wheel_rate_radps: largest turn of the hand wheel from where it was, and
-            its fastest.
-        articulation_rad, yaw_rate_radps, lateral_acceleration_mps2, roll_rad: largest, either side;
-            acceleration and roll of the unit that has more.
-        load_transfer: of the unit that has more; 1: all tires of one side are in the air.
+        peak_hand_wheel_rad, peak_hand_wheel_rate_radps: largest turn of the hand wheel from where
+            it was, and its fastest.
+        peak_articulation_rad, peak_yaw_rate_radps, peak_lateral_acceleration_mps2, peak_roll_rad:
+            to either side; acceleration and roll of the unit that has more.
+        peak_load_transfer: of the unit that has more; 1: all tires of one side are in the air.
     """
 
     blown_s: float | None
     rolled_over: bool
     rolled_over_unit: str | None
     rolled_over_s: float | None
-    end_s: float
-    end_speed_mps: float
+    ended_s: float
+    ended_speed_mps: float
     stopped_s: float | None
     distance_m: float
     lane_departure_m: float
     left_lane_s: float | None
-    hand_wheel_rad: float
-    hand_wheel_rate_radps: float
-    articulation_rad: float
-    yaw_rate_radps: float
-    lateral_acceleration_mps2: float
-    roll_rad: float
-    load_transfer: float
+    peak_hand_wheel_rad: float
+    peak_hand_wheel_rate_radps: float
+    peak_articulation_rad: float
+    peak_yaw_rate_radps: float
+    peak_lateral_acceleration_mps2: float
+    peak_roll_rad: float
+    peak_load_transfer: float
 
     def as_row(self) -> dict[str, float | str | bool | None]:
         """By name."""
@@ -91,20 +91,20 @@ def measure(packed: Packed, drive: Drive, ran: Ran, lane_width_m: float) -> Meas
         rolled_over=over is not None,
         rolled_over_unit=over.unit if over else None,
         rolled_over_s=over.time_s if over else None,
-        end_s=float(over.time_s if over else times[-1]),
-        end_speed_mps=float(speed[-1]),
+        ended_s=float(over.time_s if over else times[-1]),
+        ended_speed_mps=float(speed[-1]),
         stopped_s=float(times[since][standing[0]]) if standing.size else None,
         distance_m=float(np.hypot(np.diff(table["tractor_x_m"][since]),
                                   np.diff(table["tractor_y_m"][since])).sum()),
         lane_departure_m=departure,
         left_lane_s=None if left is None else float(times[left]),
-        hand_wheel_rad=float(np.abs(wheel - wheel[0]).max()),
-        hand_wheel_rate_radps=float(np.abs(np.diff(wheel)).max(initial=0.0) / drive.step_s),
-        articulation_rad=_largest(table["articulation_rad"][since]),
-        yaw_rate_radps=_largest(table["tractor_yaw_rate_radps"][since]),
-        lateral_acceleration_mps2=max(_largest(table[f"{u}_ay_mps2"][since]) for u in units),
-        roll_rad=max(_largest(table[f"{u}_roll_rad"][since]) for u in units),
-        load_transfer=max(_transfer(packed, table, u, since) for u in units),
+        peak_hand_wheel_rad=float(np.abs(wheel - wheel[0]).max()),
+        peak_hand_wheel_rate_radps=float(np.abs(np.diff(wheel)).max(initial=0.0) / drive.step_s),
+        peak_articulation_rad=_largest(table["articulation_rad"][since]),
+        peak_yaw_rate_radps=_largest(table["tractor_yaw_rate_radps"][since]),
+        peak_lateral_acceleration_mps2=max(_largest(table[f"{u}_ay_mps2"][since]) for u in units),
+        peak_roll_rad=max(_largest(table[f"{u}_roll_rad"][since]) for u in units),
+        peak_load_transfer=max(_transfer(packed, table, u, since) for u in units),
     )
 
 

@@ -104,7 +104,19 @@ def load_scenario(name_or_path: str | PathLike[str]) -> Scenario:
         InputError: no such file, or something in it cannot be used; one line says what and where.
     """
     path = config_file(_KIND, name_or_path)
-    tree = read_document(path, _KIND)
+    return scenario_of(read_document(path, _KIND), path)
+
+
+def scenario_of(document: Branch, path: Path) -> Scenario:
+    """The scenario that a document describes; the document stays as it is.
+
+    Args:
+        path: the document's file; its stem is the scenario's name.
+
+    Raises:
+        InputError: something in it cannot be used.
+    """
+    tree = Branch(document.place, dict(document.entries))
     values = _values(tree.entries.pop("values", None))
     notes = Notes()
     spec = build(ScenarioSpec, tree, notes)

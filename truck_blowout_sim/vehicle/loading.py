@@ -28,7 +28,19 @@ def load_vehicle(name_or_path: str | PathLike[str]) -> Vehicle:
         InputError: no such file, or something in it cannot be used; one line says what and where.
     """
     path = config_file("vehicles", name_or_path)
-    tree = read_document(path, "vehicles")
+    return vehicle_of(read_document(path, "vehicles"), path)
+
+
+def vehicle_of(document: Branch, path: Path) -> Vehicle:
+    """The vehicle that a document describes; the document stays as it is.
+
+    Args:
+        path: the document's file; its stem is the vehicle's name.
+
+    Raises:
+        InputError: something in it cannot be used.
+    """
+    tree = Branch(document.place, dict(document.entries))
     effects_entry = tree.entries.pop("effects", None)
     tree, written_out = _sections_as_names(filled_in(tree))
     notes = Notes()
@@ -101,6 +113,15 @@ def _document(kind: str, entry: Leaf, section: Branch | None) -> Branch:
     """What a key names: a section of the vehicle file itself, or another file."""
     if section is not None:
         return extended(section, kind)
+    return named_document(kind, entry)
+
+
+def named_document(kind: str, entry: Leaf) -> Branch:
+    """The document of another file that a key of a vehicle file names.
+
+    Raises:
+        InputError: no such file, or it is no document.
+    """
     return read_document(_sibling(kind, entry), kind)
 
 

@@ -1,0 +1,202 @@
+"""One run of a study: files with some keys changed, run, measured; a failure is a row as well."""
+
+from __future__ import annotations
+
+from collections import OrderedDict
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from os import PathLike
+from threading import Lock
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from truck_blowout_sim.errors import InputError
+from truck_blowout_sim.physics.layout import INPUT
+from truck_blowout_sim.recordings import INPUT_NAMES
+from truck_blowout_sim.resources import config_file
+from truck_blowout_sim.simulation.drive import Drive, Ran, execute, names_of
+from truck_blowout_sim.simulation.equilibrium import initial_vector
+from truck_blowout_sim.simulation.measures import Measures, measure
+from truck_blowout_sim.simulation.plausible import diverged, implausible
+from truck_blowout_sim.simulation.run import prepare
+from truck_blowout_sim.simulation.scenario import Scenario, scenario_of
+from truck_blowout_sim.simulation.studies.design import Value
+from truck_blowout_sim.simulation.studies.keys import (
+    FILE,
+    PARAMETER,
+    SCENARIO,
+    VEHICLE,
+    Key,
+    find_key,
+)
+from truck_blowout_sim.vehicle import Packed, pack
+from truck_blowout_sim.vehicle.document import Place, read_document
+from truck_blowout_sim.vehicle.loading import vehicle_of
+from truck_blowout_sim.vehicle.reading import unknown
+
+Floats = NDArray[np.float64]
+OK, ROLLED_OVER, FAILED = "ok", "rolled over", "failed"
+_KEPT_TRUCKS, _KEPT_STARTS = 32, 64
+
+
+@dataclass(frozen=True, eq=False)
+class Row:
+    """What came out of one run.
+
+    Attributes:
+        number: of the run in the study.
+        values: what was varied, as written.
+        status: `OK`, `ROLLED_OVER` or `FAILED`; ``reason``: why it failed, in one line.
+        measures: None where it failed.
+        series: [n_rows, n_channels] on the study's time base, NaN after the run ended.
+    """
+
+    number: int
+    values: Mapping[str, Value]
+    status: str
+    reason: str
+    measures: Measures | None
+    series: Floats
+
+
+@dataclass(eq=False)
+class Study:
+    """A scenario and a vehicle, of which keys vary.
+
+    Args:
+        vehicle, scenario: names of shipped files, or paths.
+        keys: what varies, as written.
+        channels: outputs and inputs kept of each run.
+        step_s: step [s].
+        rate_hz: of the channels, and at which runs are measured.
+        insist: also run what no truck does; else such a run fails with this reason.
+
+    Raises:
+        InputError: files that cannot be used, no such key or channel.
+    """
+
+    vehicle: str | PathLike[str]
+    scenario: str | PathLike[str]
+    keys: Sequence[str]
+    channels: Sequence[str] = ()
+    step_s: float = 0.001
+    rate_hz: float = 100.0
+    insist: bool = False
+    _trucks: OrderedDict[Any, Packed] = field(default_factory=OrderedDict, init=False, repr=False)
+    _starts: OrderedDict[Any, Floats] = field(default_factory=OrderedDict, init=False, repr=False)
+    _lock: Any = field(default_factory=Lock, init=False, repr=False)
+
+    def __post_init__(self) -> None:
+        self._scenario_path = config_file("scenarios", self.scenario)
+        self._scenario_tree = read_document(self._scenario_path, "scenarios")
+        path = config_file("vehicles", self.vehicle)
+        tree = read_document(path, "vehicles")
+        packed = pack(vehicle_of(tree, path))
+        self.found: dict[str, Key] = {
+            key: find_key(key, self._scenario_tree, tree, packed) for key in self.keys}
+        scenario = scenario_of(self._scenario_tree, self._scenario_path)
+        _, drive, _ = prepare(packed, scenario, step_s=self.step_s, rate_hz=self.rate_hz)
+        self.times_s = drive.times_s
+        known = (*INPUT_NAMES, *names_of(packed.vehicle))
+        for channel in self.channels:
+            if channel not in known:
+                raise _no_channel(channel, known)
+
+    def __getstate__(self) -> dict[str, Any]:
+        # to another process go the words; what was loaded is loaded anew there
+        kept = ("vehicle", "scenario", "keys", "channels", "step_s", "rate_hz", "insist")
+        return {key: getattr(self, key) for key in kept}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        Study.__init__(self, **state)
+
+    def run(self, number: int, values: Mapping[str, Value]) -> Row:
+        """Run one case; bad values and runs that diverge come back as a row with the reason."""
+        nothing = np.full((self.times_s.size, len(self.channels)), np.nan)
+        try:
+            packed, scenario, drive = self._prepared(values)
+            found = () if self.insist else implausible(packed, drive)
+            if found:
+                raise InputError(f"no truck does this: {'; '.join(found)}")
+            ran = execute(packed, drive, start=self._start(packed, drive))
+            if ran.ending is not None and not ran.ending.rolled_over:
+                raise diverged(packed, drive, ran.ending, scenario.name)
+            measures = measure(packed, drive, ran, scenario.spec.lane_width_m)
+        except InputError as error:
+            return Row(number, values, FAILED, str(error), None, nothing)
+        status = ROLLED_OVER if measures.rolled_over else OK
+        return Row(number, values, status, "", measures, self._series(packed, drive, ran, nothing))
+
+    def _prepared(self, values: Mapping[str, Value]) -> tuple[Packed, Scenario, Drive]:
+        """Truck, scenario and drive with the values in place."""
+        tree = self._scenario_tree
+        for key, value in values.items():
+            if self.found[key].where == SCENARIO:
+                tree = self.found[key].put(tree, value)
+        scenario = scenario_of(tree, self._scenario_path)
+        packed, drive, _ = prepare(self._truck(values), scenario, step_s=self.step_s,
+                                   rate_hz=self.rate_hz)
+        last = {key: value for key, value in values.items()
+                if self.found[key].where == PARAMETER}
+        return packed.with_values(_numbers(last)), scenario, drive
+
+    def _truck(self, values: Mapping[str, Value]) -> Packed:
+        """The packed truck; the last few are kept."""
+        own = tuple((k, v) for k, v in values.items() if self.found[k].where in (VEHICLE, FILE))
+        with self._lock:
+            if own in self._trucks:
+                self._trucks.move_to_end(own)
+                return self._trucks[own]
+        name = next((str(v) for k, v in own if self.found[k].where == FILE), self.vehicle)
+        path = config_file("vehicles", name)
+        tree = read_document(path, "vehicles")
+        for key, value in own:
+            if self.found[key].where == VEHICLE:
+                tree = self.found[key].put(tree, value)
+        packed = pack(vehicle_of(tree, path))
+        self._keep(self._trucks, own, packed, _KEPT_TRUCKS)
+        return packed
+
+    def _start(self, packed: Packed, drive: Drive) -> Floats:
+        """The settled truck: equal trucks at equal starts settle once."""
+        key = (packed.without_events().tobytes(), packed.topology.tobytes(), drive.initial,
+               drive.step_s)
+        with self._lock:
+            if key in self._starts:
+                self._starts.move_to_end(key)
+                return self._starts[key]
+        start = initial_vector(packed, drive.initial, drive.step_s)
+        self._keep(self._starts, key, start, _KEPT_STARTS)
+        return start
+
+    def _keep(self, kept: OrderedDict[Any, Any], key: object, value: object, most: int) -> None:
+        with self._lock:
+            kept[key] = value
+            while len(kept) > most:
+                kept.popitem(last=False)
+
+    def _series(self, packed: Packed, drive: Drive, ran: Ran, out: Floats) -> Floats:
+        """The channels on the study's time base; a shorter or longer run is cut or left NaN."""
+        names = names_of(packed.vehicle)
+        n = min(len(out), len(ran.out))
+        good = np.isfinite(ran.out[:n, 0])
+        for k, channel in enumerate(self.channels):
+            if channel in INPUT_NAMES:
+                rows = np.minimum(np.arange(n) * drive.every, len(ran.inputs) - 1)
+                out[:n, k] = np.where(good, ran.inputs[rows, getattr(INPUT, channel)], np.nan)
+            elif channel in names:
+                out[:n, k] = ran.out[:n, names.index(channel)]
+        return out
+
+
+def _numbers(values: Mapping[str, Value]) -> dict[str, float]:
+    for key, value in values.items():
+        if isinstance(value, str):
+            raise InputError(f"--vary {key}: {value!r} is not a number", expected="a number in SI")
+    return {key: float(value) for key, value in values.items()}
+
+
+def _no_channel(channel: str, known: Sequence[str]) -> InputError:
+    return unknown(Place("--channels", 0, ""), f"no channel {channel!r}", channel, tuple(known))
