@@ -72,6 +72,7 @@ setup(
         "mcap>=1.1",
         "numba>=0.57",
         "numpy>=1.22",
+        "pyarrow>=12",
         "pyyaml>=5.4",
         "rich>=12",
         "rosbags>=0.10",
@@ -95,7 +96,9 @@ setup(
             "ros-visualization-msgs",
         ],
         "prove": ["mujoco>=3.1", "pysindy>=2.0"],
+        "dask": ["distributed>=2023.1"],
         "test": [
+            "distributed>=2023.1",
             "hypothesis",
             "import-linter",
             "mcap-ros2-support",
