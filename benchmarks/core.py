@@ -42,7 +42,8 @@ loaded = perf_counter()
 truck = Truck(vehicle)
 from truck_blowout_sim import Inputs
 truck.advance(Inputs(), 1)
-print(loaded - start, perf_counter() - loaded)
+from hashlib import sha256
+print(loaded - start, perf_counter() - loaded, sha256(truck.state.tobytes()).hexdigest())
 """
 
 
@@ -121,13 +122,17 @@ def batch_speed() -> None:
 
 def first_call() -> None:
     """Seconds until the first step, with an empty cache and with a filled one."""
+    bits = set()
     with tempfile.TemporaryDirectory() as cache:
         environment = {**os.environ, "NUMBA_CACHE_DIR": cache}
         for words in ("compiling (once)", "from the cache"):
             done = subprocess.run([sys.executable, "-c", FIRST_CALL], env=environment, check=True,
                                   capture_output=True, text=True)
-            load, first = (float(word) for word in done.stdout.split())
+            *seconds, state = done.stdout.split()
+            load, first = map(float, seconds)
+            bits.add(state)
             line(f"first step, {words}", f"{first:.1f} s")
+        line("  same bits after compiling as from the cache", "yes" if len(bits) == 1 else "NO")
         line("import and vehicle file", f"{load:.1f} s")
 
 

@@ -1,4 +1,4 @@
-"""The compiled core is plain Python underneath: the same numbers without the compiler."""
+"""The compiled core: plain Python underneath, one object of each entry, a cache of its own."""
 
 from __future__ import annotations
 
@@ -6,10 +6,16 @@ import os
 import subprocess
 import sys
 from pathlib import Path
+from typing import Any
 
+import llvmlite.binding as llvm
+import numba
 import numpy as np
+import pytest
+from numba import float64, int64
 
-from truck_blowout_sim.physics import jit
+from truck_blowout_sim.physics import cache, jit
+from truck_blowout_sim.physics.step import step
 
 PROGRAM = """
 import sys
@@ -48,8 +54,50 @@ def test_the_same_numbers_without_the_compiler(tmp_path: Path) -> None:
     assert (np.abs(compiled[finite] - plain[finite]) / scale).max() < 1e-9
 
 
-def test_the_cache_follows_the_sources() -> None:
-    import numba
+def test_a_compiled_caller_holds_the_symbol_of_the_step_and_no_copy() -> None:
+    """So the process that compiles and all later ones run the same machine code."""
+    program = """
+@core
+def caller(x, p, topo, inputs, dt, work):
+    step(x, p, topo, inputs, dt, work)
+"""
+    floats, integers = float64[::1], int64[::1]
+    scope: dict[str, Any] = {"step": step, "core": lambda f: jit.njit(f, fastmath=True)}
+    exec(program, scope)
+    caller = scope["caller"]
+    caller.compile((floats, floats, integers, floats, float64, floats))
+    [code] = caller.inspect_llvm().values()
+    assert f'declare void @{step.symbol}(' in code
+    assert "fmul" not in code
 
-    if not os.environ.get("NUMBA_CACHE_DIR"):
-        assert jit._digest() in str(numba.config.CACHE_DIR)
+
+def test_compiled_callers_and_python_reach_the_same_step() -> None:
+    step.load()
+    assert llvm.address_of_symbol(step.symbol) == step._compiled.address
+
+
+def test_an_entry_refuses_arrays_it_would_misread() -> None:
+    wrong = np.zeros(10, dtype=np.float32)
+    with pytest.raises(TypeError, match="contiguous array of float64"):
+        step(wrong, wrong, wrong, wrong, 0.001, wrong)
+
+
+def test_the_cache_follows_the_sources() -> None:
+    assert cache.digest() in str(numba.config.CACHE_DIR)
+
+
+def test_a_shared_folder_is_used_only_if_it_is_this_users_alone(tmp_path: Path) -> None:
+    usual = tmp_path / f"truck_blowout_sim-{os.getuid()}"
+    assert cache.private_folder(tmp_path) == usual
+    assert usual.stat().st_mode & 0o077 == 0
+    assert cache.private_folder(tmp_path) == usual
+    # others may write there: what they left is not loaded
+    usual.chmod(0o777)
+    found = cache.private_folder(tmp_path)
+    assert found != usual
+    assert found.stat().st_mode & 0o077 == 0
+    # nor is a link followed
+    usual.chmod(0o700)
+    usual.rename(tmp_path / "elsewhere")
+    usual.symlink_to(tmp_path / "elsewhere")
+    assert cache.private_folder(tmp_path) != usual

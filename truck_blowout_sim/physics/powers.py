@@ -77,7 +77,7 @@ def powers_w(before: Floats, after: Floats, p: Floats, topo: Integers, dt: float
     """
     for k in range(topo[TOPOLOGY.state_line_at]):
         middle[k] = 0.5 * (before[k] + after[k])
-    for k in range(out.size):
+    for k in range(N_POWERS):
         out[k] = 0.0
     n = topo[TOPOLOGY.n_units]
     for u in range(n):

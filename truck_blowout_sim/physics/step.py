@@ -165,7 +165,7 @@ def sensed_slip(p: Floats, topo: Integers, axle: int, side: int, circuit: int, w
     return max(work[SLIPS_AT + 2 * sensed], work[SLIPS_AT + 2 * sensed + 1])
 
 
-@entry
+@core
 def advance(x: Floats, p: Floats, topo: Integers, inputs: Floats, dt: float, n_steps: int,
             work: Floats) -> None:
     """``n_steps`` steps with held inputs."""
