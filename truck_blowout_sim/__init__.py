@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from truck_blowout_sim.comparison import compare
-    from truck_blowout_sim.diagnosis import diagnose
+    from truck_blowout_sim.diagnosis import calibrate, diagnose
     from truck_blowout_sim.errors import InputError
     from truck_blowout_sim.recordings import (
         Blowout,
@@ -52,6 +52,7 @@ __all__ = [
     "Series",
     "Truck",
     "Vehicle",
+    "calibrate",
     "compare",
     "diagnose",
     "load_scenario",
@@ -66,7 +67,7 @@ __all__ = [
 
 _ROOMS = {
     "comparison": ("compare",),
-    "diagnosis": ("diagnose",),
+    "diagnosis": ("calibrate", "diagnose"),
     "errors": ("InputError",),
     "recordings": ("Blowout", "Recording", "Series", "read_recording", "write_recording"),
     "simulation": ("Batch", "InitialState", "Inputs", "Scenario", "Truck", "load_scenario",

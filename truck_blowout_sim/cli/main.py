@@ -24,6 +24,7 @@ VERBS: dict[str, tuple[str, str]] = {
     "export": ("export", "Convert a bag to CSV."),
     "compare": ("compare", "Drive the model with a recording's inputs and report the differences."),
     "diagnose": ("diagnose", "Locate, name and fit what the model lacks to explain recordings."),
+    "calibrate": ("calibrate", "Fit the sheet's numbers to ordinary driving; write the vehicle."),
     "prove": ("prove", "Run the concealed-effect benchmark and write its table."),
     "vehicle": ("vehicle", "Show loads, handling and what was filled in of a vehicle file."),
     "view": ("view", "Show the truck of a run moving in 3-D, in one HTML file."),

@@ -1,0 +1,90 @@
+"""Calibration: sheet numbers from ordinary driving, with intervals; a file that drives the rest."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from truck_blowout_sim.cli.calibrate import as_plain, lines
+from truck_blowout_sim.cli.main import main
+from truck_blowout_sim.diagnosis.calibrate import (
+    Calibration,
+    calibrate,
+    describe,
+    write_calibrated_vehicle,
+)
+from truck_blowout_sim.diagnosis.settings import Settings
+from truck_blowout_sim.errors import InputError
+from truck_blowout_sim.recordings import Recording
+from truck_blowout_sim.vehicle import Packed, load_vehicle, pack
+
+Drives = Callable[..., Recording]
+BASE = "international_9400i_trailmobile"
+HEAVY = 1.03
+
+
+@pytest.fixture(scope="module")
+def found(truck: Packed, drive_it: Drives, few: Settings) -> Calibration:
+    """A truck 3 % heavier in its trailer, with a tighter grip of its steer tires."""
+    changes = {"unit.trailer.mass_kg": HEAVY * truck["unit.trailer.mass_kg"]}
+    changes |= {name: 0.95 * truck[name] for name in truck.index
+                if name.startswith("tire.steer_") and name.endswith(".cornering_scale")}
+    runs = [drive_it(changes, seed=k, name=f"run {k}") for k in (1, 2)]
+    unseen = drive_it(changes, seed=3, steer=0.7, name="unseen")
+    return calibrate(runs, holdout=[unseen], vehicle=BASE, settings=few, step_s=0.0025)
+
+
+def test_numbers_that_differ_are_found_within_their_intervals(found: Calibration) -> None:
+    by_name = {n.name: n for n in found.numbers}
+    for name, truth in (("trailer_mass", HEAVY - 1.0), ("steer_cornering", -0.05)):
+        number = by_name[name]
+        assert number.told
+        low, high = number.ci90
+        assert low - 0.5 * (high - low) < truth < high + 0.5 * (high - low)
+
+
+def test_what_the_runs_cannot_tell_stays_at_the_sheet_and_is_named(found: Calibration) -> None:
+    assert found.untold
+    assert all(n.change == 0.0 for n in found.untold)
+    said = "\n".join(lines(found, Path("x.yaml")))
+    assert all(n.name.replace("_", " ") in said for n in found.untold)
+
+
+def test_unseen_runs_are_predicted_better(found: Calibration) -> None:
+    ratio = found.error_ratio(unseen=True)
+    assert ratio is not None
+    assert ratio < 0.8
+    assert {c.recording for c in found.changes if c.unseen} == {"unseen"}
+
+
+def test_the_file_is_the_calibrated_truck_with_a_source_for_each_value(
+    found: Calibration, tmp_path: Path
+) -> None:
+    path = tmp_path / "my_truck.yaml"
+    written = write_calibrated_vehicle(path, BASE, found)
+    assert np.array_equal(pack(written).params, found.packed.params)
+    text = path.read_text(encoding="utf-8")
+    assert "calibrated on run 1, run 2: trailer mass" in " ".join(text.split())
+    assert not [name for name in pack(load_vehicle(path)).vehicle.effects if "world." in name]
+
+
+def test_a_number_reads_as_a_sentence(found: Calibration) -> None:
+    number = next(n for n in found.told if n.name == "trailer_mass")
+    assert describe(number).startswith("trailer mass +")
+    assert "prior 2 %: weighing" in describe(number)
+
+
+def test_plain_data_is_json(found: Calibration) -> None:
+    json.dumps(as_plain(found, Path("x.yaml")), allow_nan=False)
+
+
+def test_bad_input_is_one_line(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(InputError, match="no recording"):
+        calibrate([])
+    assert main(["calibrate", str(tmp_path / "none.csv"), "-o", str(tmp_path / "v.yaml")]) == 2
+    assert len(capsys.readouterr().err.strip().splitlines()) == 1
+    assert not (tmp_path / "v.yaml").exists()

@@ -1,0 +1,337 @@
+"""Calibrate: fit the numbers of a vehicle's sheet to ordinary driving.
+
+The runs are taken as runs in which nothing is missing. Every number of the sheet has a prior; the
+runs move those that they can tell, and the others stay at the sheet. What belongs to the place of
+a test (slope, crossfall, grip of its road) is fitted beside them and written nowhere.
+
+References: Gauss-Newton with Gaussian priors (A. Tarantola, Inverse Problem Theory, 2005,
+section 3.4).
+Known limits: intervals by curvature; numbers that move alike share their interval; an effect that
+is at work in every run is fitted by the numbers that resemble it most.
+Validated with: test/diagnosis/test_calibrate.py.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from truck_blowout_sim.comparison import compare
+from truck_blowout_sim.diagnosis.case.calibration import apply_amounts
+from truck_blowout_sim.diagnosis.case.calibration import calibrate as settle
+from truck_blowout_sim.diagnosis.case.nuisance import Nuisance
+from truck_blowout_sim.diagnosis.case.runs import prepare_run
+from truck_blowout_sim.diagnosis.case.sources import number_sources
+from truck_blowout_sim.diagnosis.case.study import FURTHEST, Study
+from truck_blowout_sim.diagnosis.fit.linear import Projector
+from truck_blowout_sim.diagnosis.fit.quantiles import NINETY
+from truck_blowout_sim.diagnosis.sensors import (
+    SensorFinding,
+    correct,
+    sensor_gate,
+    vehicle_geometry,
+)
+from truck_blowout_sim.diagnosis.settings import Settings, load_settings
+from truck_blowout_sim.errors import InputError
+from truck_blowout_sim.recordings import Recording
+from truck_blowout_sim.vehicle import Packed, Vehicle, load_vehicle, pack, write_vehicle
+
+Floats = NDArray[np.float64]
+Progress = Callable[[str, float], None]
+
+_STEP_S = 0.002  # residuals on 0.1 s bins do not change beyond a tenth of a sigma against 1 ms
+_PLACE = "world."
+_SHARES = (1.0, 0.5, 0.25)  # of the way to the numbers that the runs ask for
+
+
+@dataclass(frozen=True)
+class SheetNumber:
+    """A number of the sheet after calibration.
+
+    Attributes:
+        name: of the number.
+        kind: ``scale``: ``change`` is a share of the sheet's value; ``add``: it is added, in SI.
+        change: from the sheet; 0 where the runs cannot tell.
+        ci90: 90 % interval of the change.
+        prior_sigma: how far it strays from truck to truck, 1 sigma; ``source``: who says so.
+        values: of the packed parameters that it stands for, as calibrated.
+        told: the runs say more about it than the sheet does.
+        of_the_place: it belongs to the road of the test and not to the vehicle.
+        at_prior_end: it stopped at three prior sigmas; the runs ask for more.
+    """
+
+    name: str
+    kind: str
+    change: float
+    ci90: tuple[float, float]
+    prior_sigma: float
+    source: str
+    values: Mapping[str, float]
+    told: bool
+    of_the_place: bool
+    at_prior_end: bool
+
+
+@dataclass(frozen=True)
+class ChannelChange:
+    """How well a channel of a run is predicted with the sheet and with the calibrated vehicle.
+
+    Attributes:
+        recording, channel: which; ``unseen``: the run was not fitted.
+        before, after: rms error, SI.
+    """
+
+    recording: str
+    channel: str
+    unseen: bool
+    before: float
+    after: float
+
+
+@dataclass(frozen=True)
+class Calibration:
+    """A calibrated vehicle.
+
+    Attributes:
+        vehicle: name of the sheet's vehicle.
+        runs, holdout: names of the runs that were fitted, and only predicted.
+        numbers: all numbers of the sheet, those that moved most of their prior first.
+        changes: by run and channel.
+        instruments: faults that were found in the instruments, and taken out.
+        packed: the calibrated truck.
+        notes: what a user must know.
+    """
+
+    vehicle: str
+    runs: tuple[str, ...]
+    holdout: tuple[str, ...]
+    numbers: tuple[SheetNumber, ...]
+    changes: tuple[ChannelChange, ...]
+    instruments: tuple[SensorFinding, ...]
+    packed: Packed
+    notes: tuple[str, ...] = ()
+
+    @property
+    def told(self) -> tuple[SheetNumber, ...]:
+        """Numbers of the vehicle that the runs tell."""
+        return tuple(n for n in self.numbers if n.told and not n.of_the_place)
+
+    @property
+    def untold(self) -> tuple[SheetNumber, ...]:
+        """Numbers that stay at the sheet."""
+        return tuple(n for n in self.numbers if not n.told)
+
+    def error_ratio(self, *, unseen: bool) -> float | None:
+        """Error with the calibrated vehicle over error with the sheet's, geometric mean.
+
+        ``None`` without such runs.
+        """
+        ratios = [c.after / c.before for c in self.changes
+                  if c.unseen == unseen and c.before > 0.0 and c.after > 0.0]
+        return float(np.exp(np.mean(np.log(ratios)))) if ratios else None
+
+
+def calibrate(
+    recordings: Sequence[Recording], *, holdout: Sequence[Recording] = (),
+    vehicle: Vehicle | str = "international_9400i_trailmobile",
+    settings: Settings | str = "default",
+    step_s: float = _STEP_S, impose_speed: bool | None = None, workers: int | None = None,
+    progress: Progress | None = None,
+) -> Calibration:  # fmt: skip
+    """Fit the sheet's numbers to ordinary driving.
+
+    Args:
+        recordings: runs of one truck in which nothing is missing.
+        holdout: runs of it that are predicted only.
+        vehicle: the sheet, by name, path or loaded.
+        settings: the priors: name of a file in ``config/diagnosis``, or as loaded from one.
+        step_s: integration step; ``workers``: threads; ``progress``: called with (stage, share).
+        impose_speed: follow the recorded speed; None: only where throttle or brakes are missing.
+
+    Returns:
+        The calibration; :func:`write_calibrated_vehicle` makes a vehicle file of it.
+
+    Raises:
+        InputError: no recording, or one that cannot drive the model.
+    """
+    if not recordings:
+        raise InputError("no recording to calibrate on", expected="at least one recording")
+    tell = progress or _silent
+    loaded = load_vehicle(vehicle) if isinstance(vehicle, str) else vehicle
+    packed = pack(loaded)
+    rules = load_settings(packed, settings) if isinstance(settings, str) else settings
+    tell("sensor gate", 0.0)
+    found = sensor_gate(list(recordings), (), vehicle_geometry(loaded)).findings
+    runs, unseen = ([correct(r, found) for r in group] for group in (recordings, holdout))
+    study = Study(
+        tuple(prepare_run(r, "baseline", packed, rules, step_s=step_s, impose_speed=impose_speed)
+              for r in runs), (), packed, rules, workers or os.cpu_count() or 1)  # fmt: skip
+    settle(study, progress=progress)
+    amounts, spread, told = _posterior(study)
+    place = np.array([_of_the_place(n) for n in rules.nuisances])
+    numbers = _numbers(packed, rules.nuisances, amounts, spread, told,
+                       number_sources(settings if isinstance(settings, str) else "default"))
+    truck = apply_amounts(packed, rules.nuisances, np.where(place, 0.0, amounts))
+    tell("runs before and after", 0.5)
+    sheet = _errors(packed, runs, unseen, step_s, impose_speed)
+    share, changes = 0.0, _paired(sheet, sheet)
+    for one in _SHARES:
+        tried = apply_amounts(packed, rules.nuisances, np.where(place, 0.0, one * amounts))
+        after = _paired(sheet, _errors(tried, runs, unseen, step_s, impose_speed))
+        if _mean_log(c for c in after if not c.unseen) < 0.0:
+            truck, share, changes = tried, one, after
+            break
+    numbers = tuple(_shrunk(n, share) for n in numbers) if share < 1.0 else numbers
+    return Calibration(
+        loaded.name, tuple(r.name for r in recordings), tuple(r.name for r in holdout),
+        numbers, changes, found, truck if share else packed, _notes(numbers, share))  # fmt: skip
+
+
+def write_calibrated_vehicle(
+    path: Path, base: Vehicle | str, calibration: Calibration
+) -> Vehicle:
+    """Write the calibrated vehicle as a file that extends the sheet's.
+
+    Args:
+        path: file to write.
+        base: the sheet that was calibrated.
+        calibration: what was found.
+
+    Returns:
+        The vehicle, read back from the file.
+
+    Raises:
+        InputError: the file cannot be written.
+    """
+    given = pack(load_vehicle(base) if isinstance(base, str) else base)
+    values = {name: float(calibration.packed.params[i]) for name, i in given.index.items()
+              if calibration.packed.params[i] != given.params[i]}  # fmt: skip
+    said: dict[str, list[str]] = {}
+    for number in calibration.told:
+        for name in number.values:
+            said.setdefault(name, []).append(describe(number))
+    runs = ", ".join(calibration.runs)
+    sources = {name: f"calibrated on {runs}: {'; '.join(said.get(name, ['with another number']))}"
+               for name in values}  # fmt: skip
+    return write_vehicle(path, base, values, sources, title=f"{calibration.vehicle}, calibrated")
+
+
+def describe(number: SheetNumber) -> str:
+    """A number as a person reads it: change, interval, prior and its source."""
+    factor, unit = (100.0, "%") if number.kind == "scale" else _shown_unit(number)
+    low, high = (factor * end for end in number.ci90)
+    words = number.name.replace("_", " ")
+    ends = " (stopped at the end of its prior)" if number.at_prior_end else ""
+    amount = f"{factor * number.change:+.3g} {unit}".rstrip()
+    prior = f"{factor * number.prior_sigma:.3g} {unit}".rstrip()
+    return (f"{words} {amount} (90 %: {low:+.3g} to {high:+.3g}; prior {prior}: "
+            f"{number.source or 'not stated'}){ends}")
+
+
+def _shown_unit(number: SheetNumber) -> tuple[float, str]:
+    """Factor from SI and unit of a number that is added."""
+    name = next(iter(number.values), "")
+    units = {"_rad": (float(np.degrees(1.0)), "deg"), "_m": (1000.0, "mm"), "_n": (1.0, "N"),
+             "_pa": (1e-3, "kPa"), "_kg": (1.0, "kg")}  # fmt: skip
+    if "misalignment" in name:
+        return units["_rad"]
+    return next((unit for end, unit in units.items() if name.endswith(end)), (1.0, ""))
+
+
+def _posterior(study: Study) -> tuple[Floats, Floats, NDArray[np.bool_]]:
+    """Amounts of the sheet's numbers [prior sigmas from the sheet], their spread, which are told.
+
+    A number is told where the runs hold more information on it than its prior. The others stay at
+    the sheet and the told ones are fitted again.
+    """
+    n_sheet = len(study.settings.nuisances)
+    everything = Projector.of(study.columns)
+    spread = np.sqrt(np.diag(everything.covariance()))[:n_sheet]
+    told: NDArray[np.bool_] = np.asarray(spread < np.sqrt(0.5))
+    kept = [*np.flatnonzero(told).tolist(), *range(n_sheet, study.columns.shape[1])]
+    part = Projector.of(study.columns, kept)
+    bound = np.full(len(kept), np.inf)
+    bound[: int(told.sum())] = FURTHEST
+    found = part.amounts_within(study.residual(), -bound, bound)
+    amounts = np.zeros(n_sheet)
+    amounts[told] = found[: int(told.sum())]
+    return amounts, spread, told
+
+
+def _numbers(
+    packed: Packed, sheet: Sequence[Nuisance], amounts: Floats, spread: Floats,
+    told: NDArray[np.bool_], sources: Mapping[str, str],
+) -> tuple[SheetNumber, ...]:  # fmt: skip
+    found = []
+    for k, number in enumerate(sheet):
+        amount, sigma = float(amounts[k]), float(spread[k])
+        ends = (amount - NINETY * sigma) * number.sigma, (amount + NINETY * sigma) * number.sigma
+        found.append(SheetNumber(
+            name=number.name, kind=number.kind, change=amount * number.sigma, ci90=ends,
+            prior_sigma=number.sigma, source=sources.get(number.name, ""),
+            values=dict(number.values(packed, amount * number.sigma)), told=bool(told[k]),
+            of_the_place=_of_the_place(number), at_prior_end=abs(amount) >= FURTHEST))  # fmt: skip
+    return tuple(sorted(found, key=lambda n: -abs(n.change) / n.prior_sigma))
+
+
+def _notes(numbers: Sequence[SheetNumber], share: float) -> tuple[str, ...]:
+    """What a user must know of the result."""
+    notes = []
+    if share == 0.0:
+        notes.append("the sheet was kept: moved, its numbers predict these runs worse")
+    elif share < 1.0:
+        notes.append(f"the numbers were moved {share:.0%} of the way to where linear sensitivities "
+                     "point: further on, these runs are predicted worse")
+    ends = [n.name.replace("_", " ") for n in numbers if n.at_prior_end and not n.of_the_place]
+    if ends:
+        notes.append(f"{', '.join(ends)}: these runs ask for more than trucks of one kind differ; "
+                     "the sheet is of another vehicle, or physics is missing (diagnose)")
+    return tuple(notes)
+
+
+def _shrunk(number: SheetNumber, share: float) -> SheetNumber:
+    """A number moved a share of the way; its interval still reaches to where the runs point."""
+    low, high = number.ci90
+    change = share * number.change
+    return replace(number, change=change, ci90=(min(low, change), max(high, change)))
+
+
+def _of_the_place(number: Nuisance) -> bool:
+    return all(name.startswith(_PLACE) for name, _ in number.targets)
+
+
+def _errors(
+    truck: Packed, runs: Sequence[Recording], unseen: Sequence[Recording], step_s: float,
+    impose_speed: bool | None,
+) -> dict[tuple[str, str, bool], float]:  # fmt: skip
+    """Rms error of every measured channel of every run, as ``compare`` finds it."""
+    found = {}
+    for group, is_unseen in ((runs, False), (unseen, True)):
+        for run in group:
+            compared = compare(run, truck, step_s=step_s, impose_speed=impose_speed)
+            for channel in compared.channels:
+                if not channel.imposed and channel.name in run:
+                    found[run.name, channel.name, is_unseen] = channel.rms
+    return found
+
+
+def _paired(
+    before: Mapping[tuple[str, str, bool], float], after: Mapping[tuple[str, str, bool], float]
+) -> tuple[ChannelChange, ...]:
+    return tuple(ChannelChange(run, channel, unseen, rms, after[run, channel, unseen])
+                 for (run, channel, unseen), rms in before.items()
+                 if (run, channel, unseen) in after)  # fmt: skip
+
+
+def _mean_log(changes: Iterable[ChannelChange]) -> float:
+    ratios = [np.log(c.after / c.before) for c in changes if c.before > 0.0 and c.after > 0.0]
+    return float(np.mean(ratios)) if ratios else 0.0
+
+
+def _silent(stage: str, share: float) -> None:
+    """Tells nobody."""
