@@ -25,6 +25,7 @@ VERBS: dict[str, tuple[str, str]] = {
     "compare": ("compare", "Drive the model with a recording's inputs and report the differences."),
     "diagnose": ("diagnose", "Locate, name and fit what the model lacks to explain recordings."),
     "calibrate": ("calibrate", "Fit the sheet's numbers to ordinary driving; write the vehicle."),
+    "sweep": ("sweep", "Run a scenario many times with keys that vary: one table, one page."),
     "prove": ("prove", "Run the concealed-effect benchmark and write its table."),
     "vehicle": ("vehicle", "Show loads, handling and what was filled in of a vehicle file."),
     "view": ("view", "Show the truck of a run moving in 3-D, in one HTML file."),

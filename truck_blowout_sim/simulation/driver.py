@@ -66,8 +66,15 @@ def speed_to_hold(spec: ScenarioSpec, times_s: Floats) -> Floats:
         reacts = spec.reaction is not None and spec.reaction.throttle == "speed_held"
         return np.full(times_s.size, np.nan) if reacts else np.zeros(0)
     wanted = (np.interp(times_s, hold.profile.time_s, hold.profile.speed_mps) if hold.profile
-              else np.full(times_s.size, hold.speed_mps))
+              else np.full(times_s.size, _held_mps(spec, hold)))
     return np.where(times_s <= hold.until_s, wanted, np.nan)
+
+
+def _held_mps(spec: ScenarioSpec, hold: HoldSpec) -> float:
+    """Speed [m/s] held first: the one that is said, else that of the start."""
+    if hold.profile:
+        return hold.profile.speed_mps[0]
+    return spec.start.speed_mps if spec.start and math.isnan(hold.speed_mps) else hold.speed_mps
 
 
 def pilot_of(spec: ScenarioSpec, packed: Packed, inputs: Floats, watch: int) -> tuple[Floats,
@@ -86,8 +93,7 @@ def pilot_of(spec: ScenarioSpec, packed: Packed, inputs: Floats, watch: int) -> 
     pilot[PILOT.noticed_s] = np.inf
     if spec.hold:
         _hold(pilot, spec.hold)
-        first_mps = spec.hold.profile.speed_mps[0] if spec.hold.profile else spec.hold.speed_mps
-        pilot[PILOT.throttle_sum] = steady_throttle(packed, first_mps)
+        pilot[PILOT.throttle_sum] = steady_throttle(packed, _held_mps(spec, spec.hold))
     if spec.reaction:
         _react(pilot, spec.reaction, watch)
         if spec.hold is None and spec.reaction.throttle == "speed_held" and not spec.recording:

@@ -240,9 +240,10 @@ def _check_tables(scenario: Scenario) -> None:
 
 
 def _check_hold(scenario: Scenario, hold: HoldSpec) -> None:
-    if (hold.profile is not None) == ("hold.speed_mps" in scenario.places):
-        raise scenario.places["hold"].error("needs one speed or one profile",
-                                            "one of: speed_mps, profile")
+    if hold.profile is not None and not math.isnan(hold.speed_mps):
+        raise scenario.places["hold"].error("has a speed and a profile", "one of them")
+    if hold.profile is None and math.isnan(hold.speed_mps) and scenario.spec.start is None:
+        raise scenario.places["hold"].error("does not say which speed", "speed_mps or profile")
     if hold.profile:
         _check_table(scenario, "hold.profile", hold.profile.time_s, hold.profile.speed_mps,
                      "speeds")

@@ -103,7 +103,9 @@ class SpeedProfileSpec:
 class HoldSpec:
     """Speed held with the throttle; afterwards the throttle table rules."""
 
-    speed_mps: float = at_least_zero("speed to hold, where there is no profile", default=0.0)
+    speed_mps: float = at_least_zero(
+        "speed to hold; without it and without a profile, the speed of the start",
+        default=math.nan)
     profile: SpeedProfileSpec | None = section(
         SpeedProfileSpec, "speed to hold over time", optional=True)
     until_s: float = number("up to this time", infinite=True, default=math.inf)
