@@ -50,6 +50,7 @@ def test_a_stop_is_timed_and_measured(truck: Packed) -> None:
     assert 40.0 < found.distance_m < 100.0
     assert found.left_lane_s is None
     assert found.lane_departure_m < 0.05
+    assert found.sideways_m == pytest.approx(found.lane_departure_m, abs=1e-6)
 
 
 def test_distance_from_a_bent_path_has_its_side() -> None:

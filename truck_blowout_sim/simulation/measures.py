@@ -36,6 +36,7 @@ class Measures:
         stopped_s: instant of standstill, None: it was still rolling.
         distance_m: driven since the burst.
         lane_departure_m: farthest that a base_link came from the middle of the lane.
+        sideways_m: farthest that a base_link moved across the lane from where it was at the burst.
         left_lane_s: instant at which a tire left the lane; None: none did.
         peak_hand_wheel_rad, peak_hand_wheel_rate_radps: largest turn of the hand wheel from where
             it was, and its fastest.
@@ -53,6 +54,7 @@ class Measures:
     stopped_s: float | None
     distance_m: float
     lane_departure_m: float
+    sideways_m: float
     left_lane_s: float | None
     peak_hand_wheel_rad: float
     peak_hand_wheel_rate_radps: float
@@ -83,7 +85,7 @@ def measure(packed: Packed, drive: Drive, ran: Ran, lane_width_m: float) -> Meas
     wheel = inputs[min(since.start * every, len(inputs) - 1):, INPUT.steering_wheel_angle_rad]
     speed = table["tractor_vx_mps"]
     standing = np.flatnonzero(np.abs(speed[since]) < _STANDING_MPS)
-    departure, left = _lane(packed, drive, table, since, lane_width_m)
+    departure, sideways, left = _lane(packed, drive, table, since, lane_width_m)
     over = ran.ending if ran.ending and ran.ending.rolled_over else None
     units = packed.names.units
     return Measures(
@@ -97,6 +99,7 @@ def measure(packed: Packed, drive: Drive, ran: Ran, lane_width_m: float) -> Meas
         distance_m=float(np.hypot(np.diff(table["tractor_x_m"][since]),
                                   np.diff(table["tractor_y_m"][since])).sum()),
         lane_departure_m=departure,
+        sideways_m=sideways,
         left_lane_s=None if left is None else float(times[left]),
         peak_hand_wheel_rad=float(np.abs(wheel - wheel[0]).max()),
         peak_hand_wheel_rate_radps=float(np.abs(np.diff(wheel)).max(initial=0.0) / drive.step_s),
@@ -133,24 +136,27 @@ def _transfer(packed: Packed, table: dict[str, Floats], unit: str, since: slice)
 
 
 def _lane(packed: Packed, drive: Drive, table: dict[str, Floats], since: slice,
-          lane_width_m: float) -> tuple[float, int | None]:
-    """Farthest that a base_link came off the lane's middle, and the row at which a tire left it."""
+          lane_width_m: float) -> tuple[float, float, int | None]:
+    """Farthest that a base_link came off the lane's middle, and from where it was at the burst;
+    the row at which a tire left the lane.
+    """
     path = drive.path
     if not path.size:
         start = np.array([table["tractor_x_m"][0], table["tractor_y_m"][0]])
         heading = table["tractor_yaw_rad"][0]
         path = start + np.outer([0.0, 1.0], [math.cos(heading), math.sin(heading)])
-    farthest, first = 0.0, None
+    farthest, moved, first = 0.0, 0.0, None
     for unit in packed.names.units:
         x, y = table[f"{unit}_x_m"][since], table[f"{unit}_y_m"][since]
-        farthest = max(farthest, _largest(_beside(path, x, y)))
+        beside = _beside(path, x, y)
+        farthest, moved = max(farthest, _largest(beside)), max(moved, _largest(beside - beside[0]))
         yaw = table[f"{unit}_yaw_rad"][since]
         for along, half_m in _axles(packed, unit):
             off = _beside(path, x + along * np.cos(yaw), y + along * np.sin(yaw))
             out = np.flatnonzero(np.abs(off) + half_m > 0.5 * lane_width_m)
             if out.size and (first is None or since.start + out[0] < first):
                 first = int(since.start + out[0])
-    return farthest, first
+    return farthest, moved, first
 
 
 def _axles(packed: Packed, unit: str) -> list[tuple[float, float]]:
