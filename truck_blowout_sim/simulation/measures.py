@@ -137,9 +137,7 @@ def _transfer(packed: Packed, table: dict[str, Floats], unit: str, since: slice)
 
 def _lane(packed: Packed, drive: Drive, table: dict[str, Floats], since: slice,
           lane_width_m: float) -> tuple[float, float, int | None]:
-    """Farthest that a base_link came off the lane's middle, and from where it was at the burst;
-    the row at which a tire left the lane.
-    """
+    """How far base_links came off the lane, and moved in it; the row at which it was left."""
     path = drive.path
     if not path.size:
         start = np.array([table["tractor_x_m"][0], table["tractor_y_m"][0]])
