@@ -94,7 +94,7 @@ setup(
             "ros-std-srvs",
             "ros-visualization-msgs",
         ],
-        "prove": ["mujoco>=3.1", "pysindy>=2.0"],
+        "prove": ["commonroad-vehicle-models>=3.0", "mujoco>=3.1", "pysindy>=2.0"],
         "dask": ["distributed>=2023.1"],
         "test": [
             "distributed>=2023.1",

@@ -23,13 +23,14 @@ from proving_ground.instruments import Mounting, apply_fault, measure, without_g
 from proving_ground.layout import FloatArray
 from proving_ground.manoeuvres import make
 from proving_ground.roughness import FEW, Roughness, roughen
-from proving_ground.run import Rig, Truth, drive, replay
+from proving_ground.run import Rig, drive, replay
 from proving_ground.seal import LIBRARY
-from proving_ground.switches import NEVER_S, neutral
+from proving_ground.switches import NEVER_S
 from proving_ground.task import Manoeuvre
-from proving_ground.writer import write_csv
+from proving_ground.writer import HEADER, write_csv
 
 Values = dict[str, FloatArray]
+Run = Any                        # what a rig returns: the truck's `Truth` or the car's
 
 
 def onset(manoeuvre: Manoeuvre, effect: EffectSpec, seed: int) -> float:
@@ -51,36 +52,64 @@ def onset(manoeuvre: Manoeuvre, effect: EffectSpec, seed: int) -> float:
 class CaseBuilder:
     """One case: its truck, its runs, its calibrated severities."""
 
+    header: tuple[str, ...] = HEADER
+    vehicle = ""                     # file of the model where it is not the shipped truck
+    unsteady: tuple[str, ...] = ()   # channels that jitter by themselves
+
     def __init__(self, spec: CaseSpec) -> None:
         self.spec = spec
-        individual = draw(spec.seed) if spec.truth == "w1" else forms.draw(spec.seed)
-        self.rig = Rig(individual)
-        self._even = Rig(replace(individual, road_seed=0))
-        self.mounting = Mounting.draw(spec.seed, columns())
-        side = ("steer_left", "steer_right")
-        place = next((e.where.tire for e in spec.effects if e.where.tire in side), None)
-        tires = (place or side[spec.seed % 2],)
-        if any(e.name == "secondary_blowout" and e.where.tire == "steer_right"
-               for e in spec.effects):
-            tires = ("steer_left",)
-        self.runs = [(name, make(kind, seed, tires), seed) for name, kind, seed in spec.runs()]
+        self._make_rigs(spec)
+        self.mounting = Mounting.draw(spec.seed, self._channels())
+        self.runs = self._manoeuvres(spec)
         faulty = [channel for f in spec.faults for channel in FAULTS[f.name].make(
             1.0, f.place, f.sign).channels]
         self.rough = None if not spec.rough else Roughness.draw(
             spec.seed, all(channel in FEW for channel in faulty))
         self.level = any(fault.name == "lateral_accel_roll" for fault in spec.faults)
 
+    def _make_rigs(self, spec: CaseSpec) -> None:
+        """The truck, on its road and on an even one."""
+        individual = draw(spec.seed) if spec.truth == "w1" else forms.draw(spec.seed)
+        self.rig = Rig(individual)
+        self._even = Rig(replace(individual, road_seed=0))
+
+    def _channels(self) -> list[str]:
+        return columns()
+
+    def _manoeuvres(self, spec: CaseSpec) -> list[tuple[str, Manoeuvre, int]]:
+        """Name, manoeuvre and seed of every run; which tire is blown is that of the effect."""
+        side = ("steer_left", "steer_right")
+        place = next((e.where.tire for e in spec.effects if e.where.tire in side), None)
+        tires = (place or side[spec.seed % 2],)
+        if any(e.name == "secondary_blowout" and e.where.tire == "steer_right"
+               for e in spec.effects):
+            tires = ("steer_left",)
+        return [(name, make(kind, seed, tires), seed) for name, kind, seed in spec.runs()]
+
+    def _drive(self, manoeuvre: Manoeuvre, actives: list[Active], seed: int,
+               even: bool = False) -> Run:
+        """A run with the closed-loop driver."""
+        return drive(self._even if even else self.rig, manoeuvre, combine(actives), seed)
+
+    def _replay(self, truth: Run, actives: list[Active]) -> Run:
+        """The same commands on an even road with other effects at work."""
+        return replay(self._even, truth, combine(actives))
+
+    def _front_m(self, truth: Run) -> FloatArray:
+        """Where the front axle is along the road."""
+        return np.asarray(truth.samples[:, 0] + 2.42)
+
     def actives(self, severities: list[float], manoeuvre: Manoeuvre, seed: int) -> list[Active]:
         """What is at work in one run."""
         return [e.at(s, onset(manoeuvre, e, seed))
                 for e, s in zip(self.spec.effects, severities, strict=True)]
 
-    def clean(self, truth: Truth) -> Values:
+    def clean(self, truth: Run) -> Values:
         """Ideal channels, with gravity taken out where this truck's instruments do so."""
         values = ideal(truth)
         return without_gravity(values) if self.level else values
 
-    def _train(self) -> list[tuple[Manoeuvre, int, Truth, Values]]:
+    def _train(self) -> list[tuple[Manoeuvre, int, Run, Values]]:
         """The training runs with nothing missing, on an even road.
 
         Bumps met a little later would count as a difference that no one could use.
@@ -88,7 +117,7 @@ class CaseBuilder:
         rows = []
         for name, manoeuvre, seed in self.runs:
             if name.startswith("train"):
-                truth = drive(self._even, manoeuvre, neutral(), seed)
+                truth = self._drive(manoeuvre, [], seed, even=True)
                 rows.append((manoeuvre, seed, truth, self.clean(truth)))
         return rows
 
@@ -102,9 +131,9 @@ class CaseBuilder:
             pairs = []
             for manoeuvre, seed, truth, clean in train:
                 active = effect.at(severity, onset(manoeuvre, effect, seed))
-                other = replay(self._even, truth, combine([active]))
+                other = self._replay(truth, [active])
                 pairs.append((self.clean(other), clean))
-            return detectability(pairs, self.spec.missing)
+            return detectability(pairs, (*self.spec.missing, *self.unsteady))
 
         def fault_power(fault: FaultSpec, severity: float) -> tuple[float, str]:
             made = FAULTS[fault.name].make(severity, fault.place, fault.sign)
@@ -119,16 +148,18 @@ class CaseBuilder:
         """Write all recordings of the case into `folder` and return the answer."""
         found, faulty = self.calibrate()
         folder.mkdir(parents=True, exist_ok=True)
-        if self.spec.without:
-            (folder / LIBRARY).write_text(
-                json.dumps({"without": list(self.spec.without)}) + "\n", encoding="utf-8")
+        library: dict[str, Any] = {"without": list(self.spec.without)} if self.spec.without else {}
+        if self.vehicle:
+            library["vehicle"] = self.vehicle
+        if library:
+            (folder / LIBRARY).write_text(json.dumps(library) + "\n", encoding="utf-8")
         onsets: list[dict[str, float]] = [{} for _ in found]
         strengths: list[dict[str, Any]] = [{} for _ in found]
         for name, manoeuvre, seed in self.runs:
             actives: list[Active] = []
             if not name.startswith("baseline"):
                 actives = self.actives([c.severity for c in found], manoeuvre, seed)
-            truth = drive(self.rig, manoeuvre, combine(actives), seed)
+            truth = self._drive(manoeuvre, actives, seed)
             values = self.clean(truth)
             if not name.startswith("baseline"):
                 for spec, calibrated in zip(self.spec.faults, faulty, strict=True):
@@ -136,7 +167,7 @@ class CaseBuilder:
                         calibrated.severity, spec.place, spec.sign))
             for k, active in enumerate(actives):
                 strengths[k] = asdict(active.strength)
-                when = _onset_in(truth, active)
+                when = _onset_in(truth.time_s, self._front_m(truth), active)
                 if when is not None:
                     onsets[k][name] = when
             self._write(folder / f"{name}.csv", f"{self.spec.id}/{name}", manoeuvre,
@@ -149,7 +180,8 @@ class CaseBuilder:
         time = None
         if self.rough is not None:
             time, readings = roughen(readings, self.rough, seed)
-        write_csv(path, name, manoeuvre, readings, self.level, time, stated=self.rough is None)
+        write_csv(path, name, manoeuvre, readings, self.level, time, self.header,
+                  stated=self.rough is None)
 
     def _read(self, values: Values, seed: int) -> Values:
         """Noisy readings without the missing channels, with gaps where the case has dropouts."""
@@ -214,12 +246,12 @@ def _fault_answer(spec: FaultSpec, found: Calibrated) -> dict[str, Any]:
             "wanted_sigma": spec.sigma, **asdict(found)}
 
 
-def _onset_in(truth: Truth, active: Active) -> float | None:
+def _onset_in(time_s: FloatArray, front_m: FloatArray, active: Active) -> float | None:
     """When an effect began on the recording's clock, or None where it is always there."""
     if active.onset_x_m is not None:
-        past = np.nonzero(truth.samples[:, 0] + 2.42 >= active.onset_x_m)[0]
-        return float(truth.time_s[past[0]]) if past.size else None
-    if active.onset_s is None or active.onset_s > truth.time_s[-1]:
+        past = np.nonzero(front_m >= active.onset_x_m)[0]
+        return float(time_s[past[0]]) if past.size else None
+    if active.onset_s is None or active.onset_s > time_s[-1]:
         return None
     return float(active.onset_s)
 

@@ -17,7 +17,7 @@ def make_case(spec: CaseSpec, out: Path) -> str:
     unfinished = out / "unfinished" / spec.id
     if unfinished.exists():
         shutil.rmtree(unfinished)
-    answer = CaseBuilder(spec).build(unfinished)
+    answer = builder(spec).build(unfinished)
     done = out / "cases" / spec.id
     if done.exists():
         shutil.rmtree(done)
@@ -25,6 +25,15 @@ def make_case(spec: CaseSpec, out: Path) -> str:
     unfinished.rename(done)
     save_answer(out / "answers" / f"{spec.id}.json", answer)
     return spec.id
+
+
+def builder(spec: CaseSpec) -> CaseBuilder:
+    """Who builds a case: the truck's builder or the car's."""
+    if spec.truth != "w3":
+        return CaseBuilder(spec)
+    from proving_ground.car.build import CarBuilder
+
+    return CarBuilder(spec)
 
 
 def pending(specs: list[CaseSpec], out: Path) -> list[CaseSpec]:

@@ -41,17 +41,18 @@ def decimals(channel: str) -> int:
 
 
 def write_csv(path: Path, name: str, manoeuvre: Manoeuvre, readings: dict[str, FloatArray],
-              gravity_removed: bool, time_s: FloatArray | None = None, stated: bool = True
-              ) -> None:
+              gravity_removed: bool, time_s: FloatArray | None = None,
+              about: tuple[str, ...] = HEADER, stated: bool = True) -> None:
     """Write one recording; a channel that is absent has no column, a gap is an empty cell.
 
-    `time_s`: time stamps, every 10 ms if None. `stated`: whether the head tells filters and noise.
+    `time_s`: time stamps, every 10 ms if None. `about`: lines of the head. `stated`: whether the
+    head tells filters and noise.
     """
     count = len(next(iter(readings.values())))
     accelerometers = "accelerometers: gravity removed" if gravity_removed else STRAPDOWN
-    rest = [line for line in HEADER[3:] if stated or not line.startswith(("noise", "filters"))]
+    rest = [line for line in about[3:] if stated or not line.startswith(("noise", "filters"))]
     head = [f"recording: {name}", f"test: {manoeuvre.words}",
-            f"target_speed_mps: {manoeuvre.speed_mps:.3f}", *HEADER[:3], accelerometers, *rest]
+            f"target_speed_mps: {manoeuvre.speed_mps:.3f}", *about[:3], accelerometers, *rest]
     stamps = 0.01 * np.arange(count) if time_s is None else time_s
     event = [""] * count
     at = int(np.searchsorted(stamps, manoeuvre.blowout_s - 0.005))

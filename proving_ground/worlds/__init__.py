@@ -7,6 +7,7 @@ simulator, `w4` any of them recorded as roughly as real logs are. Cases of a wor
 
 from __future__ import annotations
 
-from proving_ground.worlds.table import CYCLE, FIRST_SEED, WORLDS, world_cases
+from proving_ground.worlds.draws import CYCLE
+from proving_ground.worlds.table import FIRST_SEED, WORLDS, world_cases
 
 __all__ = ["CYCLE", "FIRST_SEED", "WORLDS", "world_cases"]

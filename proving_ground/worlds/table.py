@@ -7,41 +7,29 @@ physical end (a dead brake, a road of ice).
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
+from proving_ground.car.table import car_case
 from proving_ground.cases import CaseSpec, EffectSpec, FaultSpec, check
 from proving_ground.effects import FAMILIES, LISTED, UNLISTED
-from proving_ground.faults import FAULTS, WHOLE
+from proving_ground.faults import FAULTS
 from proving_ground.table import MISSING
+from proving_ground.worlds.draws import (
+    CYCLE,
+    ENDS,
+    GROUP,
+    WHOLE_NAMES,
+    Rng,
+    Turn,
+    walk,
+    wanted_sigma,
+)
 from proving_ground.worlds.runs import choose_runs
 
-Rng = np.random.Generator
-WORLDS = ("w1", "w2", "w4")
-FIRST_SEED = {"w1": 2_000_000, "w2": 3_000_000, "w4": 5_000_000}
-# n nothing, s one effect, p two, f an instrument, u of no list, t taken out of the library
-CYCLE = "nsnsnfnsnsnpnsnsntnsfuss"
-GROUP = {"n": "null", "s": "single", "p": "pair", "f": "sensor", "u": "unknown", "t": "unknown"}
-WHOLE_NAMES = tuple(kind.name for kind in WHOLE)
-SIGMAS = (4.0, 150.0)
-ENDS = 0.1                        # share of single effects at their physical end
-
-
-@dataclass(frozen=True)
-class Turn:
-    """Place of a case in its world: number, letter, and how often the letter came before."""
-
-    number: int
-    letter: str
-    before: int
-
-    @classmethod
-    def of(cls, number: int) -> Turn:
-        """The turn of a case number."""
-        rounds, at = divmod(number, len(CYCLE))
-        letter = CYCLE[at]
-        return cls(number, letter, rounds * CYCLE.count(letter) + CYCLE[:at].count(letter))
+WORLDS = ("w1", "w2", "w3", "w4")
+FIRST_SEED = {"w1": 2_000_000, "w2": 3_000_000, "w3": 4_000_000, "w4": 5_000_000}
 
 
 def world_cases(world: str, first: int = 0, count: int = len(CYCLE)) -> list[CaseSpec]:
@@ -58,9 +46,13 @@ def world_cases(world: str, first: int = 0, count: int = len(CYCLE)) -> list[Cas
 def _case(world: str, turn: Turn) -> CaseSpec:
     seed = FIRST_SEED[world] + turn.number
     rng = np.random.default_rng([seed, 101])
+    if world == "w3":
+        return car_case("w3", turn, seed)
     if world != "w4":
         return truck_case(world, world, turn, seed, rng)
-    truth = ("w1", "w2", "w2")[turn.number % 3]
+    truth = ("w1", "w2", "w3")[turn.number % 3]
+    if truth == "w3":
+        return _roughened(car_case("w4", turn, seed), rng)
     return _roughened(truck_case("w4", truth, turn, seed, rng), rng)
 
 
@@ -93,31 +85,20 @@ def _causes(turn: Turn, rng: Rng
     if turn.letter == "n":
         return (), (), ()
     if turn.letter == "s":
-        return (_effect(_walk(tuple(LISTED), turn.before), rng, rng.random() < ENDS),), (), ()
+        return (_effect(walk(tuple(LISTED), turn.before), rng, rng.random() < ENDS),), (), ()
     if turn.letter == "p":
         first, second = rng.choice(sorted(LISTED), 2, replace=False)
         pair = [_effect(str(name), rng) for name in (first, second)]
         if turn.before % 4 == 3:
-            return (pair[0],), (_fault(_walk(tuple(FAULTS), turn.before // 4), rng),), ()
+            return (pair[0],), (_fault(walk(tuple(FAULTS), turn.before // 4), rng),), ()
         return tuple(pair), (), ()
     if turn.letter == "f":
-        return (), (_fault(_walk(tuple(FAULTS), turn.before), rng),), ()
+        return (), (_fault(walk(tuple(FAULTS), turn.before), rng),), ()
     if turn.letter == "u":
-        return (_effect(_walk(tuple(UNLISTED), turn.before), rng),), (), ()
-    family = _walk(tuple(FAMILIES), turn.before)
+        return (_effect(walk(tuple(UNLISTED), turn.before), rng),), (), ()
+    family = walk(tuple(FAMILIES), turn.before)
     listed = [name for name in FAMILIES[family] if name in LISTED]
     return (_effect(str(rng.choice(listed)), rng),), (), FAMILIES[family]
-
-
-def _walk(names: tuple[str, ...], number: int) -> str:
-    """Names one after the other in strides, so that a few draws already differ in kind."""
-    stride = next(step for step in (7, 5, 3, 1) if np.gcd(step, len(names)) == 1)
-    return names[stride * number % len(names)]
-
-
-def wanted_sigma(rng: Rng) -> float:
-    """A wanted detectability, uniform in its logarithm."""
-    return float(f"{np.exp(rng.uniform(*np.log(SIGMAS))):.3g}")
 
 
 def _effect(name: str, rng: Rng, at_end: bool = False) -> EffectSpec:

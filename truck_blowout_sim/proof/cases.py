@@ -16,7 +16,8 @@ from typing import Any
 
 from truck_blowout_sim.errors import InputError
 
-LIBRARY = "library.json"  # beside the recordings: what the diagnosis must do without
+LIBRARY = "library.json"  # beside the recordings: the model's vehicle, what it must do without
+VEHICLE = "international_9400i_trailmobile"
 ROLES = ("train", "baseline", "holdout")
 NOTHING_MISSING = ("consistent", "miscalibrated")
 
@@ -39,12 +40,25 @@ class Case:
         Raises:
             InputError: the file that says so is not what it should be.
         """
+        return tuple(map(str, self._library().get("without", ())))
+
+    def vehicle(self) -> str:
+        """Vehicle file of the model: the shipped truck, where the case names no other.
+
+        Raises:
+            InputError: the file that says so is not what it should be.
+        """
+        return str(self._library().get("vehicle", VEHICLE))
+
+    def _library(self) -> dict[str, Any]:
+        """What lies beside the recordings for the diagnosis; empty where nothing does."""
         path = self.folder / LIBRARY
         if not path.is_file():
-            return ()
+            return {}
         try:
-            return tuple(map(str, json.loads(path.read_text(encoding="utf-8"))["without"]))
-        except (KeyError, TypeError, json.JSONDecodeError) as error:
+            tree = json.loads(path.read_text(encoding="utf-8"))
+            return {**tree, "without": [*tree.get("without", ())]}
+        except (AttributeError, TypeError, json.JSONDecodeError) as error:
             raise InputError(f"not a list of effects: {error!r}", file=path,
                              expected='{"without": ["crosswind"]}') from error
 

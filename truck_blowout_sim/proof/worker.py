@@ -6,7 +6,7 @@ import time
 from typing import Any
 
 from truck_blowout_sim.proof.blindfold import blindfolded
-from truck_blowout_sim.proof.cases import ROLES, Case
+from truck_blowout_sim.proof.cases import ROLES, VEHICLE, Case
 
 
 def diagnose_case(case: Case, *, step_s: float, with_baselines: bool) -> dict[str, Any]:
@@ -29,10 +29,11 @@ def diagnose_case(case: Case, *, step_s: float, with_baselines: bool) -> dict[st
     memory = Memory()
     try:
         answer, _ = diagnose(train, baseline=baseline, holdout=holdout, workers=1, step_s=step_s,
-                             without=case.without(), kept=memory)
+                             without=case.without(), kept=memory,
+                             vehicle=case.vehicle())
         line["answer"] = answer.as_json()
         line["cpu_s"] = round(time.process_time() - cpu, 1)
-        if with_baselines:
+        if with_baselines and case.vehicle() == VEHICLE:
             line["baselines"] = baseline_errors(train, baseline, holdout, step_s,
                                                 answer.holdout.after, memory)
     except (ArithmeticError, ValueError, LookupError, AssertionError, RuntimeError) as error:

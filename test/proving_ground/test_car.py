@@ -1,0 +1,57 @@
+"""The car of another simulator: its own functions, its own numbers, and the file that models it."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from truck_blowout_sim.vehicle import load_vehicle, pack
+
+pytest.importorskip("vehiclemodels")
+
+from proving_ground.car.effects import CAR_LISTED, CAR_UNLISTED, combine
+from proving_ground.car.individual import draw, nominal
+from proving_ground.car.manoeuvres import KINDS, make
+from proving_ground.worlds import world_cases
+
+
+def test_our_parameters_move_the_foreign_model_as_its_own_do() -> None:
+    from vehiclemodels.init_mb import init_mb
+    from vehiclemodels.parameters_vehicle2 import parameters_vehicle2
+    from vehiclemodels.vehicle_dynamics_mb import vehicle_dynamics_mb
+
+    own, ours = parameters_vehicle2(), nominal().parameters()
+    state = init_mb([0.0, 0.0, 0.03, 20.0, 0.1, 0.15, 0.01], own)
+    there = vehicle_dynamics_mb(list(state), [0.1, -2.0], own)
+    here = vehicle_dynamics_mb(list(state), [0.1, -2.0], ours)
+    assert np.allclose(there, here)
+
+
+def test_the_vehicle_file_states_the_published_car() -> None:
+    published, packed = nominal().car, pack(load_vehicle("bmw_320i"))
+    assert packed["unit.tractor.mass_kg"] == pytest.approx(published["m_s"], rel=1e-4)
+    assert packed["unit.tractor.ixx_kgm2"] == pytest.approx(published["I_Phi_s"], rel=1e-3)
+
+
+def test_cars_differ_and_repeat() -> None:
+    assert draw(5).car == draw(5).car
+    assert draw(5).car != draw(6).car
+    assert draw(5).car["m"] == pytest.approx(nominal().car["m"], rel=0.021)
+
+
+@pytest.mark.parametrize("name", sorted({**CAR_LISTED, **CAR_UNLISTED}))
+def test_every_effect_sets_something(name: str) -> None:
+    kind = {**CAR_LISTED, **CAR_UNLISTED}[name]
+    still, _ = combine([])
+    for law in range(1 + len(kind.others)):
+        acts, tires = combine([kind.by_law(law)(0.5, kind.places[0], 1.0, 50.0)])
+        changed = [key for key, value in acts._asdict().items()
+                   if not np.array_equal(value, getattr(still, key))]
+        assert changed or tires
+
+
+def test_every_manoeuvre_of_a_case_exists() -> None:
+    for kinds in KINDS.values():
+        for kind in kinds:
+            assert 5.0 < make(kind, 3).duration_s < 20.0
+    assert {case.truth for case in world_cases("w3", 0, 24)} == {"w3"}
