@@ -10,7 +10,7 @@ PACKAGE = "truck_blowout_sim"
 ROOT = Path(__file__).resolve().parent
 VERBS = (
     "run", "import", "export", "compare", "diagnose", "prove", "recover", "validate", "vehicle",
-    "view", "plot", "sweep")
+    "view", "plot", "sweep", "calibrate")
 NODES = ("simulator", "player", "lane_keeper", "urdf")
 
 
