@@ -47,7 +47,7 @@ def reference_markdown() -> str:
     lines: list[str] = []
     for title, section in FILES.items():
         lines += [f"### {title}", "", "| key | accepts | meaning |", "|---|---|---|"]
-        lines += list(_rows(section, "", {}))
+        lines += list(key_rows(section, "", {}))
         lines.append("")
     lines += ["### Parameters that only `effects:` sets", "", "| name | neutral |", "|---|---|"]
     lines += [
@@ -58,7 +58,12 @@ def reference_markdown() -> str:
     return "\n".join(lines) + "\n"
 
 
-def _rows(section: type[Any], prefix: str, shown: dict[type[Any], str]) -> Iterator[str]:
+def key_rows(section: type[Any], prefix: str, shown: dict[type[Any], str]) -> Iterator[str]:
+    """A row of a Markdown table for every key of a section and of the sections below it.
+
+    Args:
+        prefix: of the keys; ``shown``: sections that have their rows already, filled on the way.
+    """
     needed = required(section)
     for key, rule in rules(section).items():
         name = f"{prefix}{key}"
@@ -67,7 +72,7 @@ def _rows(section: type[Any], prefix: str, shown: dict[type[Any], str]) -> Itera
         yield f"| `{name}` | {_accepts(rule, needed=key in needed)} | {doc} |"
         if rule.section is not None and again == name:
             below = f"{name}.<name>." if rule.kind == "sections" else f"{name}."
-            yield from _rows(rule.section, below, shown)
+            yield from key_rows(rule.section, below, shown)
 
 
 def _accepts(rule: Rule, *, needed: bool) -> str:
