@@ -28,6 +28,7 @@ VERBS: dict[str, tuple[str, str]] = {
     "sweep": ("sweep", "Run a scenario many times with keys that vary: one table, one page."),
     "prove": ("prove", "Run the concealed-effect benchmark and write its table."),
     "vehicle": ("vehicle", "Show loads, handling and what was filled in of a vehicle file."),
+    "plot": ("plot", "Plot any channel of any run; the thesis's figures by number."),
     "view": ("view", "Show the truck of a run moving in 3-D, in one HTML file."),
     "recover": ("recover", "Make a bag readable again whose writer was killed."),
     "validate": ("validate", "Measure the model against the published figures of the test."),

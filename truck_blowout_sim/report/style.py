@@ -16,6 +16,7 @@ from dataclasses import dataclass
 from typing import Any, ParamSpec, TypeVar
 
 from matplotlib.axes import Axes
+from matplotlib.colors import to_hex
 from matplotlib.figure import Figure
 from matplotlib.rcsetup import cycler
 from matplotlib.style import context as style_context
@@ -68,6 +69,14 @@ _STYLE: Any = {
 _WHOLE_STYLE = ["default", _STYLE]
 
 
+_UNDATED: dict[str, Any] = {
+    "png": {"Software": None}, "svg": {"Date": None, "Creator": None},
+    "pdf": {"CreationDate": None, "Creator": None, "Producer": None},
+}  # fmt: skip
+# what stands in the dark style for each color of the light one
+_DARK = {PAPER: "#14191f", INK: "#e6eaee", SOFT: "#9aa6b2", GRID: "#2c343c", BLUE: SKY}
+
+
 @dataclass(frozen=True, eq=False)
 class Picture:
     """A finished figure.
@@ -88,6 +97,12 @@ class Picture:
         """Bitmap for documents."""
         return self._saved("png")
 
+    def saved(self, form: str, *, dark: bool = False) -> bytes:
+        """The figure as ``png``, ``svg`` or ``pdf``; dark: light ink on dark paper."""
+        if dark:
+            _darken(self.figure)
+        return self._saved(form)
+
     def svg_uri(self) -> str:
         """Vector drawing as the address of an image, for a page that needs no other file."""
         text = base64.b64encode(self._saved("svg")).decode("ascii")
@@ -96,10 +111,11 @@ class Picture:
     def _saved(self, form: str) -> bytes:
         buffer = io.BytesIO()
         # Without a date and the library's version the same figure gives the same file.
-        metadata = {"Software": None} if form == "png" else {"Date": None, "Creator": None}
+        metadata = _UNDATED[form]
         with style_context(_WHOLE_STYLE):
             self._lay_out()
-            self.figure.savefig(buffer, format=form, dpi=_PNG_DPI, metadata=metadata)
+            self.figure.savefig(buffer, format=form, dpi=_PNG_DPI, metadata=metadata,
+                                facecolor=self.figure.get_facecolor())
         return buffer.getvalue()
 
     def _lay_out(self) -> None:
@@ -143,3 +159,22 @@ def mark_events(axes: Axes, times_s: tuple[float, ...], words: str = "blowout") 
         axes.axvline(time_s, color=EVENT, linewidth=1.0, linestyle=(0, (4, 3)), zorder=1)
         axes.annotate(words, (time_s, 1.0), xycoords=("data", "axes fraction"), xytext=(3, -2),
                       textcoords="offset points", va="top", color=EVENT, fontsize=8)  # fmt: skip
+
+
+def _darken(figure: Figure) -> None:
+    """Exchange the colors of the light style in everything drawn."""
+    for artist in figure.findobj():
+        for kind in ("color", "facecolor", "edgecolor"):
+            get, put = getattr(artist, f"get_{kind}", None), getattr(artist, f"set_{kind}", None)
+            if get is None or put is None:
+                continue
+            try:
+                now = to_hex(get())
+            except (ValueError, TypeError):
+                continue  # a collection of colors is left as it is
+            if now in _DARK:
+                put(_DARK[now])
+    for axes in figure.axes:
+        axes.tick_params(colors=_DARK[SOFT], labelcolor=_DARK[INK])
+        axes.set_facecolor(_DARK[PAPER])
+    figure.set_facecolor(_DARK[PAPER])

@@ -1,0 +1,139 @@
+"""Plots of any channel of any run, overlaid.
+
+A panel shows one channel of several runs (a color each), or several channels (a color each, a dash
+for each further run). The blowout is a thin line under the curves with its name above the panel.
+
+Validated with: test/report/test_channel_plots.py.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from matplotlib.axes import Axes
+
+from truck_blowout_sim.comparison.units import axes_sign, display_unit
+from truck_blowout_sim.recordings import Recording
+from truck_blowout_sim.recordings.channels import by_name
+from truck_blowout_sim.recordings.names import parts_of
+from truck_blowout_sim.report.style import CYCLE, EVENT, Picture, new_figure, styled
+
+TIME = "time_s"
+_DASHES: tuple[Any, ...] = ("-", (0, (5, 2)), (0, (1.5, 1.5)), (0, (6, 2, 1.5, 2)))
+_PANEL_HEIGHT, _WIDTH = 2.3, 8.4
+
+
+@dataclass(frozen=True)
+class PlotRequest:
+    """What is plotted, and how.
+
+    Attributes:
+        panels: channels of each panel, from top to bottom.
+        over: channel on the horizontal axis; ``time_s`` for time.
+        units: ``us`` or ``si``.
+        axes: ``iso`` or ``sae``.
+        start_s, end_s: part of the runs.
+    """
+
+    panels: tuple[tuple[str, ...], ...]
+    over: str = TIME
+    units: str = "us"
+    axes: str = "iso"
+    start_s: float | None = None
+    end_s: float | None = None
+
+
+@styled
+def channel_plot(runs: Sequence[Recording], request: PlotRequest, name: str) -> Picture:
+    """One figure with a panel for each group of channels.
+
+    A run that lacks a channel is left out of its panel; a panel that no run has is left empty.
+    """
+    count = len(request.panels)
+    figure = new_figure((_WIDTH, 0.9 + _PANEL_HEIGHT * count))
+    shared = request.over == TIME
+    panels = figure.subplots(count, 1, sharex=shared, squeeze=False)[:, 0]
+    for axes, channels in zip(panels, request.panels, strict=True):
+        _panel(axes, runs, channels, request)
+    if shared:
+        for axes in panels:
+            _mark(axes, runs, named=axes is panels[0])
+    for axes in panels if not shared else panels[-1:]:
+        axes.set_xlabel("time (s)" if shared else _label(runs, request.over, request))
+    words = ", ".join(run.name for run in runs)
+    return Picture(name, words, "; ".join("+".join(group) for group in request.panels), figure)
+
+
+def _panel(axes: Axes, runs: Sequence[Recording], channels: Sequence[str], request: PlotRequest
+           ) -> None:
+    for r, run in enumerate(runs):
+        for c, channel in enumerate(channels):
+            if channel not in run:
+                continue
+            x, y = _values(run, channel, request)
+            several = len(channels) > 1
+            words = [w for w, shown in ((channel, several), (run.name, len(runs) > 1)) if shown]
+            axes.plot(x, y, color=CYCLE[(c if several else r) % len(CYCLE)],
+                      linestyle=_DASHES[r % len(_DASHES)],
+                      label=", ".join(words) or channel, zorder=3)  # fmt: skip
+    axes.set_ylabel(_label(runs, channels[0], request) if len(channels) == 1
+                    else _symbols(channels, request))
+    if len(channels) > 1 or len(runs) > 1:
+        axes.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0), borderaxespad=0.3)
+
+
+def _values(run: Recording, channel: str, request: PlotRequest) -> tuple[Any, Any]:
+    series = run[channel]
+    start = run.start_s if request.start_s is None else request.start_s
+    end = run.end_s if request.end_s is None else request.end_s
+    series = series.between(start, end)
+    y = series.value * display_unit(channel, request.units).per_si
+    y = y * axes_sign(channel, request.axes)
+    if request.over == TIME:
+        return series.time_s, y
+    across = run.at(request.over, series.time_s) * display_unit(request.over, request.units).per_si
+    return across * axes_sign(request.over, request.axes), y
+
+
+def _label(runs: Sequence[Recording], channel: str, request: PlotRequest) -> str:
+    """The quantity in words with its unit, on two lines where it is long."""
+    table = by_name(parts_of([name for run in runs for name in run.channels]).table())
+    words = table[channel].quantity if channel in table else channel
+    symbol = display_unit(channel, request.units).symbol
+    if axes_sign(channel, request.axes) < 0.0:
+        words = words.replace("left positive", "right positive").replace("to the left",
+                                                                         "to the right")
+    return f"{_folded(words)}" + (f" ({symbol})" if symbol else "")
+
+
+def _folded(words: str) -> str:
+    if len(words) < 26:
+        return words
+    at = words.find(" ", len(words) // 2 - 2)
+    return words if at < 0 else f"{words[:at]}\n{words[at + 1:]}"
+
+
+def _symbols(channels: Sequence[str], request: PlotRequest) -> str:
+    return ", ".join(dict.fromkeys(
+        display_unit(channel, request.units).symbol for channel in channels))  # fmt: skip
+
+
+def _mark(axes: Axes, runs: Sequence[Recording], *, named: bool) -> None:
+    """Blowouts: a line under the curves, the tire's name above the panel."""
+    low, high = axes.get_xlim()
+    events: dict[float, list[str]] = {}
+    for run in runs:
+        for event in run.blowouts:
+            events.setdefault(round(event.time_s, 3), []).extend(event.tires)
+    for time_s, tires in events.items():
+        if not low <= time_s <= high:
+            continue
+        axes.axvline(time_s, color=EVENT, linewidth=1.0, linestyle=(0, (4, 3)), zorder=1)
+        if named:
+            axes.annotate("blown: " + ", ".join(dict.fromkeys(tires)), (time_s, 1.0),
+                          xycoords=("data", "axes fraction"), xytext=(0, 3),
+                          textcoords="offset points", ha="center", va="bottom", color=EVENT,
+                          fontsize=8, annotation_clip=False)  # fmt: skip
+    axes.set_xlim(low, high)
