@@ -9,9 +9,8 @@ from setuptools import find_packages, setup
 PACKAGE = "truck_blowout_sim"
 ROOT = Path(__file__).resolve().parent
 VERBS = (
-    "run", "inspect", "import", "export", "compare", "diagnose", "prove", "recover", "validate",
-    "vehicle", "view", "plot", "sweep", "calibrate",
-)
+    "run", "import", "export", "compare", "diagnose", "prove", "recover", "validate", "vehicle",
+    "view", "plot", "sweep", "calibrate")
 NODES = ("simulator", "player", "lane_keeper", "urdf")
 
 
@@ -25,6 +24,12 @@ def present(verb: str) -> bool:
 # others, so it gets the one command that holds all verbs.
 for_colcon = bool({"install", "develop"} & set(sys.argv))
 programs = ["truck-blowout = truck_blowout_sim.cli.main:main"]
+DOORS = "truck_blowout_sim.nodes.door"
+if not for_colcon:
+    programs += [
+        f"truck-blowout-{node.replace('_', '-')} = {DOORS}:{node}"
+        for node in ("simulator", "player", "lane_keeper")
+    ]
 if for_colcon:
     programs += [
         f"{verb} = truck_blowout_sim.cli.main:ros2_verb" for verb in VERBS if present(verb)
@@ -65,7 +70,11 @@ setup(
         *shared("config"),
         *shared("launch"),
     ],
-    entry_points={"console_scripts": programs},
+    entry_points={
+        "console_scripts": programs,
+        # the verbs `truck-blowout simulator` and `player` find the nodes here, not by import
+        "truck_blowout_sim.nodes": [f"{node} = {DOORS}:{node}" for node in ("simulator", "player")],
+    },
     install_requires=[
         "jinja2>=3.0",
         "matplotlib>=3.5",
@@ -95,10 +104,6 @@ setup(
             "ros-std-srvs",
             "ros-visualization-msgs",
         ],
-        "mdf": ["asammdf>=7.4"],
-        "mat73": ["h5py>=3.6"],
-        "frames": ["pandas>=1.5", "xarray>=2022.6"],
-        "logs": ["asammdf>=7.4", "h5py>=3.6", "pandas>=1.5", "xarray>=2022.6"],
         "prove": ["commonroad-vehicle-models>=3.0", "mujoco>=3.1", "pysindy>=2.0"],
         "dask": ["distributed>=2023.1"],
         "test": [

@@ -5,14 +5,14 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
-from truck_blowout_sim.nodes import lane_keeper, player_parameters, simulator_parameters
+from truck_blowout_sim.nodes import lane_keeper_node, player_parameters, simulator_parameters
 from truck_blowout_sim.nodes.parameters import markdown
 
 PAGE = Path(__file__).resolve().parents[1] / "docs" / "ros.md"
 TABLES = {
     "simulator": simulator_parameters.SPECS,
     "player": player_parameters.SPECS,
-    "lane_keeper": lane_keeper.SPECS,
+    "lane_keeper": lane_keeper_node.SPECS,
 }
 
 

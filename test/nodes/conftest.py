@@ -117,6 +117,11 @@ class Start:
         self.running: list[Running] = []
 
     def __call__(self, name: str, *words: object, **options: Any) -> Running:  # noqa: ANN401
+        module = f"truck_blowout_sim.nodes.{name}"
+        return self.program(sys.executable, "-m", module, *words, **options)
+
+    def program(self, *words: object, **options: Any) -> Running:  # noqa: ANN401
+        """Start any program in the nodes' environment."""
         env = {
             **os.environ,
             **TRANSPORT,
@@ -124,9 +129,8 @@ class Start:
             "ROS_LOG_DIR": str(self.folder / "ros_log"),
             "PYTHONPATH": str(REPOSITORY),
         }
-        command = [sys.executable, "-m", f"truck_blowout_sim.nodes.{name}", *map(str, words)]
-        log = self.folder / f"{name}_{len(self.running)}.log"
-        self.running.append(Running(command, env, log, **options))
+        log = self.folder / f"{len(self.running)}.log"
+        self.running.append(Running([str(word) for word in words], env, log, **options))
         return self.running[-1]
 
     def end(self, first: int = 0) -> None:

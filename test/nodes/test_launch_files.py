@@ -15,7 +15,8 @@ from typing import Any, ClassVar
 import pytest
 import yaml
 
-from truck_blowout_sim.nodes import lane_keeper, player_parameters, simulator_parameters
+from truck_blowout_sim.nodes import lane_keeper_node as lane_keeper
+from truck_blowout_sim.nodes import player_parameters, simulator_parameters
 
 ROOT = Path(__file__).resolve().parents[2]
 FILES = ("simulator", "replay", "closed_loop")

@@ -19,7 +19,7 @@ from std_msgs.msg import Float64
 from std_srvs.srv import Trigger
 
 from truck_blowout_sim.nodes import player_parameters
-from truck_blowout_sim.nodes.lane_keeper import SPECS as LANE_KEEPER_SPECS
+from truck_blowout_sim.nodes.lane_keeper_node import SPECS as LANE_KEEPER_SPECS
 from truck_blowout_sim.nodes.parameters import Spec, markdown
 from truck_blowout_sim.nodes.simulator_parameters import SPECS
 

@@ -12,6 +12,7 @@ from mcap.reader import make_reader
 from rcl_interfaces.srv import ListParameters
 from rclpy.qos import QoSProfile, ReliabilityPolicy
 from sensor_msgs.msg import Imu
+from std_srvs.srv import Trigger
 
 IMU = "/truck/tractor/imu"
 OTHER_IMU = "/truck/trailer/imu"
@@ -48,6 +49,7 @@ def test_a_reader_of_either_kind_hears_the_simulator(
     start: Any, client: Any, reliability: ReliabilityPolicy
 ) -> None:
     node = start("simulator")
+    node.wait_for("ready")
     heard = client.listen(Imu, IMU, QoSProfile(depth=10, reliability=reliability))
     client.until(lambda: len(heard) > 5, what="the IMU")
     assert node.stop() == 0
@@ -79,23 +81,24 @@ def test_an_override_reaches_its_topic_alone_and_the_bag_says_so(
         assert (found[IMU]["depth"], found[OTHER_IMU]["depth"]) == (3, 10)
 
 
-@pytest.mark.parametrize(
-    ("topic", "name"),
-    [("/clock", "publisher.depth"), ("/diagnostics", "publisher.reliability"),
-     ("/truck/tire_forces", "publisher.depth"), ("/truck/blowout", "publisher.depth"),
-     (THROTTLE, "subscription.depth")],
-)  # fmt: skip
-def test_every_topic_can_be_overridden(parameters: set[str], topic: str, name: str) -> None:
-    assert f"qos_overrides.{topic}.{name}" in parameters
-
-
-@pytest.fixture(scope="module")
-def parameters(start: Any, module_client: Any) -> set[str]:
-    """Names of all parameters of a running simulator."""
-    node = start("simulator")
-    reply = module_client.call(ListParameters, "/truck/simulator/list_parameters")
+def test_every_topic_can_be_overridden_and_only_what_is_shows(start: Any, client: Any) -> None:
+    asked = (
+        "/clock.publisher.depth:=5", "/diagnostics.publisher.reliability:=reliable",
+        "/truck/tire_forces.publisher.depth:=2", "/truck/blowout.publisher.depth:=50",
+        f"{THROTTLE}.subscription.depth:=4",
+    )  # fmt: skip
+    node = start("simulator", *overrides(*asked))
+    node.wait_for("ready")
+    reply = client.call(ListParameters, "/truck/simulator/list_parameters")
+    shown = {name for name in reply.result.names if name.startswith("qos_overrides.")}
+    assert {f"qos_overrides.{word.split(':=')[0]}" for word in asked} <= shown
+    # rclpy shows depth, history and reliability of a topic that is named
+    assert {name.rsplit(".", 2)[0] for name in shown} == {
+        f"qos_overrides.{word.rsplit('.', 2)[0]}" for word in asked
+    }
+    client.call(Trigger, "/truck/blowout/steer_left")  # makes its publisher once more
+    assert client.call(Trigger, "/truck/reset").success
     assert node.stop() == 0
-    return set(reply.result.names)
 
 
 @pytest.mark.parametrize(

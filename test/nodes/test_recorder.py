@@ -154,7 +154,7 @@ def test_a_second_bag_gets_a_number(start: Any, client: Any, tmp_path: Path) -> 
 
 
 def test_the_path_can_be_set_while_running(start: Any, client: Any, tmp_path: Path) -> None:
-    node = start("simulator")
+    node = start("simulator", "--record-folder", tmp_path)
     node.wait_for("ready")
     clock = client.listen(Clock, "/clock")
     client.until(lambda: clock, what="/clock")

@@ -17,6 +17,7 @@ from std_srvs.srv import Trigger
 from visualization_msgs.msg import MarkerArray
 
 from truck_blowout_sim import load_vehicle
+from truck_blowout_sim.display.urdf import urdf_of
 
 VEHICLE = load_vehicle("international_9400i_trailmobile")
 UNITS = ("tractor", "trailer")
@@ -31,12 +32,15 @@ PUBLISHED = {
     **{f"/truck/brake_chambers/{h}/pressure": "sensor_msgs/msg/FluidPressure"
        for h in VEHICLE.hubs},
     "/truck/blowout": "std_msgs/msg/String",
+    "/truck/blown_tires": "std_msgs/msg/String",
+    "/truck/robot_description": "std_msgs/msg/String",
     "/truck/tire_forces": "visualization_msgs/msg/MarkerArray",
     "/clock": "rosgraph_msgs/msg/Clock",
     "/diagnostics": "diagnostic_msgs/msg/DiagnosticArray",
 }  # fmt: skip
 SUBSCRIBED = {
     "/truck/steering_wheel_angle",
+    "/truck/road_wheel_angle",
     "/truck/throttle",
     "/truck/brake_pressure/steer",
     "/truck/brake_pressure/drive",
@@ -140,7 +144,7 @@ def test_outputs_come_at_100_hz_of_simulation_time(simulator: Any, client: Any) 
 def test_diagnostics_tell_pace_inputs_recorder_and_state(simulator: Any, client: Any) -> None:
     message = client.first(DiagnosticArray, "/diagnostics")
     names = {status.name.split(": ")[1] for status in message.status}
-    assert names == {"pace", "inputs", "recorder", "state", "clock"}
+    assert names == {"pace", "inputs", "recorder", "state", "clock", "outputs"}
     pace = next(status for status in message.status if status.name.endswith("pace"))
     values = {pair.key: pair.value for pair in pace.values}
     assert {"real_time_factor", "lateness_worst_ms", "simulation_time_s"} <= values.keys()
@@ -153,7 +157,54 @@ def test_markers_show_one_arrow_a_tire(simulator: Any, client: Any) -> None:
     assert weight_n == pytest.approx(23600 * 9.81, rel=0.03)
 
 
+def test_robot_description_is_there_for_a_late_joiner(simulator: Any, client: Any) -> None:
+    text = client.first(String, "/truck/robot_description", client.latched).data
+    assert text == urdf_of(VEHICLE)
+
+
+def test_a_road_wheel_angle_steers_as_the_hand_wheel_does(fresh: Any) -> None:
+    steer = fresh.talk(Float64, "/truck/road_wheel_angle")
+    states = fresh.listen(JointState, "/truck/joint_states")
+
+    def wheels_rad() -> float:
+        steer.publish(Float64(data=0.03))
+        if not states:
+            return 0.0
+        at = dict(zip(states[-1].name, states[-1].position, strict=True))
+        return float(at["steer_left_steer"] + at["steer_right_steer"]) / 2
+
+    # the linkage gives a little under load
+    fresh.until(lambda: 0.022 < wheels_rad() < 0.034, what="steered wheels")
+    fresh.call(Trigger, "/truck/reset")
+
+
 def test_blowout_event_reaches_a_late_joiner(simulator: Any, client: Any) -> None:
     client.call(Trigger, "/truck/blowout/trailer_2_right_outer")
     event = client.first(String, "/truck/blowout", client.latched)
     assert event.data == "trailer_2_right_outer"
+
+
+def test_after_reset_nobody_is_told_of_whole_tires(simulator: Any, client: Any) -> None:
+    early = client.listen(String, "/truck/blowout", client.latched)
+    client.call(Trigger, "/truck/blowout/steer_left")
+    client.until(lambda: "steer_left" in [one.data for one in early], what="the blowout")
+    client.call(Trigger, "/truck/reset")
+    late = client.listen(String, "/truck/blowout", client.latched)
+    assert client.first(String, "/truck/blown_tires", client.latched).data == ""
+    client.spin(0.5)
+    assert late == []
+    client.call(Trigger, "/truck/blowout/drive_1_left")
+    client.until(lambda: len(late) == 2, what="the blowouts of this run")
+    assert {one.data for one in late} == {"drive_1_left_outer", "drive_1_left_inner"}
+    state = client.first(String, "/truck/blown_tires", client.latched).data
+    assert set(state.split("+")) == {"drive_1_left_outer", "drive_1_left_inner"}
+    assert [one.data for one in early[-2:]] == [one.data for one in late]
+    client.call(Trigger, "/truck/reset")
+
+
+def test_a_second_publisher_of_an_output_is_pointed_out_once(simulator: Any, client: Any) -> None:
+    client.node.create_publisher(Imu, "/truck/tractor/imu", 10)
+    words = simulator.wait_for("/test_client publishes 1 of this node's outputs", 20.0)
+    assert "/truck/tractor/imu" in words
+    client.spin(2.5)
+    assert simulator.output.count("/test_client publishes") == 1

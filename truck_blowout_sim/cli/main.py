@@ -12,7 +12,10 @@ from typing import Any
 import typer
 
 from truck_blowout_sim.cli.failures import INTERRUPTED, report
+from truck_blowout_sim.cli.node import NODES
+from truck_blowout_sim.cli.node import run as run_node
 from truck_blowout_sim.cli.several import repeat_flags
+from truck_blowout_sim.errors import InputError
 
 PROGRAM = "truck-blowout"
 
@@ -20,9 +23,8 @@ PROGRAM = "truck-blowout"
 # so that `--help` lists every verb without importing any of them.
 VERBS: dict[str, tuple[str, str]] = {
     "run": ("run", "Simulate a scenario without ROS and write a bag."),
-    "inspect": ("inspect", "Say what is in a log, and what becomes which channel."),
-    "import": ("import_", "Convert a log of any logger to a bag."),
-    "export": ("export", "Convert a bag or log to CSV, .mat or .mcap."),
+    "import": ("import_", "Convert a log (CSV, .mat, .mcap, bag) to a bag."),
+    "export": ("export", "Convert a bag to CSV."),
     "compare": ("compare", "Drive the model with a recording's inputs and report the differences."),
     "diagnose": ("diagnose", "Locate, name and fit what the model lacks to explain recordings."),
     "calibrate": ("calibrate", "Fit the sheet's numbers to ordinary driving; write the vehicle."),
@@ -49,6 +51,11 @@ def main(arguments: Sequence[str] | None = None, program: str = PROGRAM) -> int:
         0 done; 1 internal failure; 2 bad usage or bad input; 130 interrupted.
     """
     words = list(sys.argv[1:] if arguments is None else arguments)
+    if words and words[0] in NODES:
+        try:
+            return run_node(words[0], words[1:])
+        except InputError as error:
+            return report(error, program=program, traceback=False)
     # Taken wherever it stands: people add it at the end of the line that failed.
     traceback = TRACEBACK in words
     words = [word for word in words if word != TRACEBACK]
@@ -81,6 +88,8 @@ def build(words: Sequence[str] = ()) -> Callable[..., Any]:
             app.command(verb)(import_module(full_name).command)
         else:
             app.command(verb, help=summary)(_not_loaded)
+    for name, summary in NODES.items():
+        app.command(name, help=summary)(_not_loaded)
     return app
 
 

@@ -76,6 +76,11 @@ class WallPace:
         self._due_s = start_s + self.interval_s
         return max(late_s, 0.0)
 
+    @property
+    def known(self) -> bool:
+        """Whether it is known what time it is."""
+        return True
+
     def restart(self, wall_s: float) -> None:
         """The next tick is due one interval from now."""
         self._due_s = wall_s + self.interval_s
@@ -97,6 +102,11 @@ class FollowPace:
     def ticked(self, wall_s: float) -> float:
         """Lateness is measured against the followed clock, not the wall; see `behind_s`."""
         return 0.0
+
+    @property
+    def known(self) -> bool:
+        """Whether it is known what time it is."""
+        return self.target_ns is not None
 
     def behind_s(self, now_ns: int) -> float:
         """How far the simulation is behind the followed clock, in whole ticks, seconds."""

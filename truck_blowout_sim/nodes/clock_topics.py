@@ -16,6 +16,12 @@ from truck_blowout_sim.nodes.qos import latest, publisher, reliable, subscriptio
 _REORDERED_NS = 50_000_000
 _CLOCK = struct.Struct("<4siI")
 _LITTLE_ENDIAN = b"\x00\x01\x00\x00"
+CLOCK, CLOCK_TYPE = "/clock", "rosgraph_msgs/msg/Clock"
+
+
+def clock_bytes(now_ns: int) -> bytes:
+    """A serialised rosgraph_msgs/Clock."""
+    return _CLOCK.pack(_LITTLE_ENDIAN, *divmod(now_ns, NS))
 
 
 class ClockPublisher:
@@ -27,7 +33,7 @@ class ClockPublisher:
     """
 
     def __init__(self, node: Node, every: int) -> None:
-        self._publisher = publisher(node, Clock, "/clock", reliable())
+        self._publisher = publisher(node, Clock, CLOCK, reliable())
         self._every = every
         self._ticks = 0
 
@@ -35,7 +41,7 @@ class ClockPublisher:
         """One tick has passed; publish if it is due."""
         self._ticks += 1
         if always or self._ticks % self._every == 0:
-            self._publisher.publish(_CLOCK.pack(_LITTLE_ENDIAN, *divmod(now_ns, NS)))
+            self._publisher.publish(clock_bytes(now_ns))
 
 
 class Following(Protocol):
@@ -72,22 +78,24 @@ class FollowedClock:
         self._simulator = simulator
         self._pace = pace
         self._values = values
-        subscription(node, Clock, "/clock", self._take, latest())
+        subscription(node, Clock, CLOCK, self._take, latest())
 
     def rejoin(self) -> None:
         """After a pause: stand at the clock's present time, nothing is made up for."""
         target_ns = self._pace.target_ns
         if target_ns is not None and target_ns > self._simulator.plant.now_ns:
-            self._simulator.plant.clock.move_to(target_ns)
+            self._simulator.plant.move_to(target_ns)
 
     def _take(self, message: Clock) -> None:
         now_ns = message.clock.sec * NS + message.clock.nanosec
         before_ns, self._pace.target_ns = self._pace.target_ns, now_ns
         plant, log = self._simulator.plant, self._simulator.log
-        if before_ns is None:
-            plant.clock.move_to(now_ns)
-            self._simulator.begin()
-            log.info(f"following /clock from {now_ns / NS:.3f} s on")
+        if before_ns is None or not plant.ready:
+            plant.move_to(now_ns)
+            if plant.ready:
+                self._simulator.begin()
+            if before_ns is None:
+                log.info(f"following /clock from {now_ns / NS:.3f} s on")
             return
         forward_ns = round(self._values["max_clock_jump_s"] * NS)
         kind = jump(before_ns, now_ns, _REORDERED_NS, forward_ns)
@@ -97,12 +105,12 @@ class FollowedClock:
             recording = recorder.active
             if recording:
                 recorder.stop()  # time in a bag cannot run backwards
-            plant.clock.move_to(now_ns)
+            plant.move_to(now_ns)
             self._simulator.restart(f"/clock jumped back {seconds}")
             if recording:
                 self._simulator.record(True)
         elif kind == "forward":
-            plant.clock.move_to(now_ns)
+            plant.move_to(now_ns)
             log.warning(f"/clock jumped ahead {seconds}: the truck is carried over as it is")
         elif now_ns < before_ns:
             self._pace.target_ns = before_ns

@@ -5,9 +5,10 @@ from __future__ import annotations
 import struct
 from collections.abc import Callable
 from time import monotonic
-from typing import cast
+from typing import Any, cast
 
 from rclpy.node import Node
+from rclpy.subscription import Subscription
 from std_msgs.msg import Float64
 
 from truck_blowout_sim.nodes.inputs import Input
@@ -42,6 +43,7 @@ class CommandTopic:
         self._now_ns = now_ns
         self._write = recorder.write
         self._next_warning_s = 0.0
+        self._shared: list[tuple[Subscription[Any], Callable[[Any], None]]] = []
         self._subscription = subscription(
             node, Float64, guarded.topic, self._take, reliable(), raw=True
         )
@@ -49,19 +51,18 @@ class CommandTopic:
         # Its writers may come and go; whoever offers this, is read.
         recorder.offered(self.topic, in_force(self._subscription))
 
+    def share(self, other: Subscription[Any], take: Callable[[Any], None]) -> None:
+        """Let another topic feed the same input; `take` gets its messages."""
+        self._shared.append((other, take))
+
     def drain(self) -> None:
         """Take every message that has arrived, without asking the executor.
 
         A turn of the executor costs as much as the physics of a tick even if nothing has arrived.
         """
-        handle = self._subscription.handle
-        while True:
-            with handle:
-                # typed as if a message always came
-                taken = cast("tuple[Float64, object] | None", handle.take_message(Float64, True))
-            if taken is None:
-                return
-            self._take(taken[0])
+        _drain(self._subscription, self._take, raw=True)
+        for other, take in self._shared:
+            _drain(other, take, raw=False)
 
     def record(self, value: float) -> None:
         """Write a value that applies from now on although no message brought it."""
@@ -79,3 +80,14 @@ class CommandTopic:
     def _take(self, data: bytes) -> None:
         order = "<" if data[1] else ">"
         self.take(struct.unpack_from(f"{order}d", data, 4)[0])
+
+
+def _drain(source: Subscription[Any], take: Callable[[Any], None], *, raw: bool) -> None:
+    handle = source.handle
+    while True:
+        with handle:
+            # typed as if a message always came
+            taken = cast("tuple[Any, object] | None", handle.take_message(Float64, raw))
+        if taken is None:
+            return
+        take(taken[0])

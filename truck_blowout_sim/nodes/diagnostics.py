@@ -103,6 +103,31 @@ def state_status(name: str, ending: Ending | None, blown: Sequence[str]) -> Diag
     return status(name, OK, "state is finite", values)
 
 
+def waiting_status(name: str, words: str) -> DiagnosticStatus:
+    """The truck is not there yet."""
+    return status(name, OK, words, {"ready": "false"})
+
+
+def outputs_status(name: str, node: Node, topics: Sequence[str]) -> DiagnosticStatus:
+    """Whether nobody else publishes what this node computes, a played bag above all."""
+    mine = (node.get_name(), node.get_namespace())
+    others: dict[str, list[str]] = {}
+    for topic in topics:
+        if node.count_publishers(topic) > 1:
+            for end in node.get_publishers_info_by_topic(topic):
+                if (end.node_name, end.node_namespace) != mine:
+                    full = f"{end.node_namespace.rstrip('/')}/{end.node_name}"
+                    others.setdefault(full, []).append(topic)
+    if not others:
+        return status(name, OK, "nobody else publishes the outputs", {})
+    words = "; ".join(
+        f"{who} publishes {len(found)} of this node's outputs, too, {found[0]} for one: readers get"
+        " both; play back the command topics alone (docs/ros.md)"
+        for who, found in others.items()
+    )
+    return status(name, WARN, words, {who: " ".join(found) for who, found in others.items()})
+
+
 def clock_status(name: str, node: Node, following: bool) -> DiagnosticStatus:
     """Whether exactly one node publishes `/clock`."""
     count = node.count_publishers("/clock")

@@ -34,6 +34,7 @@ class Input:
     received_ns: int | None = None
     timed_out: bool = False
     refused: int = 0
+    taken: int = 0
 
     def offer(self, value: float, now_ns: int) -> str:
         """Take a value that arrived, or refuse it.
@@ -48,6 +49,7 @@ class Input:
             found = "not a number" if math.isnan(value) else f"{value:g}"
             return f"{self.topic}: {found} refused, expected {self.low:g} to {self.high:g}"
         self.value, self.received_ns = value, now_ns
+        self.taken += 1
         return ""
 
     def age_s(self, now_ns: int) -> float:

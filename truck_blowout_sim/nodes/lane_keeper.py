@@ -1,97 +1,15 @@
-"""An example of a controller: keeps the truck in its lane through a blowout, by topics alone.
-
-`ros2 run truck_blowout_sim lane_keeper`. Reads `tractor/odometry` and `blowout`, writes
-`steering_wheel_angle` and `throttle`, one message each for every odometry message, in simulated
-time.
-"""
+"""Entry point of the node `lane_keeper`; the node itself is `lane_keeper_node`."""
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
-from typing import Any
 
-from nav_msgs.msg import Odometry
-from rclpy.executors import Executor
-from rclpy.node import Node
-from std_msgs.msg import Float64, String
-
-from truck_blowout_sim.nodes import runtime
-from truck_blowout_sim.nodes.lane_control import CruiseControl, Lane, LaneKeeper
-from truck_blowout_sim.nodes.parameters import Spec
-from truck_blowout_sim.nodes.qos import event, publisher, reliable, subscription
-from truck_blowout_sim.nodes.signals import StopFlag
-
-ABOUT = "Keeps a straight lane, also when a tire blows, using the simulator's topics alone."
-
-SPECS = (
-    Spec("speed_mps", 20.0, "Speed to hold.", "m/s", 1, 40),
-    Spec("lane_x_m", 0.0, "A point of the lane in `map`.", "m", -1e6, 1e6),
-    Spec("lane_y_m", 0.0, "Same, to the left.", "m", -1e6, 1e6),
-    Spec("lane_heading_rad", 0.0, "Heading of the lane.", "rad", -7, 7),
-    Spec("steering_ratio", 22.0, "Hand-wheel angle per road-wheel angle.", "", 1, 100),
-    Spec("wheelbase_m", 5.8, "Wheelbase of the front unit.", "m", 1, 10),
-    Spec("preview_s", 1.2, "How far ahead the driver looks.", "s", 0.2, 5),
-    Spec("release_on_blowout", True, "Take the foot off the throttle when a tire blows."),
-)
-
-
-class LaneKeeperNode:
-    """The node's parts."""
-
-    def __init__(self, node: Node, values: dict[str, Any]) -> None:
-        lane = Lane(values["lane_x_m"], values["lane_y_m"], values["lane_heading_rad"])
-        self.keeper = LaneKeeper(
-            lane, ratio=values["steering_ratio"], wheelbase_m=values["wheelbase_m"],
-            preview_s=values["preview_s"],
-        )  # fmt: skip
-        self.cruise = CruiseControl(values["speed_mps"])
-        self.log = node.get_logger()
-        self.released = False
-        self.release = bool(values["release_on_blowout"])
-        self._last_s: float | None = None
-        self._wheel = publisher(node, Float64, "steering_wheel_angle", reliable())
-        self._throttle = publisher(node, Float64, "throttle", reliable())
-        subscription(node, Odometry, "tractor/odometry", self._drive, reliable(1))
-        subscription(node, String, "blowout", self._blowout, event())
-
-    def run(self, executor: Executor, stop: StopFlag) -> int:
-        """Answer every odometry message until asked to end."""
-        self.log.info("keeping the lane; ready")
-        while not stop:
-            executor.spin_once(timeout_sec=0.1)
-        return 0
-
-    def close(self) -> None:
-        """Nothing is left open."""
-
-    def _drive(self, message: Odometry) -> None:
-        now_s = message.header.stamp.sec + message.header.stamp.nanosec * 1e-9
-        elapsed_s = now_s - self._last_s if self._last_s is not None else 0.0
-        self._last_s = now_s
-        if elapsed_s < 0.0:  # simulated time was put back
-            self.keeper.integral_rad, self.released, elapsed_s = 0.0, False, 0.0
-        place, turn = message.pose.pose.position, message.pose.pose.orientation
-        yaw_rad = math.atan2(
-            2 * (turn.w * turn.z + turn.x * turn.y), 1 - 2 * (turn.y**2 + turn.z**2)
-        )
-        motion = message.twist.twist
-        wheel_rad = self.keeper.update(
-            (place.x, place.y, yaw_rad), motion.linear.x, motion.linear.y, motion.angular.z,
-            elapsed_s,
-        )  # fmt: skip
-        throttle = 0.0 if self.released else self.cruise.update(motion.linear.x, elapsed_s)
-        self._wheel.publish(Float64(data=wheel_rad))
-        self._throttle.publish(Float64(data=throttle))
-
-    def _blowout(self, message: String) -> None:
-        self.log.info(f"{message.data} has blown")
-        self.released = self.released or self.release
+from truck_blowout_sim.nodes.door import open_node
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Entry point."""
-    return runtime.run("lane_keeper", SPECS, LaneKeeperNode, about=ABOUT, arguments=arguments)
+    """Run the node; returns the exit status."""
+    return open_node("lane_keeper", arguments)
 
 
 if __name__ == "__main__":

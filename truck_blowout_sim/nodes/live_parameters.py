@@ -9,12 +9,15 @@ from rcl_interfaces.msg import SetParametersResult
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 
+from truck_blowout_sim.errors import InputError
+from truck_blowout_sim.nodes import blow_schedule
 from truck_blowout_sim.nodes.clock import WallPace
 from truck_blowout_sim.nodes.parameters import check_changes
+from truck_blowout_sim.nodes.recorder import check_inside
 from truck_blowout_sim.nodes.simulator_parameters import SPECS, timeout_of
 
 if TYPE_CHECKING:
-    from truck_blowout_sim.nodes.simulator import Simulator
+    from truck_blowout_sim.nodes.simulator_node import Simulator
 
 
 class LiveParameters:
@@ -29,13 +32,35 @@ class LiveParameters:
         if any(change.name == "use_sim_time" for change in changes):
             return SetParametersResult(successful=False, reason="use_sim_time is set at the start")
         verdict = check_changes(SPECS, changes)
+        try:
+            plans = self._checked(changes) if verdict.successful else {}
+        except InputError as error:
+            return SetParametersResult(successful=False, reason=str(error))
         if verdict.successful:
             for change in changes:
                 if change.name in self._rows:
                     value = self._rows[change.name].checked(change.value)
                     self._simulator.values[change.name] = value
             self._apply()
+            if "blow" in plans:
+                self._simulator.schedule.replace(plans["blow"], self._simulator.plant.elapsed_ns)
         return verdict
+
+    def _checked(self, changes: list[Parameter[Any]]) -> dict[str, Any]:
+        """What a row alone cannot judge; the plan of blowouts, if there is one.
+
+        Raises:
+            InputError: an unknown tire or input, or a bag elsewhere.
+        """
+        plans: dict[str, Any] = {}
+        for change in changes:
+            if change.name == "blow":
+                plans["blow"] = blow_schedule.parse(change.value, self._simulator.plant.parts)
+            elif change.name == "step_awaits":
+                self._simulator.lockstep.inputs_named(change.value)
+            elif change.name == "record_path":
+                check_inside(self._simulator.recorder.folder, change.value)
+        return plans
 
     def _apply(self) -> None:
         simulator = self._simulator

@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from truck_blowout_sim.nodes.display import DisplayJoints
+from truck_blowout_sim.display.joints import DisplayJoints
 from truck_blowout_sim.recordings.channels import (
     FLUID_PRESSURE,
     IMU,
@@ -97,15 +97,19 @@ class OutputTable:
             for period, groups in _by_period(every).items()
         )
 
-    def values(self, outputs: FloatArray, elapsed_s: float) -> FloatArray:
-        """Values of all rows, from the model's output vector.
+    @property
+    def types(self) -> dict[str, str]:
+        """Message type by relative topic."""
+        return {slot.topic: slot.ros_type for b in self.batches for slot in b.encoder.slots}
+
+    def values(self, outputs: FloatArray, display: FloatArray) -> FloatArray:
+        """Values of all rows.
 
         Args:
             outputs: the model's output vector.
-            elapsed_s: simulated time since the last call, for rates by difference.
+            display: values of the display joints.
         """
-        everything = np.concatenate((outputs, self.display.values(outputs, elapsed_s)))
-        return everything[self._columns]
+        return np.concatenate((outputs, display))[self._columns]
 
 
 def _by_period(every: Mapping[str, int]) -> dict[int, tuple[str, ...]]:

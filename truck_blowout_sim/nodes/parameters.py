@@ -10,6 +10,7 @@ from typing import Any
 
 from rcl_interfaces.msg import (
     FloatingPointRange,
+    IntegerRange,
     ParameterDescriptor,
     SetParametersResult,
 )
@@ -58,7 +59,7 @@ class Spec:
                 f"{quoted(value)} is no {_type_name(self.default)}",
                 file="parameter", where=self.name, expected=self.expected(),
             )  # fmt: skip
-        if isinstance(value, float) and not self.low <= value <= self.high:
+        if isinstance(value, (int, float)) and not self.low <= value <= self.high:
             raise InputError(f"{value:g} is out of range", file="parameter", where=self.name,
                              expected=self.expected())  # fmt: skip
         return value
@@ -80,8 +81,12 @@ class Spec:
             out.additional_constraints = self.expected()
             low, high = max(self.low, -sys.float_info.max), min(self.high, sys.float_info.max)
             # a whole number here would go out as garbage: messages do not check their fields
-            bounds = FloatingPointRange(from_value=float(low), to_value=float(high))
-            out.floating_point_range = [bounds]
+            if isinstance(self.default, int):
+                whole = IntegerRange(from_value=int(low), to_value=int(high), step=1)
+                out.integer_range = [whole]
+            else:
+                bounds = FloatingPointRange(from_value=float(low), to_value=float(high))
+                out.floating_point_range = [bounds]
         return out
 
 

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from truck_blowout_sim.nodes.clock import NS, StepClock
 from truck_blowout_sim.nodes.inputs import InputBank
+from truck_blowout_sim.physics.observe import output_names
 from truck_blowout_sim.simulation import InitialState, Inputs, Truck
 from truck_blowout_sim.vehicle import Vehicle
 
@@ -31,9 +32,38 @@ class Plant:
         self.clock = StepClock(round(step_s * NS))
         self._step_s = step_s
         self._initial = initial
-        self.truck = Truck(vehicle, step_s=step_s, initial=initial)
+        self._truck: Truck | None = None
+        self.output_names = output_names(vehicle.units, vehicle.hubs, vehicle.tires)
+        self.began_ns = 0
         self.blown_ns: dict[str, int] = {}
         self.applied: tuple[float, ...] = bank.applied(0)
+
+    def build(self) -> None:
+        """Build the truck; where the model is not compiled yet, this takes a minute or two."""
+        truck = Truck(self.vehicle, step_s=self._step_s, initial=self._initial)
+        # every compiled function once: none is to be compiled while time runs
+        truck.advance(Inputs(*self.bank.applied(0)))
+        truck.output_vector()
+        _ = truck.ending
+        truck.reset()
+        self._truck = truck
+
+    @property
+    def ready(self) -> bool:
+        """Whether the truck is built."""
+        return self._truck is not None
+
+    @property
+    def truck(self) -> Truck:
+        """The truck; only once it is built."""
+        if self._truck is None:
+            raise RuntimeError("the truck is not built yet")
+        return self._truck
+
+    @property
+    def elapsed_ns(self) -> int:
+        """Simulated time since this run began: at the start or at the last reset."""
+        return self.now_ns - self.began_ns
 
     @property
     def now_ns(self) -> int:
@@ -66,6 +96,10 @@ class Plant:
         said += [f"{tire} was already blown at {self._blown_s(tire):.3f} s" for tire in known]
         return fresh, "; ".join(said) + " (simulation time)"
 
+    def is_blown(self, part: str) -> bool:
+        """Whether a tire, or every tire of a hub, is blown."""
+        return all(tire in self.blown_ns for tire in self.parts[part])
+
     def reset(self, initial: InitialState, pause_steps: int) -> None:
         """Return to an initial state, all tires whole; time goes on.
 
@@ -77,12 +111,19 @@ class Plant:
         if initial == self._initial:
             self.truck.reset()
         else:
-            self.truck = Truck(self.vehicle, step_s=self._step_s, initial=initial)
+            self._truck = Truck(self.vehicle, step_s=self._step_s, initial=initial)
             self._initial = initial
         self.clock.move_to(now_ns)
+        self.began_ns = now_ns
         self.blown_ns.clear()
         self.bank.clear()
         self.applied = self.bank.applied(now_ns)
+
+    def move_to(self, now_ns: int) -> None:
+        """The same truck at another time; the run is as old as before."""
+        elapsed_ns = self.elapsed_ns
+        self.clock.move_to(now_ns)
+        self.began_ns = now_ns - elapsed_ns
 
     def outputs(self) -> NDArray[np.float64]:
         """Output vector of the model, in the order of `truck.output_names`."""

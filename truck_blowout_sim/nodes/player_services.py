@@ -9,7 +9,7 @@ from rclpy.node import Node
 from std_srvs.srv import Trigger
 
 if TYPE_CHECKING:
-    from truck_blowout_sim.nodes.player import Player
+    from truck_blowout_sim.nodes.player_node import Player
 
 Reply = tuple[bool, str]
 

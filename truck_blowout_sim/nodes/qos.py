@@ -28,6 +28,15 @@ def reliable(depth: int = 10) -> QoSProfile:
     return QoSProfile(depth=depth, reliability=ReliabilityPolicy.RELIABLE)
 
 
+def state() -> QoSProfile:
+    """For what a late joiner must know the present value of."""
+    return QoSProfile(
+        depth=1,
+        reliability=ReliabilityPolicy.RELIABLE,
+        durability=DurabilityPolicy.TRANSIENT_LOCAL,
+    )
+
+
 def event() -> QoSProfile:
     """For what late joiners must still hear of."""
     return QoSProfile(
@@ -48,10 +57,10 @@ def publisher(node: Node, kind: type[Any], topic: str, qos: QoSProfile) -> Publi
     Raises:
         InputError: an override makes no sense.
     """
-    name = node.resolve_topic_name(topic)
+    prefix = f"qos_overrides.{node.resolve_topic_name(topic)}.publisher"
+    options = _options(node, prefix)
     return _checked(
-        lambda: node.create_publisher(kind, topic, qos, qos_overriding_options=_options()),
-        f"qos_overrides.{name}.publisher",
+        lambda: node.create_publisher(kind, topic, qos, qos_overriding_options=options), prefix
     )
 
 
@@ -69,12 +78,13 @@ def subscription(
     Raises:
         InputError: an override makes no sense.
     """
-    name = node.resolve_topic_name(topic)
+    prefix = f"qos_overrides.{node.resolve_topic_name(topic)}.subscription"
+    options = _options(node, prefix)
     return _checked(
         lambda: node.create_subscription(
-            kind, topic, take, qos, raw=raw, qos_overriding_options=_options()
+            kind, topic, take, qos, raw=raw, qos_overriding_options=options
         ),
-        f"qos_overrides.{name}.subscription",
+        prefix,
     )
 
 
@@ -89,7 +99,12 @@ def in_force(end: Publisher[Any] | Subscription[Any]) -> dict[str, Any]:
     )
 
 
-def _options() -> QoSOverridingOptions:
+def _options(node: Node, prefix: str) -> QoSOverridingOptions | None:
+    # Declared only where somebody overrides something: `ros2 param list` would otherwise show
+    # three parameters a topic.
+    asked = any(name.startswith(f"{prefix}.") for name in node._parameter_overrides)
+    if not asked:
+        return None
     return QoSOverridingOptions.with_default_policies(callback=_judge)
 
 

@@ -22,10 +22,17 @@ class Recorder:
     Args:
         report: called with (level, sentence) for the log; level is "info" or "error".
         metadata: free text for every bag.
+        folder: where relative paths begin.
     """
 
-    def __init__(self, report: Callable[[str, str], None], metadata: Mapping[str, str]) -> None:
+    def __init__(
+        self,
+        report: Callable[[str, str], None],
+        metadata: Mapping[str, str],
+        folder: Path,
+    ) -> None:
         self._report = report
+        self.folder = folder
         self._metadata = {INPUTS_KEY: "held until the next message", "noise": "none", **metadata}
         self._qos: dict[str, Mapping[str, Any]] = {}
         self._bag: BagWriter | None = None
@@ -71,7 +78,8 @@ class Recorder:
         """
         if self._bag is not None:
             return True, f"already recording to {self._bag.path}"
-        path = free_path(Path(wanted or datetime.now().strftime("truck_%Y_%m_%d-%H_%M_%S")))
+        name = wanted or datetime.now().strftime("truck_%Y_%m_%d-%H_%M_%S")
+        path = free_path(self.folder / name)
         try:
             # the writer flushes at half of this: a kill costs half a second
             self._bag = BagWriter(
@@ -110,6 +118,20 @@ class Recorder:
         """Close a bag whose disk failed; called once in a while."""
         if self._bag is not None and self._bag.state.error:
             self.stop()
+
+
+def check_inside(folder: Path, wanted: str) -> None:
+    """Other nodes may have bags written below one folder only.
+
+    Raises:
+        InputError: the path leads elsewhere, also by `..` or by a link.
+    """
+    target = (folder / wanted).resolve()
+    if not target.is_relative_to(folder.resolve()):
+        raise InputError(
+            f"{target} does not lie under {folder}", file="parameter", where="record_path",
+            expected="a path under record_folder, which is set when the simulator is started",
+        )  # fmt: skip
 
 
 def free_path(path: Path) -> Path:

@@ -12,7 +12,7 @@ from truck_blowout_sim.nodes.clock import FollowPace
 from truck_blowout_sim.nodes.qos import publisher, reliable
 
 if TYPE_CHECKING:
-    from truck_blowout_sim.nodes.simulator import Simulator
+    from truck_blowout_sim.nodes.simulator_node import Simulator
 
 _CLOCK_WHILE_PAUSED_S = 0.1
 
@@ -27,13 +27,14 @@ class Reporter:
         self._period_s = 1.0 / simulator.values["diagnostics_rate_hz"]
         self._due_s = 0.0
         self._clock_due_s = 0.0
-        self._warned = False
+        self._warned: set[str] = set()
         self._name = node.get_fully_qualified_name().lstrip("/")
 
     def spin(self, wall_s: float) -> None:
         """Report if it is time to."""
         simulator = self._simulator
-        if simulator.paused and simulator.clock and wall_s >= self._clock_due_s:
+        standing = simulator.paused or not simulator.plant.ready
+        if standing and simulator.clock and wall_s >= self._clock_due_s:
             # A node that joins now must learn what time it is.
             self._clock_due_s = wall_s + _CLOCK_WHILE_PAUSED_S
             simulator.clock.publish(simulator.plant.now_ns, always=True)
@@ -44,6 +45,10 @@ class Reporter:
     def _report(self, wall_s: float) -> None:
         simulator, name = self._simulator, self._name
         plant, pace = simulator.plant, simulator.pace
+        if not plant.ready:
+            waiting = diagnostics.waiting_status(f"{name}: state", simulator.ready()[1])
+            self._publisher.publish(diagnostics.array(plant.now_ns, [waiting]))
+            return
         following = isinstance(pace, FollowPace)
         simulator.recorder.look_after()
         entries = [
@@ -57,8 +62,10 @@ class Reporter:
             diagnostics.recorder_status(f"{name}: recorder", simulator.recorder.state),
             diagnostics.state_status(f"{name}: state", plant.truck.ending, plant.truck.blown),
             diagnostics.clock_status(f"{name}: clock", self._node, following),
+            diagnostics.outputs_status(f"{name}: outputs", self._node, simulator.outputs.topics),
         ]  # fmt: skip
-        if not self._warned and entries[-1].level == diagnostics.WARN:
-            self._warned = True
-            simulator.log.warning(entries[-1].message)
+        for entry in entries[-2:]:
+            if entry.level == diagnostics.WARN and entry.name not in self._warned:
+                self._warned.add(entry.name)
+                simulator.log.warning(entry.message)
         self._publisher.publish(diagnostics.array(plant.now_ns, entries))

@@ -22,7 +22,7 @@ from rclpy.utilities import remove_ros_args
 
 from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.nodes.parameters import Spec, declare
-from truck_blowout_sim.nodes.signals import Interrupted, StopFlag
+from truck_blowout_sim.nodes.signals import StopFlag
 
 NAMESPACE = "truck"
 
@@ -43,6 +43,7 @@ def run(
     make: Callable[[Node, dict[str, Any]], Program],
     *,
     about: str,
+    stop: StopFlag,
     arguments: Sequence[str] | None = None,
     positional: str | None = None,
 ) -> int:
@@ -53,30 +54,29 @@ def run(
         specs: its parameters; each is also an option (`--real-time-factor 2`).
         make: builds the program from the node and the parameters' values.
         about: one paragraph for `--help`.
+        stop: what ends the node.
         arguments: command line without the program's name; the process's own if None.
         positional: parameter that a bare argument sets.
     """
     words = list(sys.argv[1:] if arguments is None else arguments)
-    with StopFlag() as stop:
-        try:
-            options = _parse(name, specs, about, remove_ros_args([name, *words])[1:], positional)
-            rclpy.init(args=[name, *words], signal_handler_options=SignalHandlerOptions.NO)
-            return _life(name, specs, make, options, stop)
-        except Interrupted as reason:
-            print(f"{name}: {reason} while starting", file=sys.stderr)
-            return 0
-        except InputError as error:
-            print(f"{name}: {error}", file=sys.stderr)
-            return 2
-        except _usage_errors() as error:
-            print(f"{name}: {_first_line(error)}", file=sys.stderr)
-            return 2
-        except Exception:  # noqa: BLE001  # the last door: printed in full, status 1
-            traceback.print_exc()
-            return 1
-        finally:
-            if rclpy.ok():
-                rclpy.shutdown()
+    try:
+        stop.at_once = True
+        options = _parse(name, specs, about, remove_ros_args([name, *words])[1:], positional)
+        rclpy.init(args=[name, *words], signal_handler_options=SignalHandlerOptions.NO)
+        return _life(name, specs, make, options, stop)
+    except InputError as error:
+        print(f"{name}: {error}", file=sys.stderr)
+        return 2
+    except _usage_errors() as error:
+        print(f"{name}: {_first_line(error)}", file=sys.stderr)
+        return 2
+    except Exception:  # noqa: BLE001  # the last door: printed in full, status 1
+        traceback.print_exc()
+        return 1
+    finally:
+        stop.at_once = False
+        if rclpy.ok():
+            rclpy.shutdown()
 
 
 def new_executor(context: Context | None = None) -> Executor:
@@ -99,7 +99,6 @@ def _life(
     executor = new_executor()
     program = None
     try:
-        stop.at_once = True
         program = make(node, declare(node, specs))
         stop.at_once = False
         executor.add_node(node)
@@ -116,7 +115,7 @@ def _parse(
     name: str, specs: Sequence[Spec], about: str, words: Sequence[str], positional: str | None
 ) -> list[Parameter[Any]]:
     parser = argparse.ArgumentParser(
-        prog=f"ros2 run truck_blowout_sim {name}",
+        prog=name,
         description=about,
         epilog="Every option is a parameter, too: --ros-args -p name:=value, --params-file FILE.",
         argument_default=argparse.SUPPRESS,

@@ -17,6 +17,9 @@ class Served(Protocol):
     def blow(self, part: str) -> Reply:
         """Blow a tire, or all tires of a hub."""
 
+    def ready(self) -> Reply:
+        """Whether the truck is there, or why not yet."""
+
     def pause(self) -> Reply:
         """Stop time."""
 
@@ -24,7 +27,7 @@ class Served(Protocol):
         """Let time run."""
 
     def step(self) -> Reply:
-        """Advance one publishing period, while paused."""
+        """Advance by `step_periods` publishing periods, while paused."""
 
     def reset(self) -> Reply:
         """Return to the initial state."""
@@ -36,17 +39,29 @@ class Served(Protocol):
 def serve(node: Node, served: Served, parts: Iterable[str]) -> None:
     """Create all services, relative names."""
     for part in parts:
-        _trigger(node, f"blowout/{part}", _blow(served, part))
-    _trigger(node, "pause", served.pause)
-    _trigger(node, "resume", served.resume)
-    _trigger(node, "step", served.step)
-    _trigger(node, "reset", served.reset)
+        _trigger(node, f"blowout/{part}", once_ready(served, _blow(served, part)))
+    _trigger(node, "ready", served.ready)
+    _trigger(node, "pause", once_ready(served, served.pause))
+    _trigger(node, "resume", once_ready(served, served.resume))
+    _trigger(node, "step", once_ready(served, served.step))
+    _trigger(node, "reset", once_ready(served, served.reset))
 
     def record(request: SetBool.Request, response: SetBool.Response) -> SetBool.Response:
-        response.success, response.message = served.record(request.data)
+        act = once_ready(served, lambda: served.record(request.data))
+        response.success, response.message = act()
         return response
 
     node.create_service(SetBool, "record", record)
+
+
+def once_ready(served: Served, act: Callable[[], Reply]) -> Callable[[], Reply]:
+    """What `act` does, but refused as long as the simulator is not ready."""
+
+    def guarded() -> Reply:
+        there, words = served.ready()
+        return act() if there else (False, words)
+
+    return guarded
 
 
 def _blow(served: Served, part: str) -> Callable[[], Reply]:

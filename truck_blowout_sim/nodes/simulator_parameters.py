@@ -42,13 +42,26 @@ _GENERAL = (
     Spec("real_time_factor", 1.0, "Simulated seconds per second of wall time; 0: as fast as it"
          " can.", "", 0, 1000, True),
     Spec("start_paused", False, "Wait for `resume` or `step`."),
+    Spec("blow", "", "Blowouts at set instants: `TIRE@SECONDS`, several joined by commas; simulated"
+         " time since the start, and again since each `reset`.", live=True),
+    Spec("blowout_input", False, "Take `blowout` as an input, too: a tire that somebody else names"
+         " there is blown. For playing back bags."),
+    Spec("step_periods", 1, "Publishing periods that one call of `step` advances.", "", 1, 1000000,
+         True),
+    Spec("step_awaits", "", "Inputs, joined by commas, of which `step` awaits a new message (for at"
+         " most a second) before it advances: `steering_wheel_angle,throttle`.", live=True),
     Spec("max_clock_jump_s", 1.0, "A followed `/clock` that leaps ahead by more is a jump: the"
          " truck is carried over as it is, not simulated through the gap.", "s", 0.01, 3600, True),
     Spec("record_path", "", "Bag to write from the start; later ones get a number. Ends in"
-         " `.mcap`: a bare file, else a rosbag2 folder.", live=True),
+         " `.mcap`: a bare file, else a rosbag2 folder. Changed while running, it must lie under"
+         " `record_folder`.", live=True),
+    Spec("record_folder", "", "Where relative paths of bags begin, and the only folder in which"
+         " other nodes may have bags written; empty: the folder in which the node was started."),
     Spec("input_timeout_s", 1.0, "Silence of an input, in simulated time, after which its safe"
          " value applies; 0: never, the last value holds.", "s", 0, 3600, True),
     Spec("publish_tf", True, "Publish /tf and /tf_static (where tf2_msgs is installed)."),
+    Spec("tf_of_joints", True, "Put wheels, steering and trailer of the robot model into /tf, too;"
+         " false where robot_state_publisher does so."),
     Spec("marker_rate_hz", 10.0, "Tire force markers per simulated second; 0: none.", "Hz",
          0, 100),
     Spec("diagnostics_rate_hz", 1.0, "`/diagnostics` messages per second of wall time.", "Hz",

@@ -8,7 +8,6 @@ from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
-from rosbags.typesys.store import Typestore
 
 from truck_blowout_sim.errors import InputError, quoted
 from truck_blowout_sim.recordings.angles import angles
@@ -100,8 +99,8 @@ class TopicSeries:
         return angles(safe)[angle]
 
 
-def read_topic(topic: Topic, file: Path, store: Typestore | None = None) -> TopicSeries:
-    """Take a topic's messages apart; ``store``: field lists other than the standard ones.
+def read_topic(topic: Topic, file: Path) -> TopicSeries:
+    """Take a topic's messages apart.
 
     Raises:
         InputError: a message is not what its type says.
@@ -114,7 +113,7 @@ def read_topic(topic: Topic, file: Path, store: Typestore | None = None) -> Topi
     log_ns = log.astype(np.int64)
     order = np.argsort(log_ns, kind="stable")
     try:
-        parts = list(blocks([topic.data[i] for i in order], topic.ros_type, store))
+        parts = list(blocks([topic.data[i] for i in order], topic.ros_type))
     except MalformedMessageError as error:
         position = int(error.args[1])
         raise InputError(

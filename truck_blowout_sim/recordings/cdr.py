@@ -19,7 +19,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 from rosbags.interfaces import Nodetype
-from rosbags.typesys.store import Typestore
 
 from truck_blowout_sim.recordings.message_types import typestore
 
@@ -71,13 +70,8 @@ class Layout:
         return mask
 
 
-def walk(message: bytes, ros_type: str, store: Typestore | None = None) -> Layout:
+def walk(message: bytes, ros_type: str) -> Layout:
     """Locate every field of one serialised message.
-
-    Args:
-        message: with its CDR header.
-        ros_type: message type.
-        store: field lists; those of the standard messages if left out.
 
     Raises:
         MalformedMessageError: it ends too early, or a length or text in it cannot be.
@@ -85,20 +79,19 @@ def walk(message: bytes, ros_type: str, store: Typestore | None = None) -> Layou
     order = {_LITTLE: "<", _BIG: ">"}.get(message[:2])
     if order is None:
         raise MalformedMessageError(f"starts with {message[:4].hex(' ')}, not a plain CDR header")
-    walker = _Walker(message, order, store or typestore())
+    walker = _Walker(message, order)
     walker.named(ros_type, "")
     return walker.layout
 
 
 class _Walker:
-    def __init__(self, message: bytes, order: str, store: Typestore) -> None:
-        self.fields = store.fielddefs
+    def __init__(self, message: bytes, order: str) -> None:
         self.message = message
         self.at = HEADER_SIZE
         self.layout = Layout(len(message), order)
 
     def named(self, ros_type: str, path: str) -> None:
-        for name, kind in self.fields[ros_type][1]:
+        for name, kind in typestore().fielddefs[ros_type][1]:
             self.field(kind, f"{path}.{name}" if path else name)
 
     def field(self, kind: FieldDesc, path: str) -> None:
@@ -179,9 +172,7 @@ class Block:
         return columns.view(self.layout.byte_order + code)[:, 0]
 
 
-def blocks(
-    messages: Sequence[bytes], ros_type: str, store: Typestore | None = None
-) -> Iterator[Block]:
+def blocks(messages: Sequence[bytes], ros_type: str) -> Iterator[Block]:
     """Take a series of messages of one type apart, grouped by layout.
 
     Raises:
@@ -192,7 +183,7 @@ def blocks(
     while left.size:
         first = int(left[0])
         try:
-            layout = walk(messages[first], ros_type, store)
+            layout = walk(messages[first], ros_type)
         except MalformedMessageError as error:
             raise MalformedMessageError(str(error), first) from None
         same = left[lengths[left] == layout.size]
@@ -236,7 +227,12 @@ def _default_field(kind: FieldDesc) -> object:
         return _default(detail)
     if node == Nodetype.BASE:
         return "" if detail[0] == "string" else 0.0 if detail[0].startswith("float") else 0
-    (_, (inner, _)), count = detail
-    if inner in _CODES:
-        return np.zeros(count, dtype=_CODES[inner])
+    (inner_node, inner), count = detail
+    if inner_node == Nodetype.BASE and inner[0] in _CODES:
+        return np.zeros(count, dtype=_CODES[inner[0]])
     return []
+
+
+def blank(ros_type: str) -> object:
+    """A message of `rosbags` with zeros, identity and empty texts and sequences, to be filled."""
+    return _default(ros_type)

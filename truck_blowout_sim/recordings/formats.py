@@ -1,4 +1,4 @@
-"""Files under the names of the channel table, read and written by their ending."""
+"""The one door to all formats: read or write a recording, whatever the file is."""
 
 from __future__ import annotations
 
@@ -12,19 +12,15 @@ from truck_blowout_sim.recordings.bag_metadata import FILE_NAME
 from truck_blowout_sim.recordings.bag_reader import read_bag
 from truck_blowout_sim.recordings.csv_reader import read_csv
 from truck_blowout_sim.recordings.csv_writer import write_csv
-from truck_blowout_sim.recordings.logs import BAG_ENDINGS, READABLE
-from truck_blowout_sim.recordings.logs.mat_log import variables_of
 from truck_blowout_sim.recordings.mat_format import read_mat, write_mat
 from truck_blowout_sim.recordings.mat_thesis import write_thesis_mat
 from truck_blowout_sim.recordings.recording import Recording
 
-BEGIN_MAPPING = "truck-blowout inspect LOG --write-map FILE begins one"
-FOREIGN_ENDINGS = (".txt", ".tsv", ".asc", ".log", ".dat", ".vbo", ".mf4", ".mdf", ".mf3")
-_WRITABLE = "a rosbag2 folder, .mcap, .csv or .mat"
+_READABLE = "a rosbag2 folder, .mcap, .csv or .mat"
 
 
-def read_native(
-    path: Path,
+def read_recording(
+    path: str | os.PathLike[str],
     *,
     tires: Iterable[str] = (),
     hubs: Iterable[str] = (),
@@ -32,24 +28,32 @@ def read_native(
     remap: Mapping[str, str] | None = None,
     source: str = "experiment",
 ) -> Recording:
-    """Read a file that names its channels as the table does; arguments as in `read_recording`.
+    """Read a recording of any format.
+
+    Args:
+        path: rosbag2 folder (or its metadata.yaml), ``.mcap``, ``.csv`` or ``.mat``.
+        tires: tire names of the vehicle, if it is not the default truck.
+        hubs: hub names, likewise.
+        namespace: prefix of the truck's topics in a bag; found by itself if not given.
+        remap: foreign topic names of a bag to those of the table.
+        source: which variables of a ``.mat``: ``experiment`` or ``hve``.
+
+    Returns:
+        SI units, pressures gauge, ISO axes; what had to be assumed stands in its notes.
 
     Raises:
         InputError: one line: file, place, value, expectation.
     """
+    path = Path(path)
     _check_exists(path)
     suffix = path.suffix.lower()
-    if path.is_dir() or path.name == FILE_NAME or suffix in BAG_ENDINGS:
+    if path.is_dir() or path.name == FILE_NAME or suffix == ".mcap":
         return read_bag(path, tires=tires, hubs=hubs, namespace=namespace, remap=remap)
     if suffix == ".csv":
         return read_csv(path, tires=tires, hubs=hubs)
     if suffix == ".mat":
-        held = variables_of(path)
-        return read_mat(path, source=source, tires=tires, hubs=hubs, held=held)
-    if suffix in FOREIGN_ENDINGS:
-        raise InputError("does not say which column is which channel", file=path,
-                         expected=f"a mapping: --map FILE ({BEGIN_MAPPING})")  # fmt: skip
-    raise InputError(f"ends in {quoted(path.suffix)}", file=path, expected=READABLE)
+        return read_mat(path, source=source, tires=tires, hubs=hubs)
+    raise InputError(f"ends in {quoted(path.suffix)}", file=path, expected=_READABLE)
 
 
 def write_recording(
@@ -81,7 +85,7 @@ def write_recording(
         write = write_thesis_mat if thesis_variables else write_mat
         write(recording, path)
     else:
-        raise InputError(f"ends in {quoted(path.suffix)}", file=path, expected=_WRITABLE)
+        raise InputError(f"ends in {quoted(path.suffix)}", file=path, expected=_READABLE)
     return path
 
 
@@ -90,7 +94,7 @@ def _check_exists(path: Path) -> None:
         path.stat()
     except OSError as error:
         raise InputError(
-            (error.strerror or "cannot be opened").lower(), file=path, expected=READABLE
+            (error.strerror or "cannot be opened").lower(), file=path, expected=_READABLE
         ) from None
     if not os.access(path, os.R_OK):
         raise InputError("permission denied", file=path, expected="a readable file")

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 from rclpy.node import Node
 
 if TYPE_CHECKING:
-    from truck_blowout_sim.nodes.simulator import Simulator
+    from truck_blowout_sim.nodes.simulator_node import Simulator
 
 ADAPTERS = ("ackermann", "autoware", "interfaces")
 

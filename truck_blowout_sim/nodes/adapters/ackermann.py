@@ -18,7 +18,7 @@ from truck_blowout_sim.nodes.adapters.commands import ForeignCommands
 from truck_blowout_sim.nodes.qos import reliable, subscription
 
 if TYPE_CHECKING:
-    from truck_blowout_sim.nodes.simulator import Simulator
+    from truck_blowout_sim.nodes.simulator_node import Simulator
 
 TOPIC = "ackermann_cmd"
 

@@ -20,7 +20,7 @@ from truck_blowout_sim.nodes.clock import NS
 from truck_blowout_sim.nodes.qos import publisher, reliable, subscription
 
 if TYPE_CHECKING:
-    from truck_blowout_sim.nodes.simulator import Simulator
+    from truck_blowout_sim.nodes.simulator_node import Simulator
 
 COMMAND = "/control/command/control_cmd"
 VELOCITY = "/vehicle/status/velocity_status"

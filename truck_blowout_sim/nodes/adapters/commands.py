@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from truck_blowout_sim.nodes.adapters.longitudinal import speed_controller
 
 if TYPE_CHECKING:
-    from truck_blowout_sim.nodes.simulator import Simulator
+    from truck_blowout_sim.nodes.simulator_node import Simulator
 
 _BRAKES = ("brake_pressure_steer_pa", "brake_pressure_drive_pa", "brake_pressure_trailer_pa")
 

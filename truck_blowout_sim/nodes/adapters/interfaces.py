@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any
 from rclpy.node import Node
 
 if TYPE_CHECKING:
-    from truck_blowout_sim.nodes.simulator import Simulator
+    from truck_blowout_sim.nodes.simulator_node import Simulator
 
 _FEATURES = (
     "SIMULATION_RESET",

@@ -1,0 +1,101 @@
+"""What a bag or a live display needs beside the measurements, as serialised messages.
+
+`robot_description` and `/tf_static` once, `/tf` and `tire_forces` at every instant.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from truck_blowout_sim.display.arrows import MARKERS, ForceArrows
+from truck_blowout_sim.display.frames import TF_MESSAGE, MovingFrames, fixed_frames
+from truck_blowout_sim.display.joints import DisplayJoints
+from truck_blowout_sim.display.urdf import urdf_of
+from truck_blowout_sim.recordings.cdr import template
+from truck_blowout_sim.recordings.channels import STRING, channels_for
+from truck_blowout_sim.vehicle import Vehicle
+
+TF, TF_STATIC = "/tf", "/tf_static"
+ROBOT_DESCRIPTION, TIRE_FORCES = "robot_description", "tire_forces"
+TYPES: Mapping[str, str] = {
+    TF: TF_MESSAGE, TF_STATIC: TF_MESSAGE, ROBOT_DESCRIPTION: STRING, TIRE_FORCES: MARKERS,
+}  # fmt: skip
+LATCHED = (ROBOT_DESCRIPTION, TF_STATIC)
+"""Topics said once, which late joiners must hear, too."""
+
+FloatArray = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Said:
+    """One serialised message: topic, type and bytes."""
+
+    topic: str
+    ros_type: str
+    data: bytes
+
+
+class Scene:
+    """Makes the messages of one vehicle.
+
+    Args:
+        vehicle: a loaded vehicle.
+        output_names: names of the model's output vector.
+        joints: /tf carries the joints of the robot model, too, not the units alone.
+        display: shared with the joint states that are published; its own if not given.
+    """
+
+    def __init__(
+        self,
+        vehicle: Vehicle,
+        output_names: Sequence[str],
+        *,
+        joints: bool = True,
+        display: DisplayJoints | None = None,
+    ) -> None:
+        self._display = display or DisplayJoints(vehicle, output_names)
+        names = [*output_names, *(row.name for row in self._display.channels)]
+        positions = _joint_columns(vehicle, self._display, names)
+        self._columns = np.array(list(positions.values()), dtype=np.intp)
+        order = {joint: at for at, joint in enumerate(positions)}
+        self._frames = MovingFrames(vehicle, output_names, order, joints=joints)
+        self._arrows = ForceArrows(vehicle, output_names)
+        self.latched = (
+            Said(ROBOT_DESCRIPTION, STRING, template(STRING, data=urdf_of(vehicle))),
+            Said(TF_STATIC, TF_MESSAGE, fixed_frames(vehicle, joints=joints)),
+        )
+
+    def frames(
+        self, stamp_ns: int, outputs: FloatArray, display: FloatArray | None = None
+    ) -> bytes:
+        """/tf of one instant.
+
+        Args:
+            stamp_ns: simulated time.
+            outputs: output vector of the model.
+            display: values of the display joints, where they are known already.
+        """
+        shown = self._display.values(outputs, 0.0) if display is None else display
+        return self._frames.fill(stamp_ns, outputs, np.concatenate((outputs, shown))[self._columns])
+
+    def arrows(self, stamp_ns: int, outputs: FloatArray, blown: Collection[str]) -> bytes:
+        """`tire_forces` of one instant; tires named in `blown` are red."""
+        return self._arrows.fill(stamp_ns, outputs, blown)
+
+
+def _joint_columns(
+    vehicle: Vehicle, display: DisplayJoints, names: Sequence[str]
+) -> dict[str, int]:
+    """Where each joint's position stands among outputs and display joints together."""
+    steered = [h for h in vehicle.hubs if vehicle.spec.axles[vehicle.axle_of_hub(h)].steered]
+    rows = (*channels_for(vehicle.hubs, vehicle.tires, vehicle.units, steered), *display.channels)
+    column = {name: at for at, name in enumerate(names)}
+    return {
+        place.field[len("position[") : -1]: column[row.name]
+        for row in rows for place in row.places
+        if place.field.startswith("position[") and row.name in column
+    }  # fmt: skip

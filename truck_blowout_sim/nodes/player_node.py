@@ -1,0 +1,236 @@
+"""The player node: `ros2 run truck_blowout_sim player RECORDING`.
+
+Plays a recording onto the simulator's command topics, calls the blowout service at the recorded
+instant, and publishes what was measured under `measured/`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from time import monotonic
+from typing import Any
+
+from rcl_interfaces.msg import SetParametersResult
+from rclpy.duration import Duration
+from rclpy.executors import Executor
+from rclpy.node import Node
+from rclpy.parameter import Parameter
+
+from truck_blowout_sim import read_recording
+from truck_blowout_sim.errors import InputError
+from truck_blowout_sim.nodes import runtime
+from truck_blowout_sim.nodes.parameters import check_changes
+from truck_blowout_sim.nodes.player_parameters import SPECS, remappings
+from truck_blowout_sim.nodes.player_services import serve
+from truck_blowout_sim.nodes.playlist import Due, Playlist
+from truck_blowout_sim.nodes.playtime import ClockTime, WallTime
+from truck_blowout_sim.nodes.publishing import make_publishers
+from truck_blowout_sim.nodes.signals import StopFlag
+from truck_blowout_sim.nodes.simulator_client import SimulatorClient
+from truck_blowout_sim.nodes.stage import Stage
+from truck_blowout_sim.recordings.cdr import template
+from truck_blowout_sim.recordings.channels import BLOWOUT_EVENT, STRING, channels_for
+
+ABOUT = "Plays a recording onto the simulator's command topics and blows its tires on time."
+
+COMMANDS = frozenset(row.topic for row in channels_for((), (), ()) if row.group == "input")
+_IDLE_S = 0.05
+_DISCOVERY_S = 0.3
+_DELIVERY_S = 1.0
+_BACKLOG = 1000  # a burst after a stall must not push out what no reader has yet
+
+
+class Player:
+    """The node's parts, and its loop."""
+
+    def __init__(self, node: Node, values: dict[str, Any]) -> None:
+        if not values["recording"]:
+            raise InputError("no recording named", expected="player RECORDING, or -p recording:=…")
+        self.node = node
+        self.values = values
+        self.log = node.get_logger()
+        self.paused: bool = values["start_paused"]
+        remap = remappings(values["remap"])
+        recording = read_recording(values["recording"], remap=remap or None)
+        self.playlist = Playlist(recording)
+        self.start_s = recording.start_s + values["start_offset"]
+        length_s = values["playback_duration"]
+        self.end_s = min(recording.end_s, self.start_s + length_s) if length_s else recording.end_s
+        if not self.start_s <= self.end_s:
+            raise InputError(
+                f"start_offset {values['start_offset']:g} s lies behind its end",
+                file=values["recording"], expected=f"less than {recording.duration_s:.3f} s",
+            )  # fmt: skip
+        following = bool(node.get_parameter("use_sim_time").value)
+        self.time: ClockTime | WallTime = (
+            ClockTime(node, values["rate"]) if following else WallTime(node, values["rate"])
+        )
+        self.publishers = self._make_publishers()
+        self._stop: StopFlag | None = None
+        self.simulator = SimulatorClient(node, values["simulator"], lambda: bool(self._stop))
+        self.simulator.prepare_blowouts({t for b in recording.blowouts for t in b.tires})
+        self.stage = Stage(self.simulator, values["record_path"], self.log.info)
+        self.published = 0
+        self.blown: list[str] = []
+        serve(node, self)
+        node.add_on_set_parameters_callback(self._change)
+
+    def run(self, executor: Executor, stop: StopFlag) -> int:
+        """Play to the end, or until asked to end."""
+        self._stop = stop
+        self._list()
+        present = self.simulator.wait(executor, self.values["wait_for_simulator_s"])
+        if not present and self.values["wait_for_simulator_s"]:
+            self.log.warning("no simulator found; playing without it")
+        self.simulator.until(executor, lambda: False, self.values["delay"])
+        while not stop:
+            self._begin(executor, present)
+            self._play(executor, stop)
+            self._finish(executor, stop, present)
+            if stop or not self.values["loop"]:
+                break
+        self._summary(stop)
+        return 0
+
+    def close(self) -> None:
+        """Nothing is left open."""
+
+    def play_next(self) -> str:
+        """Publish the next instant, while paused; what was done, in words."""
+        next_s = self.playlist.next_s
+        if next_s is None or next_s > self.end_s:
+            return ""
+        self._publish_until(next_s)
+        self.time.move_to(next_s)
+        return f"played {next_s - self.playlist.recording.start_s:.3f} s"
+
+    def seek(self, time_s: float) -> None:
+        """Go on at an instant of the recording's clock."""
+        self.playlist.seek(time_s)
+        self.time.move_to(time_s)
+
+    def set_paused(self, paused: bool) -> None:
+        """Pause or go on."""
+        if paused != self.paused:
+            self.paused = paused
+            self.time.hold() if paused else self.time.go()
+
+    # inside
+
+    def _begin(self, executor: Executor, present: bool) -> None:
+        self.playlist.seek(self.start_s)
+        self.time.hold()
+        self.time.move_to(self.start_s)
+        prepare = present and self.values["prepare_simulator"]
+        if prepare:
+            self._await_readers(executor)
+            recording = self.playlist.recording
+            self.stage.set(executor, recording.between(self.start_s, recording.end_s))
+        if present:
+            self.stage.record(executor)
+        self.time.begin(executor, self._stop, self.start_s)
+        if not self.paused:
+            self._publish_until(self.start_s)
+            self._deliver(COMMANDS & self.publishers.keys())
+        if prepare:
+            self.simulator.call(executor, "resume")
+        if not self.paused:
+            self.time.go()
+
+    def _finish(self, executor: Executor, stop: StopFlag, present: bool) -> None:
+        self.simulator.settle(executor, 2.0)
+        self._deliver(self.publishers)
+        if present and not stop:
+            self.stage.end_record(executor)
+
+    def _play(self, executor: Executor, stop: StopFlag) -> None:
+        while not stop:
+            next_s = self.playlist.next_s
+            if next_s is None or next_s > self.end_s:
+                return
+            wait_s = _IDLE_S if self.paused else self.time.wait_s(next_s)
+            if wait_s > 0.0:
+                executor.spin_once(timeout_sec=min(wait_s, _IDLE_S))
+            else:
+                self._publish_until(min(self.time.position_s, self.end_s))
+
+    def _publish_until(self, time_s: float) -> None:
+        for due in self.playlist.due(time_s):
+            stamp_ns = self.time.stamp_ns(due.time_s)
+            for topic, data in self.playlist.messages(due, stamp_ns).items():
+                publisher = self.publishers.get(topic)
+                if publisher is not None:
+                    publisher.publish(data)
+                    self.published += 1
+            self._blow(due)
+
+    def _blow(self, due: Due) -> None:
+        at_s = due.time_s - self.playlist.recording.start_s
+        for tire in due.tires:
+            self.publishers[BLOWOUT_EVENT.topic].publish(template(STRING, data=tire))
+            if self.simulator.blow(tire, self._say_reply):
+                self.blown.append(tire)
+                self.log.info(f"{tire} blown at {at_s:.3f} s of the recording")
+            else:
+                self.log.error(f"nobody serves blowout/{tire} at {at_s:.3f} s of the recording")
+
+    def _say_reply(self, words: str) -> None:
+        self.log.info(f"simulator: {words}")
+
+    def _await_readers(self, executor: Executor) -> None:
+        """Let discovery come to its end: what is sent before a reader knows its writer is lost."""
+        commands = [self.publishers[topic] for topic in COMMANDS & self.publishers.keys()]
+        self.simulator.until(
+            executor, lambda: all(one.get_subscription_count() for one in commands), 5.0
+        )
+        self.simulator.until(executor, lambda: False, _DISCOVERY_S)
+
+    def _deliver(self, topics: Iterable[str]) -> None:
+        """Wait until these have arrived: the first before a step, the last before the end."""
+        end_s = monotonic() + _DELIVERY_S
+        for topic in topics:
+            left_s = max(0.0, end_s - monotonic())  # a negative time would wait for ever
+            self.publishers[topic].wait_for_all_acked(Duration(seconds=left_s))
+
+    def _make_publishers(self) -> dict[str, Any]:
+        types = {topic: ros_type for topic, (ros_type, _) in self.playlist.topics.items()}
+        commands = {topic: kind for topic, kind in types.items() if topic in COMMANDS}
+        made = make_publishers(self.node, commands, depth=_BACKLOG)
+        prefix = self.values["measured"].rstrip("/") + "/"
+        measured = {BLOWOUT_EVENT.topic: STRING}
+        if self.values["publish_measured"]:
+            measured |= {topic: kind for topic, kind in types.items() if topic not in COMMANDS}
+        return made | make_publishers(self.node, measured, prefix=prefix, depth=_BACKLOG)
+
+    def _list(self) -> None:
+        recording = self.playlist.recording
+        self.log.info(
+            f"{recording.name}: {self.end_s - self.start_s:.3f} s from {self.start_s:.3f} s on"
+        )
+        for topic, (ros_type, count) in self.playlist.topics.items():
+            if topic in self.publishers:
+                name = self.publishers[topic].topic_name
+                self.log.info(f"  {name} ({ros_type}): {count} messages")
+        for blowout in recording.blowouts:
+            self.log.info(f"  blowout of {' and '.join(blowout.tires)} at {blowout.time_s:.3f} s")
+        for note in recording.notes:
+            self.log.info(f"  note: {note}")
+
+    def _summary(self, stop: StopFlag) -> None:
+        why = f"stopped by {stop.reason}" if stop else "end of the recording"
+        blown = ", ".join(self.blown) or "no tire"
+        self.log.info(f"{why}: {self.published} messages published, {blown} blown,"
+                      f" worst lateness {self.time.worst_late_s * 1e3:.1f} ms")  # fmt: skip
+
+    def _change(self, changes: list[Parameter[Any]]) -> SetParametersResult:
+        verdict = check_changes(SPECS, changes)
+        if verdict.successful:
+            self.values |= {c.name: c.value for c in changes if c.name in self.values}
+        return verdict
+
+
+def main(arguments: Sequence[str] | None, stop: StopFlag) -> int:
+    """Run the node; see `door.open_node`."""
+    return runtime.run(
+        "player", SPECS, Player, about=ABOUT, arguments=arguments, stop=stop, positional="recording"
+    )
