@@ -95,6 +95,23 @@ def world(
     _make(chosen, out, cores, name)
 
 
+@app.command()
+def sigma(
+    out: Out,
+    nulls: Annotated[Path, typer.Option(help="folder where trucks with nothing missing are kept, "
+                                        "for all sets of the worlds")] = Path("out/nulls"),
+    trucks: Annotated[int, typer.Option(help="how many; 100 for a figure to publish")] = 100,
+) -> None:
+    """Measure sigma_b of every effect of a set of a world on nulls of that world; resumes."""
+    from proving_ground.visibility import measure
+
+    try:
+        for case, found in measure(out, nulls, trucks):
+            typer.echo(f"{case}: {', '.join(f'{value:.3g}' for value in found)}")
+    except ValueError as error:
+        raise _stop(str(error)) from error
+
+
 @app.command("list")
 def list_cases(name: SetName = "dev",
                out: Annotated[Path | None, typer.Option("--out", "-o", help="write the cases as "

@@ -1,0 +1,86 @@
+"""sigma_b of every effect of a generated set of a world, into `sigma_b.json` beside the cases."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from proving_ground.cases import CaseSpec
+from proving_ground.ensemble import HIGHEST_HZ, RATE_HZ, Nulls
+from proving_ground.representative import representative
+from proving_ground.roughness import Roughness
+from proving_ground.sigma_b import Stack, noise_variance, separation
+from proving_ground.worlds import FIRST_SEED, world_cases
+
+RESULT = "sigma_b.json"
+
+
+def measure(out: Path, nulls: Path, trucks: int) -> Iterator[tuple[str, list[float]]]:
+    """Measure what is not measured yet; yields case and sigma_b of each effect, keeps them all.
+
+    Raises:
+        ValueError: a case is of no world.
+    """
+    path = out / RESULT
+    done: dict[str, Any] = json.loads(path.read_text()) if path.is_file() else {}
+    worlds: dict[str, Nulls] = {}
+    for answer in sorted((out / "answers").glob("*.json")):
+        told = json.loads(answer.read_text(encoding="utf-8"))
+        spec = spec_of(answer.stem)
+        if answer.stem in done or not spec.effects:
+            continue
+        # A detector does not know the form of W1's truth: for it, too, forms are drawn.
+        spread = "w3" if spec.truth == "w3" else "w2"
+        world = worlds.setdefault(spread, Nulls(spread, nulls, trucks))
+        found = visibility(spec, [e["severity"] for e in told["effects"][:len(spec.effects)]],
+                           world)
+        done[answer.stem] = {"sigma_b": found, "trucks": trucks}
+        path.write_text(json.dumps(done, indent=1) + "\n", encoding="utf-8")
+        yield answer.stem, found
+
+
+def spec_of(name: str) -> CaseSpec:
+    """The case of a world by its name.
+
+    Raises:
+        ValueError: the name is not that of a case of a world.
+    """
+    world, _, seed = name.partition("-")
+    if world not in FIRST_SEED or not seed.isdigit():
+        raise ValueError(f"case {name!r} is of no world")
+    return world_cases(world, int(seed) - FIRST_SEED[world], 1)[0]
+
+
+def visibility(spec: CaseSpec, severities: list[float], nulls: Nulls) -> list[float]:
+    """sigma_b of each effect of a case."""
+    rough = Roughness.draw(spec.seed) if spec.rough else None
+    rows, noise, shapes = [], [], []
+    signatures: list[list[np.ndarray[Any, Any]]] = [[] for _ in spec.effects]
+    for role, kinds in (("baseline", spec.baseline), ("train", spec.train)):
+        for name in kinds:
+            kind = representative(name, spec.truth == "w3")
+            channels, values = nulls.spread(kind)
+            use = [k for k, channel in enumerate(channels)
+                   if not channel.startswith(spec.missing or ("-",))
+                   and (rough is None or rough.keeps(channel))]
+            kept = values[:, use, :]
+            count = kept.shape[2]
+            duration_s = count / (2.0 * HIGHEST_HZ)
+            level = np.abs(kept[:, :, 0]).mean(axis=0) / np.sqrt(duration_s * RATE_HZ)
+            rows.append(kept.reshape(len(kept), -1))
+            noise.append(np.concatenate([
+                noise_variance(channels[k], float(level[i]), count, duration_s, rough)
+                for i, k in enumerate(use)]))
+            shapes.append((len(use), count))
+            made = ([row[use].ravel() for row in nulls.signature(spec, kind, severities)]
+                    if role == "train" else [np.zeros(kept[0].size)] * len(spec.effects))
+            for own, part in zip(signatures, made, strict=True):
+                own.append(part)
+    stack = Stack(np.concatenate(rows, axis=1).astype(float), np.concatenate(noise),
+                  tuple(shapes))
+    found = separation(stack, [np.concatenate(parts) for parts in signatures])
+    return [float(f"{value:.3g}") for value in found]

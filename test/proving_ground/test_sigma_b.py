@@ -1,0 +1,50 @@
+"""sigma_b: what a detector of one world's nulls sees, measured on nulls left out."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from proving_ground.manoeuvres import MANOEUVRES
+from proving_ground.representative import representative
+from proving_ground.sigma_b import Stack, separation
+from proving_ground.worlds.runs import KINDS
+
+
+def stack(trucks: int, strong: np.ndarray, seed: int = 1) -> Stack:
+    """Nulls that differ along one direction by much and else by nothing; noise of one."""
+    rng = np.random.default_rng(seed)
+    nulls = 30.0 * rng.standard_normal((trucks, 1)) * strong
+    return Stack(nulls, np.ones(strong.size), ((1, strong.size),))
+
+
+def test_without_spread_it_is_the_signal_over_the_noise() -> None:
+    signature = np.full(40, 0.5)
+    (found,) = separation(stack(60, np.zeros(40)), [signature])
+    assert found == pytest.approx(np.linalg.norm(signature), rel=0.05)
+
+
+def test_what_trucks_differ_by_hides_an_effect_that_looks_like_it() -> None:
+    along = np.zeros(40)
+    along[:8] = 1.0 / np.sqrt(8.0)
+    across = np.zeros(40)
+    across[20:28] = 1.0 / np.sqrt(8.0)
+    hidden, seen = separation(stack(120, along), [10.0 * along, 10.0 * across])
+    assert hidden < 0.6
+    assert seen == pytest.approx(10.0, rel=0.1)
+
+
+def test_a_baseline_run_shows_what_the_truck_is() -> None:
+    """The same number moves a baseline and a training run: known there, it hides nothing here."""
+    both = np.concatenate([np.full(20, 1.0), np.full(20, 1.0)]) / np.sqrt(40.0)
+    alone = np.concatenate([np.zeros(20), both[20:]])
+    effect = np.concatenate([np.zeros(20), np.full(20, 2.0)])
+    (with_baseline,) = separation(stack(120, both), [effect])
+    (without,) = separation(stack(120, alone), [effect])
+    assert with_baseline > 3.0 * without
+
+
+def test_every_manoeuvre_has_one_that_stands_for_it() -> None:
+    for kind in MANOEUVRES:
+        assert representative(kind) in MANOEUVRES
+    assert {representative(kind) for kinds in KINDS.values() for kind in kinds}
