@@ -45,7 +45,7 @@ def attach(node: Node, simulator: Simulator) -> bool:
     subscription(node, Control, COMMAND, take, reliable(1))
     velocity = publisher(node, VelocityReport, VELOCITY, reliable(1))
     steering = publisher(node, SteeringReport, STEERING, reliable(1))
-    names = list(simulator.plant.truck.output_names)
+    names = list(simulator.plant.output_names)
     columns = [names.index(f"tractor_{key}") for key in ("vx_mps", "vy_mps", "yaw_rate_radps")]
 
     def report(now_ns: int) -> None:

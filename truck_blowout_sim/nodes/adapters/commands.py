@@ -26,7 +26,7 @@ class ForeignCommands:
         self._controller = speed_controller(vehicle)
         steering = vehicle.spec.steering
         self._ratio = steering.ratio if steering else 1.0
-        names = list(simulator.plant.truck.output_names)
+        names = list(simulator.plant.output_names)
         self._speed = names.index("tractor_vx_mps")
         steered = [name for name in names if name.endswith("_steer_rad")]
         self._steer = [names.index(name) for name in steered if name.startswith("steer_")]
