@@ -9,8 +9,9 @@ from setuptools import find_packages, setup
 PACKAGE = "truck_blowout_sim"
 ROOT = Path(__file__).resolve().parent
 VERBS = (
-    "run", "import", "export", "compare", "diagnose", "prove", "recover", "validate", "vehicle",
-    "view", "plot", "sweep", "calibrate")
+    "run", "inspect", "import", "export", "compare", "diagnose", "prove", "recover", "validate",
+    "vehicle", "view", "plot", "sweep", "calibrate",
+)
 NODES = ("simulator", "player", "lane_keeper", "urdf")
 
 
@@ -104,6 +105,10 @@ setup(
             "ros-std-srvs",
             "ros-visualization-msgs",
         ],
+        "mdf": ["asammdf>=7.4"],
+        "mat73": ["h5py>=3.6"],
+        "frames": ["pandas>=1.5", "xarray>=2022.6"],
+        "logs": ["asammdf>=7.4", "h5py>=3.6", "pandas>=1.5", "xarray>=2022.6"],
         "prove": ["commonroad-vehicle-models>=3.0", "mujoco>=3.1", "pysindy>=2.0"],
         "dask": ["distributed>=2023.1"],
         "test": [

@@ -63,7 +63,7 @@ def test_bad_input_is_one_line_and_status_2_and_nothing_is_left(tmp_path: Path, 
         ("export", "gone.mcap", "-o", "x.csv"),
         ("recover", "gone.mcap"),
         ("import", "log.csv", "-o", "x.docx"),
-        ("import", "log.csv", "-o", "bag", "--remap", "nonsense"),
+        ("import", "log.csv", "-o", "bag", "--map", "gone.yaml"),
         ("import", "log.csv", "-o", "log.csv", "--force"),
         ("import", "log.csv", "-o", "log.csv/bag"),
         ("export", "log.csv", "-o", "/proc/no/such.csv"),
@@ -97,11 +97,12 @@ def test_a_topic_that_is_not_in_the_bag_is_refused_and_the_nearest_named(
     tmp_path: Path, log: Path
 ) -> None:
     assert cli("import", log, "-o", tmp_path / "bag").returncode == 0
-    done = cli("import", tmp_path / "bag", "-o", tmp_path / "b",
-               "--remap", "/truck/throtle:=steering_wheel_angle")  # fmt: skip
+    rules = tmp_path / "map.yaml"
+    rules.write_text("channels: {throttle: {from: '/truck/throtle:data', unit: '%'}}")
+    done = cli("import", tmp_path / "bag", "-o", tmp_path / "b", "-m", rules)
     assert done.returncode == 2
-    assert "no topic /truck/throtle" in done.stderr
-    assert "/truck/throttle (the nearest)" in done.stderr
+    assert "no column '/truck/throtle:data' in the log" in done.stderr
+    assert "/truck/throttle:data (the nearest)" in done.stderr
     assert not (tmp_path / "b").exists()
 
 

@@ -106,13 +106,14 @@ def edited(folder: Path, change: Callable[[dict[str, object]], object]) -> Path:
 @pytest.mark.parametrize(
     ("change", "words"),
     [
-        (lambda info: info.update(storage_identifier="sqlite3"), "sqlite3"),
+        (lambda info: info.update(storage_identifier="sqlite3"), "not a database"),
+        (lambda info: info.update(storage_identifier="tape"), "tape"),
         (lambda info: info.update(relative_file_paths=["gone.mcap"]), "is missing"),
         (lambda info: info.update(relative_file_paths=3), "relative_file_paths"),
         (lambda info: info.update(message_count="many"), "'many'"),
         (lambda info: info.update(message_count=10**6), "truncated"),
         (lambda info: info["custom_data"].update(time_origin_s="noon"), "'noon'"),
-        (lambda info: info.update(compression_mode="MESSAGE"), "compression"),
+        (lambda info: info.update(compression_mode="SQUEEZE"), "compression"),
     ],
 )
 def test_wrong_metadata(
@@ -148,7 +149,9 @@ def test_folders_and_names_that_are_no_recording(tmp_path: Path) -> None:
     assert "neither" in refusal(tmp_path / "empty")
     assert "is empty" in refusal(tmp_path / "x.mcap")
     assert "begins with" in refusal(tmp_path / "y.mcap")
-    assert ".mat" in refusal(tmp_path / "z.txt")
+    assert "--map" in refusal(tmp_path / "z.txt")
+    (tmp_path / "z.docx").write_text("x")
+    assert ".mat" in refusal(tmp_path / "z.docx")
     assert "no such file" in refusal(tmp_path / "nothing")
 
 

@@ -21,6 +21,7 @@ from truck_blowout_sim.recordings import (
     read_recording,
     write_recording,
 )
+from truck_blowout_sim.recordings.formats import read_native
 
 TABLE = by_name(c for c in channels_for() if c.place)
 ANGLES = ("roll_rad", "pitch_rad", "yaw_rad")
@@ -58,7 +59,7 @@ def recordings(draw: st.DrawFn) -> Recording:
 @given(recording=recordings(), bare=st.booleans())
 def test_any_recording_survives(tmp_path: Path, recording: Recording, bare: bool) -> None:
     path = write_recording(recording, tmp_path / ("any.mcap" if bare else "any"))
-    again = read_recording(path)
+    again = read_native(path)
     assert set(again.channels) == set(recording.channels)
     for name, series in recording.channels.items():
         np.testing.assert_allclose(again[name].time_s, series.time_s, atol=1e-12, err_msg=name)

@@ -20,6 +20,7 @@ from truck_blowout_sim.recordings import (
     read_recording,
     write_recording,
 )
+from truck_blowout_sim.recordings.formats import read_native
 
 IN_TMP = settings(suppress_health_check=[HealthCheck.function_scoped_fixture])
 HEADER = "time_s,throttle,tractor_vx_mps"
@@ -73,7 +74,7 @@ def test_any_recording_survives(tmp_path: Path, data: st.DataObject) -> None:
         values = [data.draw(st.floats(low, high)) for _ in ticks]
         channels[name] = Series(np.array(sorted(ticks)) / 100, np.array(values))
     recording = Recording("any", channels)
-    again = read_recording(write_recording(recording, tmp_path / "any.csv"))
+    again = read_native(write_recording(recording, tmp_path / "any.csv"))
     assert dict(again.channels) == channels
 
 

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from truck_blowout_sim.resources import config_dir
-from truck_blowout_sim.vehicle import load_road, load_vehicle, pack
+from truck_blowout_sim.vehicle import document, load_road, load_vehicle, pack
 from truck_blowout_sim.vehicle.document import Branch, Leaf, parse
 from truck_blowout_sim.vehicle.reading import to_number
 
@@ -65,9 +65,13 @@ def test_loading_reads_few_files(name: str, monkeypatch: pytest.MonkeyPatch) -> 
         return real(path, encoding=encoding)
 
     monkeypatch.setattr(Path, "read_text", counting)
+    document._parsed.cache_clear()
     pack(load_vehicle(name))
     yaml = [path for path in read if path.suffix == ".yaml"]
     assert 0 < len(yaml) < 20, [path.name for path in yaml]
+    read.clear()
+    load_vehicle(name)
+    assert not read  # what has not changed is parsed once
 
 
 @pytest.mark.parametrize("name", VEHICLES)

@@ -12,10 +12,13 @@ from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 from rich.table import Table
 
 from truck_blowout_sim.cli.outputs import FORCE, JSON, claim, say
+from truck_blowout_sim.cli.reading import BLOW, MAP, read
 from truck_blowout_sim.errors import InputError
 
 if TYPE_CHECKING:
     from truck_blowout_sim.comparison import Comparison
+    from truck_blowout_sim.recordings import Recording
+    from truck_blowout_sim.vehicle import Vehicle
 
 _NUMBERS = (
     ("rms error", 11), ("peak error", 11), ("at", 8), ("noise σ", 7), ("lag", 8), ("ISO 18571", 14)
@@ -49,6 +52,8 @@ def command(
     no_model: bool = typer.Option(
         False, "--no-model", help="Hold two recordings against each other, without a model."
     ),
+    mapping: Path | None = MAP,
+    blow: list[str] = BLOW,
     force: bool = FORCE,
     as_json: bool = JSON,
 ) -> None:
@@ -56,7 +61,7 @@ def command(
 
     Example: truck-blowout compare test.csv --vehicle my_truck.yaml -o comparison
     """
-    from truck_blowout_sim.comparison import compare, compare_recordings, encode_comparison
+    from truck_blowout_sim.comparison import compare, compare_recordings
     from truck_blowout_sim.report.comparison_page import DATA, PAGE, write_comparison_report
     from truck_blowout_sim.vehicle import load_vehicle
 
@@ -74,15 +79,38 @@ def command(
                 progress.update(task, description=stage, completed=0.8 * share)  # noqa: B023
 
             compared = (
-                compare_recordings(*recordings, vehicle=loaded, progress=tell) if no_model
-                else compare(name, loaded, step_s=step_s, impose_speed=impose_speed,
-                             contrasted=True, progress=tell)
+                compare_recordings(*_both(recordings, mapping, blow, loaded), vehicle=loaded,
+                                   progress=tell) if no_model
+                else compare(_read(name, mapping, blow, loaded), loaded, step_s=step_s,
+                             impose_speed=impose_speed, contrasted=True, progress=tell)
             )  # fmt: skip
             progress.update(task, description="drawing", completed=0.8)
             page = write_comparison_report(compared, folder)
-        say(as_json, encode_comparison(compared), ())
-        if not as_json:
-            _print(console, compared, page)
+        _tell(console, compared, page, as_json)
+
+
+def _tell(console: Console, compared: Comparison, page: Path, as_json: bool) -> None:
+    from truck_blowout_sim.comparison import encode_comparison
+
+    say(as_json, encode_comparison(compared), ())
+    if not as_json:
+        _print(console, compared, page)
+
+
+def _both(recordings: list[str], mapping: Path | None, blow: list[str], vehicle: Vehicle
+          ) -> tuple[str | Recording, str | Recording]:
+    first, second = (_read(one, mapping, blow, vehicle) for one in recordings)
+    return first, second
+
+
+def _read(name: str, mapping: Path | None, blow: list[str], vehicle: Vehicle) -> str | Recording:
+    """What to compare with: the name as it is, or the recording where options change it."""
+    from truck_blowout_sim.comparison.sources import find_recording
+
+    if mapping is None and not blow:
+        return name
+    return read(find_recording(name), mapping=mapping, blow=blow, hubs=vehicle.hubs,
+                tires=vehicle.tires)  # fmt: skip
 
 
 def _folders(recordings: list[str], output: Path) -> list[Path]:

@@ -13,6 +13,7 @@ from rich.progress import BarColumn, Progress, TaskID, TextColumn, TimeElapsedCo
 
 from truck_blowout_sim.cli.failures import interruptible
 from truck_blowout_sim.cli.outputs import FORCE, claim
+from truck_blowout_sim.cli.reading import BLOW, MAP, read
 
 if TYPE_CHECKING:
     from truck_blowout_sim.diagnosis import Diagnosis
@@ -59,6 +60,8 @@ def command(
     thorough: bool = typer.Option(
         False, "--thorough", help="1 ms step, up to four effects, intervals by profile likelihood."
     ),
+    mapping: Path | None = MAP,
+    blow: list[str] = BLOW,
     force: bool = FORCE,
 ) -> None:
     """Locate, name and fit what the model lacks to explain recordings."""
@@ -69,8 +72,8 @@ def command(
 
     claim(output, inputs=[*recordings, *baseline, *holdout], force=force, writes=_FILES)
     loaded = load_vehicle(vehicle)
-    train, base, hold = (_read(paths, loaded.hubs, loaded.tires)
-                         for paths in (recordings, baseline, holdout))
+    train = _read(recordings, loaded, mapping, blow)
+    base, hold = (_read(paths, loaded, mapping, ()) for paths in (baseline, holdout))
     _say_roles(train, base, hold)
     output.mkdir(parents=True, exist_ok=True)
     step_s = _QUICK_STEP_S if quick else _THOROUGH_STEP_S if thorough else STEP_S
@@ -100,19 +103,17 @@ def _write(answer: Diagnosis, vehicle: Vehicle, base: str, values: Mapping[str, 
     write_diagnosis_report(answer, vehicle, folder / "report.html", panels)
 
 
-def _read(paths: Sequence[Path], hubs: tuple[str, ...], tires: tuple[str, ...]
+def _read(paths: Sequence[Path], vehicle: Vehicle, mapping: Path | None, blow: Sequence[str]
           ) -> list[Recording]:
     """Read recordings; the same name twice is told apart by a number."""
     from dataclasses import replace
 
-    from truck_blowout_sim.recordings import read_recording
-
-    read: list[Recording] = []
+    read_so_far: list[Recording] = []
     for path in paths:
-        one = read_recording(path, hubs=hubs, tires=tires)
-        same = sum(r.name.split(" #")[0] == one.name for r in read)
-        read.append(replace(one, name=f"{one.name} #{same + 1}") if same else one)
-    return read
+        one = read(path, mapping=mapping, blow=blow, hubs=vehicle.hubs, tires=vehicle.tires)
+        same = sum(r.name.split(" #")[0] == one.name for r in read_so_far)
+        read_so_far.append(replace(one, name=f"{one.name} #{same + 1}") if same else one)
+    return read_so_far
 
 
 def _say_roles(train: Sequence[Recording], base: Sequence[Recording], hold: Sequence[Recording]

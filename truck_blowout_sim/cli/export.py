@@ -6,10 +6,11 @@ from pathlib import Path
 
 import typer
 
-from truck_blowout_sim.cli.conversion import parse_remap, report, warn
-from truck_blowout_sim.cli.outputs import FORCE, claim
+from truck_blowout_sim.cli.conversion import report, warn
+from truck_blowout_sim.cli.outputs import FORCE, JSON, claim
+from truck_blowout_sim.cli.reading import ALSO, BLOW, MAP, read
 from truck_blowout_sim.errors import InputError
-from truck_blowout_sim.recordings import read_recording, write_recording
+from truck_blowout_sim.recordings import write_recording
 from truck_blowout_sim.recordings.mat_thesis import THESIS_CHANNELS
 
 
@@ -18,9 +19,9 @@ def command(
     output: Path = typer.Option(
         ..., "-o", "--output", help="File to write: .csv; .mat and .mcap work too."
     ),
-    remap: list[str] = typer.Option(
-        [], "--remap", "-m", help="Foreign topic, FROM:=TO. May be repeated."
-    ),
+    mapping: Path | None = MAP,
+    blow: list[str] = BLOW,
+    also: list[Path] = ALSO,
     namespace: str | None = typer.Option(
         None, help="Prefix of the truck's topics; /truck, or found by itself."
     ),
@@ -29,10 +30,12 @@ def command(
         "(time_e, vx_e, …: mph, deg/s, ft, SAE axes), not every channel."
     ),
     force: bool = FORCE,
+    as_json: bool = JSON,
 ) -> None:
     """Convert a bag to CSV: one row an instant, gauge pressures, empty where not measured."""
-    claim(output, inputs=[bag], force=force)
-    recording = read_recording(bag, remap=parse_remap(remap), namespace=namespace)
+    given = [bag, *also, *([mapping] if mapping else [])]
+    claim(output, inputs=given, force=force)
+    recording = read(bag, mapping=mapping, blow=blow, also=also, namespace=namespace)
     warn(recording)
     if thesis_variables:
         _check_thesis(output)
@@ -41,7 +44,7 @@ def command(
                    err=True)  # fmt: skip
         recording = recording.only_channels(sorted(THESIS_CHANNELS))
     write_recording(recording, output, thesis_variables=thesis_variables)
-    report(recording, output)
+    report(recording, output, as_json)
 
 
 def _check_thesis(output: Path) -> None:

@@ -6,36 +6,36 @@ from pathlib import Path
 
 import typer
 
-from truck_blowout_sim.cli.conversion import parse_remap, report, warn
-from truck_blowout_sim.cli.outputs import FORCE, claim
-from truck_blowout_sim.recordings import read_recording, write_recording
+from truck_blowout_sim.cli.conversion import report, warn
+from truck_blowout_sim.cli.outputs import FORCE, JSON, claim
+from truck_blowout_sim.cli.reading import ALSO, BLOW, MAP, read
+from truck_blowout_sim.recordings import write_recording
 
 
 def command(
     log: Path = typer.Argument(
-        help="CSV, .mat (thesis variables: mph, deg/s, ft, SAE axes), .mcap or rosbag2 folder."
+        help="Any log: bag, .mcap, .db3, .bag, CSV or text of any logger, .vbo, .mat, MDF."
     ),
     output: Path = typer.Option(
         ..., "-o", "--output", help="Bag to write: a folder, or a bare file ending in .mcap."
     ),
+    mapping: Path | None = MAP,
+    blow: list[str] = BLOW,
+    also: list[Path] = ALSO,
     source: str = typer.Option(
-        "experiment", help="Which variables of a .mat file: experiment (_e) or hve (_h)."
-    ),
-    remap: list[str] = typer.Option(
-        [],
-        "--remap",
-        "-m",
-        help="Foreign topic of a bag, FROM:=TO, e.g. /ins/odometry:="
-        "tractor/odometry. May be repeated.",
+        "experiment", help="Of a .mat with the thesis's variables: experiment (_e) or hve (_h)."
     ),
     namespace: str | None = typer.Option(
         None, help="Prefix of the truck's topics in a bag; /truck, or found by itself."
     ),
     force: bool = FORCE,
+    as_json: bool = JSON,
 ) -> None:
-    """Convert a log (CSV, .mat, .mcap, bag) to a bag: SI units, ISO axes, absolute pressures."""
-    claim(output, inputs=[log], force=force)
-    recording = read_recording(log, source=source, remap=parse_remap(remap), namespace=namespace)
+    """Convert a log of any logger to a bag: SI units, ISO axes, absolute pressures."""
+    given = [log, *also, *([mapping] if mapping else [])]
+    claim(output, inputs=given, force=force)
+    recording = read(log, mapping=mapping, blow=blow, also=also, source=source,
+                     namespace=namespace)  # fmt: skip
     warn(recording)
     write_recording(recording, output)
-    report(recording, output)
+    report(recording, output, as_json)

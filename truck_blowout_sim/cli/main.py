@@ -23,8 +23,9 @@ PROGRAM = "truck-blowout"
 # so that `--help` lists every verb without importing any of them.
 VERBS: dict[str, tuple[str, str]] = {
     "run": ("run", "Simulate a scenario without ROS and write a bag."),
-    "import": ("import_", "Convert a log (CSV, .mat, .mcap, bag) to a bag."),
-    "export": ("export", "Convert a bag to CSV."),
+    "inspect": ("inspect", "Say what is in a log, and what becomes which channel."),
+    "import": ("import_", "Convert a log of any logger to a bag."),
+    "export": ("export", "Convert a bag or log to CSV, .mat or .mcap."),
     "compare": ("compare", "Drive the model with a recording's inputs and report the differences."),
     "diagnose": ("diagnose", "Locate, name and fit what the model lacks to explain recordings."),
     "calibrate": ("calibrate", "Fit the sheet's numbers to ordinary driving; write the vehicle."),

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import typer
 
-from truck_blowout_sim.cli.outputs import FORCE, claim
+from truck_blowout_sim.cli.outputs import FORCE, JSON, claim, say
 from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.recordings.recover import recover
 
@@ -17,6 +17,7 @@ def command(
         None, "-o", "--output", help="Write there; by default the bag is replaced."
     ),
     force: bool = FORCE,
+    as_json: bool = JSON,
 ) -> None:
     """Make a bag readable again whose writer was killed; every whole chunk is kept."""
     if not bag.exists():
@@ -27,4 +28,6 @@ def command(
         claim(output, inputs=[bag], force=force)
     saved = recover(bag, output)
     lost = f", {saved.lost_bytes} bytes of a broken tail left out" if saved.lost_bytes else ""
-    typer.echo(f"{saved.path}: {saved.messages} messages{lost}")
+    result = {"output": str(saved.path), "messages": saved.messages,
+              "lost_bytes": saved.lost_bytes}  # fmt: skip
+    say(as_json, result, [f"{saved.path}: {saved.messages} messages{lost}"])

@@ -16,7 +16,9 @@ from truck_blowout_sim.recordings.channels import (
     channels_for,
 )
 from truck_blowout_sim.recordings.encoder import RowEncoder
-from truck_blowout_sim.recordings.formats import read_recording, write_recording
+from truck_blowout_sim.recordings.formats import write_recording
+from truck_blowout_sim.recordings.mapping import Rules, load_mapping
+from truck_blowout_sim.recordings.reading import read_recording
 from truck_blowout_sim.recordings.recording import Blowout, Recording, Series
 
 __all__ = [
@@ -32,10 +34,12 @@ __all__ = [
     "Place",
     "Recording",
     "RowEncoder",
+    "Rules",
     "Series",
     "WriterState",
     "by_name",
     "channels_for",
+    "load_mapping",
     "read_recording",
     "write_recording",
 ]

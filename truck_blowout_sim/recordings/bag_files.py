@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 import yaml
+from rosbags.typesys.store import Typestore
 
 from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.recordings.bag_metadata import (
@@ -15,8 +16,10 @@ from truck_blowout_sim.recordings.bag_metadata import (
     BagMetadata,
     read_metadata,
 )
+from truck_blowout_sim.recordings.bag_storages import read_storage
 from truck_blowout_sim.recordings.bag_writer import METADATA_NAME
 from truck_blowout_sim.recordings.mcap_scan import Scan, Topic, scan
+from truck_blowout_sim.recordings.message_types import store_of
 
 _ENTRY = re.compile(r"([a-z][a-z0-9_]*): (.*)", re.DOTALL)
 
@@ -30,31 +33,48 @@ class BagFiles:
         topics: messages by absolute topic name.
         metadata: free text by key.
         notes: what a person should know, e.g. that the writer was killed.
+        kind: of storage, in words.
+        ros1: messages were converted from ROS 1; their types are as the bag defines them.
     """
 
     name: str
     topics: dict[str, Topic] = field(default_factory=dict)
     metadata: dict[str, str] = field(default_factory=dict)
     notes: list[str] = field(default_factory=list)
+    kind: str = "MCAP"
+    ros1: bool = False
+
+    def store(self) -> Typestore:
+        """Field lists of this bag's types: as it defines them, else the standard ones."""
+        return store_of((t.ros_type, t.definition) for t in self.topics.values())
 
 
 def open_bag(path: Path) -> BagFiles:
     """Read all files of a bag.
 
     Args:
-        path: a rosbag2 folder, its ``metadata.yaml``, or one ``.mcap`` file.
+        path: a rosbag2 folder of any storage and compression, its ``metadata.yaml``, one ``.mcap``
+            or ``.db3`` file, or a ROS 1 ``.bag``.
 
     Raises:
         InputError: no bag, damaged, or cut short.
     """
     if path.name == FILE_NAME:
         path = path.parent
+    if path.suffix in (".db3", ".bag"):
+        return _through_library(path, path.stem, "ROS 1 bag" if path.suffix == ".bag" else "SQLite")
     if not path.is_dir():
         bag = BagFiles(path.stem)
         _add(bag, scan(path), path)
         bag.metadata = _split_notes(bag.metadata)
         return bag
     described = read_metadata(path)
+    if described and not described.plain_mcap:
+        kind = described.storage if described.storage == "mcap" else "SQLite"
+        bag = _through_library(path, path.resolve().name, kind + described.compression)
+        bag.metadata = _split_notes(dict(described.custom_data))
+        _check_complete(path, bag, described)
+        return bag
     files = _files(path, described)
     bag = BagFiles(path.resolve().name)
     if described:
@@ -65,6 +85,13 @@ def open_bag(path: Path) -> BagFiles:
         _add(bag, scan(file), file)
     _check_complete(path, bag, described)
     bag.metadata = _split_notes(bag.metadata)
+    return bag
+
+
+def _through_library(path: Path, name: str, kind: str) -> BagFiles:
+    """Storages that `rosbags` reads for us."""
+    bag = BagFiles(name, kind=kind, ros1=path.suffix == ".bag")
+    bag.topics = read_storage(path)
     return bag
 
 
@@ -88,7 +115,9 @@ def _files(folder: Path, described: BagMetadata | None) -> list[Path]:
 def _add(bag: BagFiles, part: Scan, file: Path) -> None:
     for topic in part.topics.values():
         name = "/" + topic.name.strip("/")
-        held = bag.topics.setdefault(name, Topic(name, topic.ros_type, topic.encoding))
+        held = bag.topics.setdefault(
+            name, Topic(name, topic.ros_type, topic.encoding, topic.definition)
+        )
         if held.ros_type != topic.ros_type:
             raise InputError(
                 f"two types, {held.ros_type} and {topic.ros_type}",

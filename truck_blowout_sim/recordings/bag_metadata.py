@@ -40,11 +40,25 @@ class BagMetadata:
         files: data files, relative to the folder.
         message_count: messages that the files should hold.
         custom_data: free text by key.
+        storage: ``mcap`` or ``sqlite3``.
+        compressed: ``file`` or ``message`` where rosbag2 compressed it, else empty.
     """
 
     files: tuple[str, ...]
     message_count: int
     custom_data: Mapping[str, str]
+    storage: str = "mcap"
+    compressed: str = ""
+
+    @property
+    def plain_mcap(self) -> bool:
+        """Whether the files are MCAP as it is, without rosbag2's own compression around it."""
+        return self.storage == "mcap" and not self.compressed
+
+    @property
+    def compression(self) -> str:
+        """Words for what rosbag2 compressed, empty if it did not."""
+        return f", {self.compressed} compressed" if self.compressed else ""
 
 
 def describe(contents: Contents, file_name: str, custom: Mapping[str, str]) -> dict[str, Any]:
@@ -110,7 +124,7 @@ def read_metadata(folder: Path) -> BagMetadata | None:
     """Read ``metadata.yaml``; None if there is none (a killed recorder leaves none).
 
     Raises:
-        InputError: it is there but is no rosbag2 metadata, or not of MCAP storage.
+        InputError: it is there but is no rosbag2 metadata, or of an unknown storage.
     """
     path = folder / FILE_NAME
     if not path.is_file():
@@ -126,22 +140,17 @@ def read_metadata(folder: Path) -> BagMetadata | None:
     if not isinstance(info, dict):
         raise InputError("has no rosbag2_bagfile_information", file=path, expected=expected)
     storage = info.get("storage_identifier")
-    if storage != "mcap":
-        raise InputError(
-            f"storage {quoted(storage)}",
-            file=path,
-            where="key storage_identifier",
-            expected="mcap (convert with: ros2 bag convert)",
-        )
-    mode = info.get("compression_mode")
-    if isinstance(mode, str) and mode.strip().lower() not in ("", "none", "storage"):
-        raise InputError(
-            f"compression {quoted(mode)}",
-            file=path,
-            where="key compression_mode",
-            expected="none, or the storage's own (convert with: ros2 bag convert)",
-        )
-    return BagMetadata(_files(info, path), _message_count(info, path), _custom_data(info))
+    if storage not in ("mcap", "sqlite3"):
+        raise InputError(f"storage {quoted(storage)}", file=path, where="key storage_identifier",
+                         expected="mcap or sqlite3")  # fmt: skip
+    mode = str(info.get("compression_mode") or "none").strip().lower()
+    if mode not in ("none", "storage", "file", "message"):
+        raise InputError(f"compression {quoted(mode)}", file=path, where="key compression_mode",
+                         expected="none, file, message or storage")  # fmt: skip
+    return BagMetadata(
+        _files(info, path), _message_count(info, path), _custom_data(info), str(storage),
+        "" if mode in ("none", "storage") else mode,
+    )  # fmt: skip
 
 
 def _files(info: Mapping[str, Any], path: Path) -> tuple[str, ...]:
@@ -151,7 +160,7 @@ def _files(info: Mapping[str, Any], path: Path) -> tuple[str, ...]:
             f"value {quoted(files)}",
             file=path,
             where="key relative_file_paths",
-            expected="a list of .mcap files",
+            expected="a list of files",
         )
     return tuple(files)
 

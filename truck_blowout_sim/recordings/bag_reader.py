@@ -1,7 +1,7 @@
 """Bags to recordings: rosbag2 folders and bare MCAP files, finished or not, ours or foreign.
 
 References: rosbag2 (MCAP storage); REP-103/105; sensor_msgs conventions for missing values.
-Known limits: one message type per topic, as in the table of channels; no SQLite storage.
+Known limits: one message type per topic, as in the table of channels.
 Validated with: test/recordings/test_bag_reader.py against CSVs of the same runs.
 """
 

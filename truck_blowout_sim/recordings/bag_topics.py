@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
+from rosbags.typesys.store import Typestore
 
 from truck_blowout_sim.errors import InputError, quoted
 from truck_blowout_sim.recordings.angles import angles
@@ -99,8 +100,8 @@ class TopicSeries:
         return angles(safe)[angle]
 
 
-def read_topic(topic: Topic, file: Path) -> TopicSeries:
-    """Take a topic's messages apart.
+def read_topic(topic: Topic, file: Path, store: Typestore | None = None) -> TopicSeries:
+    """Take a topic's messages apart; ``store``: field lists other than the standard ones.
 
     Raises:
         InputError: a message is not what its type says.
@@ -113,7 +114,7 @@ def read_topic(topic: Topic, file: Path) -> TopicSeries:
     log_ns = log.astype(np.int64)
     order = np.argsort(log_ns, kind="stable")
     try:
-        parts = list(blocks([topic.data[i] for i in order], topic.ros_type))
+        parts = list(blocks([topic.data[i] for i in order], topic.ros_type, store))
     except MalformedMessageError as error:
         position = int(error.args[1])
         raise InputError(

@@ -19,6 +19,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 from rosbags.interfaces import Nodetype
+from rosbags.typesys.store import Typestore
 
 from truck_blowout_sim.recordings.message_types import typestore
 
@@ -70,8 +71,13 @@ class Layout:
         return mask
 
 
-def walk(message: bytes, ros_type: str) -> Layout:
+def walk(message: bytes, ros_type: str, store: Typestore | None = None) -> Layout:
     """Locate every field of one serialised message.
+
+    Args:
+        message: with its CDR header.
+        ros_type: message type.
+        store: field lists; those of the standard messages if left out.
 
     Raises:
         MalformedMessageError: it ends too early, or a length or text in it cannot be.
@@ -79,19 +85,20 @@ def walk(message: bytes, ros_type: str) -> Layout:
     order = {_LITTLE: "<", _BIG: ">"}.get(message[:2])
     if order is None:
         raise MalformedMessageError(f"starts with {message[:4].hex(' ')}, not a plain CDR header")
-    walker = _Walker(message, order)
+    walker = _Walker(message, order, store or typestore())
     walker.named(ros_type, "")
     return walker.layout
 
 
 class _Walker:
-    def __init__(self, message: bytes, order: str) -> None:
+    def __init__(self, message: bytes, order: str, store: Typestore) -> None:
+        self.fields = store.fielddefs
         self.message = message
         self.at = HEADER_SIZE
         self.layout = Layout(len(message), order)
 
     def named(self, ros_type: str, path: str) -> None:
-        for name, kind in typestore().fielddefs[ros_type][1]:
+        for name, kind in self.fields[ros_type][1]:
             self.field(kind, f"{path}.{name}" if path else name)
 
     def field(self, kind: FieldDesc, path: str) -> None:
@@ -172,7 +179,9 @@ class Block:
         return columns.view(self.layout.byte_order + code)[:, 0]
 
 
-def blocks(messages: Sequence[bytes], ros_type: str) -> Iterator[Block]:
+def blocks(
+    messages: Sequence[bytes], ros_type: str, store: Typestore | None = None
+) -> Iterator[Block]:
     """Take a series of messages of one type apart, grouped by layout.
 
     Raises:
@@ -183,7 +192,7 @@ def blocks(messages: Sequence[bytes], ros_type: str) -> Iterator[Block]:
     while left.size:
         first = int(left[0])
         try:
-            layout = walk(messages[first], ros_type)
+            layout = walk(messages[first], ros_type, store)
         except MalformedMessageError as error:
             raise MalformedMessageError(str(error), first) from None
         same = left[lengths[left] == layout.size]

@@ -55,9 +55,9 @@ def covariance_entries(ros_type: str, variance: Callable[[str], float | None]) -
 
 def measured(block: Block, ros_type: str, path: str) -> NDArray[np.bool_]:
     """In which of these messages a field was measured."""
-    if ros_type == ODOMETRY:
+    if ros_type == ODOMETRY and path in _ODOMETRY_FIELDS:
         return np.asarray(block.number(_odometry_entry(path)) < NOT_MEASURED)
-    if ros_type == IMU:
+    if ros_type == IMU and any(path in fields for fields in _IMU_FIELDS.values()):
         name = path.replace(":", ".").split(".")[0]
         row = _IMU_FIELDS[name].index(path)
         there = block.number(f"{name}_covariance[0]") != -1.0

@@ -46,8 +46,9 @@ class Header:
 
 
 def parse_header(
-    path: Path, lines: Sequence[str], *, tires: Iterable[str], hubs: Iterable[str]
-) -> Header:
+    path: Path, lines: Sequence[str], *, tires: Iterable[str], hubs: Iterable[str],
+    strict: bool = True,
+) -> Header:  # fmt: skip
     """Read the lines up to and with the column names.
 
     Raises:
@@ -63,9 +64,10 @@ def parse_header(
     table = by_name(parts.table())
     channels = {i: table[name] for i, name in enumerate(columns) if name in table}
     unknown = [n for n in columns if n not in table and n not in ("time_s", BLOWOUT_EVENT.name)]
-    for name in unknown:
+    for name in unknown if strict else ():
         _refuse_near_miss(path, at + 1, name, [*table, "time_s", BLOWOUT_EVENT.name])
-    notes = tuple(f"column {quoted(n)} is not a channel of this format: ignored" for n in unknown)
+    words = "is not a channel of this format: ignored"
+    notes = tuple(f"column {quoted(n)} {words}" for n in unknown) if strict else ()
     return Header(at + 1, columns, channels, metadata, parts, notes)
 
 
@@ -106,7 +108,8 @@ def _check_columns(path: Path, line: int, columns: tuple[str, ...]) -> None:
             f"no column time_s among {quoted(','.join(columns))}",
             file=path,
             where=where,
-            expected="comma separated column names, time_s among them",
+            expected="comma separated column names, time_s among them; another logger's file wants"
+            " a mapping (truck-blowout inspect FILE --write-map MAP)",
         )
     doubled = sorted({name for name in columns if columns.count(name) > 1})
     if doubled:

@@ -19,12 +19,27 @@ from truck_blowout_sim.errors import InputError, quoted
 from truck_blowout_sim.recordings.channels import BLOWOUT_EVENT, Channel
 from truck_blowout_sim.recordings.checks import check_times, check_values
 from truck_blowout_sim.recordings.csv_header import Header, parse_header
+from truck_blowout_sim.recordings.names import parts_of
 from truck_blowout_sim.recordings.recording import Blowout, Recording, Series
 
 FloatArray = NDArray[np.float64]
 
 
-def read_csv(path: Path, *, tires: Iterable[str] = (), hubs: Iterable[str] = ()) -> Recording:
+def names_channels(path: Path) -> bool:
+    """Whether a CSV is a recording under the names of the channel table, and not another log."""
+    with path.open("rb") as file:
+        for line in file:
+            text = line.decode("utf-8-sig", "replace").strip()
+            if text and not text.startswith("#"):
+                cells = [cell.strip().strip('"') for cell in text.split(",")]
+                known = {channel.name for channel in parts_of(cells).table()}
+                return "time_s" in cells and bool(known & set(cells))
+    return False
+
+
+def read_csv(
+    path: Path, *, tires: Iterable[str] = (), hubs: Iterable[str] = (), strict: bool = True
+) -> Recording:
     """Read a CSV recording.
 
     Args:
@@ -32,13 +47,14 @@ def read_csv(path: Path, *, tires: Iterable[str] = (), hubs: Iterable[str] = ())
         tires: tire names of the vehicle besides the default truck's and those that a line
             ``# tire_names: …`` declares.
         hubs: likewise, ``# hub_names: …``.
+        strict: refuse a column that is nearly a channel's name; else it is left out.
 
     Raises:
         InputError: with line, column, value and expectation.
         FileNotFoundError: no such file.
     """
     lines = _lines(path)
-    header = parse_header(path, lines, tires=tires, hubs=hubs)
+    header = parse_header(path, lines, tires=tires, hubs=hubs, strict=strict)
     body = _Body(path, header, _rows(path, lines, header))
     time_s = body.times()
     channels = {}

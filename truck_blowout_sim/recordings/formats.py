@@ -1,4 +1,4 @@
-"""The one door to all formats: read or write a recording, whatever the file is."""
+"""Files under the names of the channel table, read and written by their ending."""
 
 from __future__ import annotations
 
@@ -12,15 +12,19 @@ from truck_blowout_sim.recordings.bag_metadata import FILE_NAME
 from truck_blowout_sim.recordings.bag_reader import read_bag
 from truck_blowout_sim.recordings.csv_reader import read_csv
 from truck_blowout_sim.recordings.csv_writer import write_csv
+from truck_blowout_sim.recordings.logs import BAG_ENDINGS, READABLE
+from truck_blowout_sim.recordings.logs.mat_log import variables_of
 from truck_blowout_sim.recordings.mat_format import read_mat, write_mat
 from truck_blowout_sim.recordings.mat_thesis import write_thesis_mat
 from truck_blowout_sim.recordings.recording import Recording
 
-_READABLE = "a rosbag2 folder, .mcap, .csv or .mat"
+BEGIN_MAPPING = "truck-blowout inspect LOG --write-map FILE begins one"
+FOREIGN_ENDINGS = (".txt", ".tsv", ".asc", ".log", ".dat", ".vbo", ".mf4", ".mdf", ".mf3")
+_WRITABLE = "a rosbag2 folder, .mcap, .csv or .mat"
 
 
-def read_recording(
-    path: str | os.PathLike[str],
+def read_native(
+    path: Path,
     *,
     tires: Iterable[str] = (),
     hubs: Iterable[str] = (),
@@ -28,32 +32,24 @@ def read_recording(
     remap: Mapping[str, str] | None = None,
     source: str = "experiment",
 ) -> Recording:
-    """Read a recording of any format.
-
-    Args:
-        path: rosbag2 folder (or its metadata.yaml), ``.mcap``, ``.csv`` or ``.mat``.
-        tires: tire names of the vehicle, if it is not the default truck.
-        hubs: hub names, likewise.
-        namespace: prefix of the truck's topics in a bag; found by itself if not given.
-        remap: foreign topic names of a bag to those of the table.
-        source: which variables of a ``.mat``: ``experiment`` or ``hve``.
-
-    Returns:
-        SI units, pressures gauge, ISO axes; what had to be assumed stands in its notes.
+    """Read a file that names its channels as the table does; arguments as in `read_recording`.
 
     Raises:
         InputError: one line: file, place, value, expectation.
     """
-    path = Path(path)
     _check_exists(path)
     suffix = path.suffix.lower()
-    if path.is_dir() or path.name == FILE_NAME or suffix == ".mcap":
+    if path.is_dir() or path.name == FILE_NAME or suffix in BAG_ENDINGS:
         return read_bag(path, tires=tires, hubs=hubs, namespace=namespace, remap=remap)
     if suffix == ".csv":
         return read_csv(path, tires=tires, hubs=hubs)
     if suffix == ".mat":
-        return read_mat(path, source=source, tires=tires, hubs=hubs)
-    raise InputError(f"ends in {quoted(path.suffix)}", file=path, expected=_READABLE)
+        held = variables_of(path)
+        return read_mat(path, source=source, tires=tires, hubs=hubs, held=held)
+    if suffix in FOREIGN_ENDINGS:
+        raise InputError("does not say which column is which channel", file=path,
+                         expected=f"a mapping: --map FILE ({BEGIN_MAPPING})")  # fmt: skip
+    raise InputError(f"ends in {quoted(path.suffix)}", file=path, expected=READABLE)
 
 
 def write_recording(
@@ -85,7 +81,7 @@ def write_recording(
         write = write_thesis_mat if thesis_variables else write_mat
         write(recording, path)
     else:
-        raise InputError(f"ends in {quoted(path.suffix)}", file=path, expected=_READABLE)
+        raise InputError(f"ends in {quoted(path.suffix)}", file=path, expected=_WRITABLE)
     return path
 
 
@@ -94,7 +90,7 @@ def _check_exists(path: Path) -> None:
         path.stat()
     except OSError as error:
         raise InputError(
-            (error.strerror or "cannot be opened").lower(), file=path, expected=_READABLE
+            (error.strerror or "cannot be opened").lower(), file=path, expected=READABLE
         ) from None
     if not os.access(path, os.R_OK):
         raise InputError("permission denied", file=path, expected="a readable file")

@@ -42,13 +42,21 @@ def read_mat(
     source: str = "experiment",
     tires: Iterable[str] = (),
     hubs: Iterable[str] = (),
+    held: dict[str, Variable] | None = None,
 ) -> Recording:
     """Read a file that :func:`write_mat` wrote, or one with the thesis's variables.
+
+    Args:
+        path: the file.
+        source: of the thesis's variables: ``experiment`` or ``hve``.
+        tires: names of the vehicle, besides the default truck's.
+        hubs: likewise.
+        held: the file's variables, where they are read already.
 
     Raises:
         InputError: neither of these, damaged, or with values that cannot be.
     """
-    held = read_variables(path)
+    held = read_variables(path) if held is None else held
     if TIME not in held:
         return read_thesis_mat(path, source=source, held=held)
     parts = parts_of(held, hubs, tires)

@@ -75,6 +75,16 @@ class Fields:
         self._at = end
         return text
 
+    def data(self) -> bytes:
+        """The next field, bytes with their number before them."""
+        size = self.number("<I")
+        end = self._at + size
+        if end > len(self._content):
+            raise DamagedError("bytes end beyond their record")
+        data = self._content[self._at : end]
+        self._at = end
+        return data
+
     def mapping(self) -> dict[str, str]:
         """The next field, texts by key."""
         size = self.number("<I")

@@ -32,11 +32,12 @@ from truck_blowout_sim.recordings.mcap_parts import (
 
 @dataclass
 class Topic:
-    """Messages of one channel of the file, in the file's order."""
+    """Messages of one channel of the file, in the file's order; the type's definition if stated."""
 
     name: str
     ros_type: str
     encoding: str
+    definition: str = ""
     log_times_ns: list[int] = field(default_factory=list)
     data: list[bytes] = field(default_factory=list)
 
@@ -54,7 +55,7 @@ class Scan:
     """
 
     topics: dict[int, Topic] = field(default_factory=dict)
-    schemas: dict[int, str] = field(default_factory=dict)
+    schemas: dict[int, tuple[str, str]] = field(default_factory=dict)
     metadata: dict[str, dict[str, str]] = field(default_factory=dict)
     finished: bool = False
     good_end: int = 0
@@ -196,14 +197,21 @@ def _take_description(result: Scan, opcode: int, content: bytes) -> None:
     fields = Fields(content)
     if opcode == Opcode.SCHEMA:
         schema_id = fields.number("<H")
-        result.schemas[schema_id] = fields.text()
+        result.schemas[schema_id] = (fields.text(), _definition(fields))
     elif opcode == Opcode.CHANNEL:
         channel_id, schema_id = fields.number("<H"), fields.number("<H")
         name, encoding = fields.text(), fields.text()
         if channel_id not in result.topics:
-            result.topics[channel_id] = Topic(name, result.schemas.get(schema_id, ""), encoding)
+            ros_type, text = result.schemas.get(schema_id, ("", ""))
+            result.topics[channel_id] = Topic(name, ros_type, encoding, text)
         elif result.topics[channel_id].name != name:
             raise DamagedError(f"channel {channel_id} is {quoted(name)} here and another before")
     elif opcode == Opcode.METADATA:
         record_name = fields.text()
         result.metadata[record_name] = fields.mapping()
+
+
+def _definition(fields: Fields) -> str:
+    """Text of a schema record; it is read only where the type is not a standard one."""
+    encoding, data = fields.text(), fields.data()
+    return data.decode("utf-8", "replace") if encoding in ("ros2msg", "ros2idl") else ""

@@ -8,10 +8,17 @@ Validated with: test/recordings/test_foreign_readers.py.
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from functools import lru_cache
 from typing import Any
 
-from rosbags.typesys import Stores, get_typestore
+from rosbags.typesys import (
+    Stores,
+    TypesysError,
+    get_types_from_idl,
+    get_types_from_msg,
+    get_typestore,
+)
 from rosbags.typesys.store import Typestore
 
 ROS_DISTRO = "kilted"
@@ -24,6 +31,39 @@ _FOREVER = {"sec": 9223372036, "nsec": 854775807}
 def typestore() -> Typestore:
     """Field lists of the standard messages."""
     return get_typestore(Stores.ROS2_JAZZY)
+
+
+def store_of(definitions: Iterable[tuple[str, str]]) -> Typestore:
+    """Field lists as a bag defines them, the standard ones for what it does not define.
+
+    Args:
+        definitions: message type and its text (``.msg`` or IDL, nested types included), empty
+            where the bag holds none.
+
+    Raises:
+        ValueError: a text that is no definition.
+    """
+    types: dict[str, Any] = dict(typestore().fielddefs)
+    for ros_type, text in dict(definitions).items():
+        if not text or (ros_type in types and definition(ros_type).strip() == text.strip()):
+            continue
+        try:
+            types.update(_parsed(ros_type, text))
+        except (TypesysError, ValueError, KeyError, AssertionError) as error:
+            raise ValueError(f"definition of {ros_type}: {error}") from None
+    store = get_typestore(Stores.EMPTY)
+    store.register(types)
+    return store
+
+
+def _parsed(ros_type: str, text: str) -> dict[str, Any]:
+    if "IDL: " not in text.split("\n", 2)[0] + text[:200]:
+        return dict(get_types_from_msg(text, ros_type))
+    types: dict[str, Any] = {}
+    for part in text.split(f"{'=' * 80}\n"):
+        if part.startswith("IDL: "):
+            types.update(get_types_from_idl(part.partition("\n")[2]))
+    return types
 
 
 def is_known(ros_type: str) -> bool:

@@ -9,6 +9,7 @@ use its own units.
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
+from functools import lru_cache
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -21,6 +22,7 @@ from truck_blowout_sim.vehicle.units import si_key
 _LOADER: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 MOST_NODES = 100_000
 MERGE_TAG = "tag:yaml.org,2002:merge"
+_KEPT_DOCUMENTS = 64
 _LEAF_KEYS = frozenset({"value", "source", "spread"})
 
 
@@ -127,11 +129,26 @@ def merge(base: Branch, child: Branch) -> Branch:
 
 
 def parse(path: Path) -> Branch:
-    """Read one file, without what it extends.
+    """Read one file, without what it extends. A file that has not changed is parsed once.
 
     Raises:
         InputError: unreadable, not UTF-8, not YAML, keys given twice, or not a mapping.
     """
+    try:
+        state = path.stat()
+    except OSError:
+        return _parse(path)  # says what is wrong
+    whole = _parsed(path, state.st_mtime_ns, state.st_size)
+    # `extends` is taken out of the top of a document; below it nothing is ever changed
+    return Branch(whole.place, dict(whole.entries))
+
+
+@lru_cache(maxsize=_KEPT_DOCUMENTS)
+def _parsed(path: Path, changed_ns: int, size: int) -> Branch:
+    return _parse(path)
+
+
+def _parse(path: Path) -> Branch:
     start = Place(str(path), 1, "")
     try:
         text = path.read_text(encoding="utf-8")

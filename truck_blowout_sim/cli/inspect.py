@@ -1,0 +1,114 @@
+"""`truck-blowout inspect`: what is in a log, and what of it becomes which channel."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import typer
+from rich.console import Console
+from rich.table import Table
+
+from truck_blowout_sim.cli.outputs import FORCE, JSON, claim, say
+from truck_blowout_sim.cli.reading import ALSO, MAP
+
+if TYPE_CHECKING:
+    from truck_blowout_sim.recordings.mapping.inventory import Inventory, Line
+
+
+def command(
+    log: Path = typer.Argument(
+        help="Any log: bag, .mcap, .db3, .bag, CSV or text of any logger, .vbo, .mat, MDF."
+    ),
+    mapping: Path | None = MAP,
+    also: list[Path] = ALSO,
+    write_map: Path | None = typer.Option(
+        None, "--write-map", metavar="FILE", help="Begin a mapping file; every guess in it is "
+        "marked as one."
+    ),
+    namespace: str | None = typer.Option(
+        None, help="Prefix of the truck's topics in a bag; /truck, or found by itself."
+    ),
+    force: bool = FORCE,
+    as_json: bool = JSON,
+) -> None:
+    """Say what is in a log: columns, units, rates, clocks, gaps; what becomes which channel."""
+    from truck_blowout_sim.recordings.mapping.inventory import inspect_log
+    from truck_blowout_sim.recordings.mapping.writing import mapping_text
+
+    if write_map is not None:
+        claim(write_map, force=force, inputs=[log, *also])
+    found = inspect_log(log, mapping=mapping, namespace=namespace, also=also)
+    if mapping is not None:
+        _check(log, mapping, also, namespace)
+    if write_map is not None:
+        _write(write_map, mapping_text(found))
+    if as_json:
+        say(True, _plain(found), [])
+        return
+    _print(found)
+    if write_map is not None:
+        guesses = len(found.proposals)
+        typer.echo(f"{write_map}: {guesses} channels guessed; read and correct them, then: "
+                   f"truck-blowout compare {log} --map {write_map}")  # fmt: skip
+
+
+def _check(log: Path, mapping: Path, also: list[Path], namespace: str | None) -> None:
+    """Apply the mapping, so that what is wrong in it is said here."""
+    from truck_blowout_sim.recordings import read_recording
+
+    read_recording(log, mapping=mapping, also=also, namespace=namespace)
+
+
+def _write(path: Path, text: str) -> None:
+    from truck_blowout_sim.recordings.atomic import replacing
+
+    with replacing(path) as temporary:
+        temporary.write_text(text, encoding="utf-8")
+
+
+def _plain(found: Inventory) -> dict[str, object]:
+    tree = dataclasses.asdict(found)
+    for line in tree["lines"]:
+        for key in ("low", "high"):
+            line[key] = line[key] if math.isfinite(line[key]) else None
+    return {**tree, "unused": list(found.unused)}
+
+
+def _print(found: Inventory) -> None:
+    console = Console() if sys.stdout.isatty() else Console(width=140)
+    span = "" if found.start_s is None else f", {found.start_s:.6g} s to {found.end_s:.6g} s"
+    clock = f", time: {found.time_column} [{found.time_unit}]" if found.time_column else ""
+    console.print(f"{found.file}: {found.kind}{span}{clock}", markup=False, highlight=False,
+                  soft_wrap=True)  # fmt: skip
+    for at_s, tires in found.blowouts:
+        console.print(f"blowout of {tires} at {at_s:g} s", markup=False, highlight=False)
+    console.print(_table(found.lines))
+    for note in found.notes:
+        console.print(f"note: {note}", style="dim", markup=False, highlight=False, soft_wrap=True)
+    if found.unused:
+        console.print(f"{len(found.unused)} of {len(found.lines)} columns become nothing",
+                      highlight=False)  # fmt: skip
+
+
+def _table(lines: tuple[Line, ...]) -> Table:
+    table = Table(box=None, pad_edge=False, header_style="dim")
+    late = any(line.received_late_s is not None for line in lines)
+    titles = ("column", "unit", "Hz", "samples", "from", "to", "gaps", *(["late"] * late),
+              "becomes")  # fmt: skip
+    for title in titles:
+        right = title in ("Hz", "samples", "from", "to", "gaps", "late")
+        table.add_column(title, justify="right" if right else "left", no_wrap=not right)
+    for line in lines:
+        becomes = line.channel + {"guess": " (guess)", "name": ""}.get(line.by, "")
+        lateness = "" if line.received_late_s is None else f"{1e3 * line.received_late_s:.1f} ms"
+        cells = (
+            line.name, line.unit or "?", "" if line.rate_hz is None else f"{line.rate_hz:.4g}",
+            str(line.samples), f"{line.low:.4g}", f"{line.high:.4g}",
+            str(line.gaps or ""), *([lateness] * late), becomes,
+        )  # fmt: skip
+        table.add_row(*(cell.replace("[", "\\[") for cell in cells))
+    return table

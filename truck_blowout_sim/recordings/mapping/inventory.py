@@ -1,0 +1,206 @@
+"""What is in a log: columns with rates, sizes and gaps, clocks, and what becomes which channel.
+
+Validated with: test/recordings/test_inspect.py.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from truck_blowout_sim.errors import InputError
+from truck_blowout_sim.recordings.logs import open_log
+from truck_blowout_sim.recordings.logs.bag_log import BagLog, lateness_s
+from truck_blowout_sim.recordings.logs.log import Column
+from truck_blowout_sim.recordings.mapping.mapping_file import load_mapping
+from truck_blowout_sim.recordings.mapping.opened import Opened, open_test
+from truck_blowout_sim.recordings.mapping.proposing import Proposal, propose
+from truck_blowout_sim.recordings.mapping.rules import Rules, Source
+from truck_blowout_sim.recordings.mapping.times import time_column
+from truck_blowout_sim.recordings.units import find_unit
+
+FloatArray = NDArray[np.float64]
+_GAP_FACTOR = 2.5
+
+
+@dataclass(frozen=True)
+class Line:
+    """One column of a log.
+
+    Attributes:
+        name, unit: as in the log.
+        samples: numbers in it.
+        rate_hz: by the median step; None where there is no time.
+        low, high: smallest and largest number.
+        gaps: silences longer than 2.5 steps.
+        channel: what it becomes, empty if nothing.
+        by: ``name`` (a channel's own), ``mapping`` or ``guess``.
+        received_late_s: median time of reception after the header stamp, for bags.
+    """
+
+    name: str
+    unit: str
+    samples: int
+    rate_hz: float | None
+    low: float
+    high: float
+    gaps: int
+    channel: str = ""
+    by: str = ""
+    received_late_s: float | None = None
+
+
+@dataclass(frozen=True)
+class Inventory:
+    """Everything that `inspect` says."""
+
+    file: str
+    kind: str
+    time_column: str
+    time_unit: str
+    start_s: float | None
+    end_s: float | None
+    lines: tuple[Line, ...]
+    proposals: tuple[Proposal, ...] = ()
+    notes: tuple[str, ...] = ()
+    metadata: dict[str, str] = field(default_factory=dict)
+    blowouts: tuple[tuple[float, str], ...] = ()
+    time_guess: tuple[str, str] | None = None
+
+    @property
+    def unused(self) -> tuple[str, ...]:
+        """Columns that become nothing."""
+        return tuple(line.name for line in self.lines if not line.channel)
+
+
+def inspect_log(
+    path: str | os.PathLike[str], *, mapping: str | os.PathLike[str] | None = None,
+    namespace: str | None = None, also: Iterable[str | os.PathLike[str]] = (),
+) -> Inventory:
+    """Look into a log, with or without a mapping.
+
+    Raises:
+        InputError: it cannot be read.
+    """
+    rules = load_mapping(mapping) if mapping else Rules()
+    try:
+        files = open_test(Path(path), rules, also=map(Path, also), namespace=namespace)
+    except InputError as error:
+        if mapping or "time column" not in error.problem:
+            raise
+        # a log is shown also where its time is not understood yet
+        files = [_without_time(Path(path), error)]
+    proposals = () if mapping else tuple(_proposals(files[0]))
+    lines = [line for opened in files for line in _lines(opened, rules, proposals)]
+    main = files[0]
+    span = _span(main)
+    rows = main.rows
+    blowouts = main.native.blowouts if main.native else ()
+    return Inventory(
+        str(path), main.log.kind, rows.column if rows else "", rows.unit if rows else "",
+        *span, tuple(lines), proposals, tuple(n for f in files for n in f.notes), main.metadata,
+        tuple((b.time_s, "+".join(b.tires)) for b in (*blowouts, *rules.blowouts)),
+        _time_guess(main) if rows is None else None,
+    )  # fmt: skip
+
+
+def _time_guess(opened: Opened) -> tuple[str, str] | None:
+    """The likely time column of a log that does not state its unit: long steps are ms."""
+    names = list(opened.log.names)
+    if isinstance(opened.log, BagLog) or not names or opened.log.column(names[0]).times:
+        return None
+    column = time_column(opened.log)
+    return (column, "ms") if column else None
+
+
+def _without_time(path: Path, error: InputError) -> Opened:
+    log = open_log(path)
+    return Opened(path, "", log, notes=[f"{error.problem}; expected {error.expected}", *log.notes])
+
+
+def _proposals(opened: Opened) -> list[Proposal]:
+    taken = opened.native.channels if opened.native else {}
+    own = {opened.rows.column} if opened.rows else set()
+    return [p for p in propose(opened.log, taken)
+            if p.column not in opened.native_columns | own]  # fmt: skip
+
+
+def _lines(opened: Opened, rules: Rules, proposals: tuple[Proposal, ...]) -> list[Line]:
+    guessed = {proposal.column: proposal.channel for proposal in proposals}
+    mapped = _mapped(opened, rules)
+    own = opened.rows.column if opened.rows else ""
+    guess = (_time_guess(opened) or ("", ""))[0]
+    out = []
+    for name in opened.log.names:
+        if name == own or (not own and name == guess):
+            continue
+        column = opened.log.column(name)
+        channel, by = mapped.get(name, ""), "mapping"
+        if not channel and name in opened.native_columns:
+            channel, by = _own_name(opened, name), "name"
+        if not channel and name in guessed:
+            channel, by = guessed[name], "guess"
+        out.append(_line(opened, name, column, channel, by if channel else ""))
+    return out
+
+
+def _mapped(opened: Opened, rules: Rules) -> dict[str, str]:
+    found: dict[str, str] = {}
+    for channel, source in rules.channels.items():
+        name = opened.log.find(source.column) if _may_be_in(source, opened) else None
+        if name:
+            found[name] = f"{found[name]}, {channel}" if name in found else channel
+    return found
+
+
+def _may_be_in(source: Source, opened: Opened) -> bool:
+    return source.file in ("", opened.path.name, str(opened.path), opened.stated)
+
+
+def _own_name(opened: Opened, name: str) -> str:
+    if isinstance(opened.log, BagLog):
+        return "by its topic"
+    native = opened.native
+    return name if native and name in native else "by its name"
+
+
+def _line(opened: Opened, name: str, column: Column, channel: str, by: str) -> Line:
+    told = column.values[np.isfinite(column.values)]
+    times = next(iter(column.times.values()), None)
+    if times is None and opened.rows is not None:
+        times = opened.rows.time_s
+    rate, gaps = _rate(times, column.values)
+    late = lateness_s(column)
+    unit = find_unit(column.unit)
+    return Line(
+        name, unit.name if unit else column.unit, int(told.size), rate,
+        float(told.min()) if told.size else float("nan"),
+        float(told.max()) if told.size else float("nan"),
+        gaps, channel, by, late[0] if late else None,
+    )  # fmt: skip
+
+
+def _rate(times: FloatArray | None, values: FloatArray) -> tuple[float | None, int]:
+    if times is None or times.size != values.size:
+        return None, 0
+    told = times[np.isfinite(times) & np.isfinite(values)]
+    steps = np.diff(told)
+    if not steps.size or not np.median(steps) > 0.0:
+        return None, 0
+    middle = float(np.median(steps))
+    return 1.0 / middle, int(np.count_nonzero(steps > _GAP_FACTOR * middle))
+
+
+def _span(opened: Opened) -> tuple[float | None, float | None]:
+    if opened.native:
+        return opened.native.start_s, opened.native.end_s
+    if opened.rows is not None:
+        told = opened.rows.time_s[np.isfinite(opened.rows.time_s)] + opened.origin_s
+        return (float(told[0]), float(told[-1])) if told.size else (None, None)
+    edges = [t for name in opened.log.names[:1] for t in opened.log.column(name).times.values()]
+    return (float(edges[0][0]), float(edges[0][-1])) if edges and edges[0].size else (None, None)

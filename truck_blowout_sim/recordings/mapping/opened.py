@@ -1,0 +1,226 @@
+"""The files of one test, opened: as columns, and as a recording where they name channels.
+
+Validated with: test/recordings/test_mapping_apply.py.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+
+from truck_blowout_sim.errors import InputError
+from truck_blowout_sim.recordings.bag_reader import read_bag
+from truck_blowout_sim.recordings.bag_writer import ORIGIN_KEY
+from truck_blowout_sim.recordings.csv_reader import names_channels, read_csv
+from truck_blowout_sim.recordings.logs import Log, open_log
+from truck_blowout_sim.recordings.logs.bag_log import HEADER, RECEIVE, BagLog, lateness_s
+from truck_blowout_sim.recordings.logs.mat_log import variables_of
+from truck_blowout_sim.recordings.mapping.rules import Rules, TimeRule
+from truck_blowout_sim.recordings.mapping.times import Times, times_of
+from truck_blowout_sim.recordings.mat_format import TIME, read_mat
+from truck_blowout_sim.recordings.mat_thesis import has_thesis_variables
+from truck_blowout_sim.recordings.names import parts_of
+from truck_blowout_sim.recordings.recording import Recording
+
+_EPOCH_S = 1e8
+_SAME_DAY_S = 1e5
+_OTHER_CLOCK_S = 0.5
+CLOCK_START = "clock_start_s"
+
+
+@dataclass
+class Opened:
+    """One file.
+
+    Attributes:
+        path: where it is.
+        stated: how the mapping file names it; empty for the log itself.
+        log: its columns.
+        native: what it says under the names of the channel table, if it does.
+        native_columns: columns that ``native`` took.
+        rows: instants of its rows, for logs with one time column.
+        origin_s: added to the log's times to get the recording's.
+        shift_s: added besides, as the mapping says.
+        other_clock_s: how far receive stamps run ahead of header stamps, if on another clock.
+        notes: what a person should know.
+    """
+
+    path: Path
+    stated: str
+    log: Log
+    native: Recording | None = None
+    native_columns: set[str] = field(default_factory=set)
+    rows: Times | None = None
+    origin_s: float = 0.0
+    shift_s: float = 0.0
+    other_clock_s: float = 0.0
+    notes: list[str] = field(default_factory=list)
+
+    @property
+    def name(self) -> str:
+        """Short name of the recording."""
+        folder = self.path.parent if self.path.name == "metadata.yaml" else self.path
+        return folder.resolve().name if folder.is_dir() else folder.stem
+
+    @property
+    def metadata(self) -> dict[str, str]:
+        """What the file says of itself."""
+        found = dict(self.native.metadata) if self.native else dict(self.log.metadata)
+        if self.origin_s and not self.native:
+            found[CLOCK_START] = repr(-self.origin_s)
+        return found
+
+
+def open_test(
+    path: Path, rules: Rules, *, also: Iterable[Path] = (), namespace: str | None = None,
+    source: str = "experiment",
+) -> list[Opened]:
+    """Open a log and the further files of its test; the log itself comes first.
+
+    Raises:
+        InputError: one of them cannot be read.
+    """
+    base = rules.file.parent if rules.file else Path()
+    main = _open(path, "", rules.time, rules, namespace, source)
+    main.shift_s = rules.shift_s.get(path.name, 0.0)
+    start_s = _start_s(main, rules)
+    absolute = start_s is not None
+    main.origin_s = _own_origin_s(main, start_s)
+    _align_native(main)
+    files = [main]
+    further = [(_beside(entry.file, path, base), entry) for entry in rules.also]
+    for place, entry in further:
+        opened = _open(place, entry.file, entry.time, rules, namespace, source)
+        opened.shift_s = entry.shift_s + rules.shift_s.get(entry.file, 0.0)
+        files.append(opened)
+    for place in also:
+        opened = _open(place, str(place), TimeRule(), rules, namespace, source)
+        opened.shift_s = rules.shift_s.get(place.name, 0.0)
+        files.append(opened)
+    for opened in files[1:]:
+        theirs = _start_s(opened, rules)
+        same = absolute and theirs is not None and abs(theirs - (start_s or 0.0)) < _SAME_DAY_S
+        opened.origin_s = main.origin_s if same else _own_origin_s(opened, theirs)
+        if absolute != (theirs is not None):
+            opened.notes.append(f"{opened.path.name} has a clock of its own: its time is taken to"
+                                f" begin with that of {path.name}; shift_s moves it")  # fmt: skip
+        _align_native(opened)
+    return files
+
+
+def _open(path: Path, stated: str, time: TimeRule, rules: Rules, namespace: str | None, source: str
+          ) -> Opened:  # fmt: skip
+    _check_exists(path, rules, stated)
+    opened = Opened(path, stated, open_log(path))
+    opened.native = _native(path, opened.log, rules, namespace, source)
+    if opened.native:
+        opened.notes += opened.native.notes
+        opened.native_columns = _native_columns(opened.log, opened.native)
+    opened.notes += [note for note in opened.log.notes if note not in opened.notes]
+    if isinstance(opened.log, BagLog):
+        opened.other_clock_s = _other_clock_s(opened.log, rules)
+        return opened
+    names = [name for name in opened.log.names if not opened.log.column(name).times][:1]
+    if not names:
+        return opened
+    thesis_without_time = opened.native is not None and not time.column
+    try:
+        opened.rows = times_of(opened.log, time)
+    except InputError:
+        if not thesis_without_time:
+            raise
+    else:
+        if opened.rows.guessed and opened.rows.unit != "s":
+            opened.notes.append(f"{path.name}: time column {opened.rows.column!r} is taken to be in"
+                                f" {opened.rows.unit}, by its numbers")  # fmt: skip
+    return opened
+
+
+def _check_exists(path: Path, rules: Rules, stated: str) -> None:
+    if not path.exists():
+        file, where = (rules.file or path, "key also") if stated and rules.file else (path, "")
+        problem = f"{stated}: no such file" if where else "no such file or directory"
+        raise InputError(problem, file=file, where=where, expected="a log")
+
+
+def _beside(name: str, log: Path, base: Path) -> Path:
+    """A further file: beside the log, or beside the mapping file."""
+    places = [log.parent / name, base / name]
+    return next((place for place in places if place.exists()), places[0])
+
+
+def _native(path: Path, log: Log, rules: Rules, namespace: str | None, source: str
+            ) -> Recording | None:  # fmt: skip
+    """The channels that a file names itself; None if it is somebody else's log."""
+    if isinstance(log, BagLog):
+        ours = any(name.startswith("/truck/") for name in log.topics)
+        if not (ours or namespace or rules.topics):
+            return None
+        remap = {theirs: name for name, theirs in rules.topics.items()}
+        return read_bag(path, namespace=namespace, remap=remap)
+    suffix = path.suffix.lower()
+    if suffix == ".csv" and names_channels(path):
+        return read_csv(path, strict=False)
+    if suffix == ".mat":
+        held = variables_of(path)
+        named = TIME in held and any(one.name in held for one in parts_of(held).table())
+        if named or has_thesis_variables(held):
+            return read_mat(path, source=source, held=held)
+    return None
+
+
+def _native_columns(log: Log, native: Recording) -> set[str]:
+    if isinstance(log, BagLog):
+        return {name for name in log.names if name.startswith("/truck/")}
+    own = {*native.channels, "blowout", "time_s"}
+    thesis = native.metadata.get("source") is not None
+    return {name for name in log.names if name in own or name.endswith("_time_s")
+            or (thesis and name.endswith(("_e", "_h")))}  # fmt: skip
+
+
+def _start_s(opened: Opened, rules: Rules) -> float | None:
+    """First instant on an absolute clock; None if the log counts from its own beginning."""
+    if opened.native:
+        stated = opened.native.metadata.get(CLOCK_START)
+        return float(stated) if stated else None
+    if opened.rows is not None:
+        told = opened.rows.time_s[np.isfinite(opened.rows.time_s)]
+        return float(told[0]) if opened.rows.absolute and told.size else None
+    firsts = []
+    for name in _wanted(opened.log, rules):
+        column = opened.log.column(name)
+        if column.values.size:
+            chosen = column.times.get(rules.time.column) if rules.time.column else None
+            base = next(iter(column.times.values())) if chosen is None else chosen
+            alone = HEADER not in column.times and RECEIVE in column.times
+            firsts.append(float(base[0]) - opened.other_clock_s * alone)
+    first = min(firsts, default=0.0)
+    return first if first > _EPOCH_S else None
+
+
+def _own_origin_s(opened: Opened, start_s: float | None) -> float:
+    if opened.native:
+        stated = opened.native.metadata.get(ORIGIN_KEY)
+        return float(stated) if stated else -(start_s or 0.0)
+    return -(start_s or 0.0)
+
+
+def _align_native(opened: Opened) -> None:
+    if opened.native and opened.shift_s:
+        opened.native = opened.native.shifted(opened.shift_s)
+
+
+def _wanted(log: Log, rules: Rules) -> list[str]:
+    found = (log.find(source.column) for source in rules.channels.values())
+    return [name for name in dict.fromkeys(found) if name]
+
+
+def _other_clock_s(log: BagLog, rules: Rules) -> float:
+    """How far receive stamps run ahead of header stamps, if these are two clocks; else 0."""
+    late = [lateness_s(log.column(name)) for name in _wanted(log, rules)]
+    told = [one[0] for one in late if one]
+    middle = float(np.median(told)) if told else 0.0
+    return middle if abs(middle) > _OTHER_CLOCK_S else 0.0

@@ -1,0 +1,89 @@
+"""What a truck can do: numbers beyond it are a wrong unit, and which one is said.
+
+References: bounds from the machine, not from data: 60 m/s is beyond any truck's top speed; a hand
+wheel turns 2 to 3 times each way; a truck that spins or rolls over stays below 4 rad/s in yaw;
+compressed-air systems open their relief valve below 1.3 MPa (SAE J1849, FMVSS 121).
+Validated with: test/recordings/test_mapping_apply.py.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+from numpy.typing import NDArray
+
+from truck_blowout_sim.recordings.channels import Channel
+from truck_blowout_sim.recordings.units import Unit, find_unit, units_of
+
+FloatArray = NDArray[np.float64]
+
+_MOST = {
+    "steering_wheel_angle_rad": 25.0,
+    "throttle": 1.05,
+    "vx_mps": 60.0,
+    "vy_mps": 25.0,
+    "yaw_rate_radps": 4.0,
+    "roll_rate_radps": 8.0,
+    "pitch_rate_radps": 8.0,
+    "roll_rad": 6.4,
+    "pitch_rad": 3.2,
+    "ax_mps2": 300.0,
+    "ay_mps2": 300.0,
+    "az_mps2": 300.0,
+    "hub_speed": 300.0,
+    "brake_pressure": 1.5e6,
+    "brake_chamber": 1.5e6,
+    "tire_pressure": 2.0e6,
+    "articulation_rad": 3.5,
+}
+# What most of an ordinary drive stays below: a unit that brings the numbers there is likely meant.
+_USUAL: Mapping[str, tuple[float, float]] = {
+    "speed": (0.5, 45.0), "angular rate": (0.002, 1.5), "angle": (0.001, 12.0),
+    "acceleration": (0.02, 15.0), "pressure": (2e4, 1.2e6), "ratio": (0.01, 1.05),
+    "length": (0.1, 1e5), "force": (10.0, 2e5), "time": (0.0, 1e9),
+}  # fmt: skip
+
+
+def beyond(channel: Channel, values: FloatArray) -> int | None:
+    """Position of the first value that no truck has, None if all are possible."""
+    most = most_of(channel.name)
+    if most is None:
+        return None
+    wrong = np.flatnonzero(np.abs(values) > most)
+    return int(wrong[0]) if wrong.size else None
+
+
+def most_of(name: str) -> float | None:
+    """Largest magnitude that a truck has in a channel, None where nothing is known."""
+    stem = name.removeprefix("tractor_").removeprefix("trailer_")
+    if stem in _MOST:
+        return _MOST[stem]
+    return next((most for start, most in _MOST.items() if name.startswith(start)), None)
+
+
+def reads_like(numbers: FloatArray, quantity: str, channel: str, stated: Unit) -> str:
+    """Unit under which these numbers, as they stand in the log, would be an ordinary drive's.
+
+    Args:
+        numbers: of the log, finite.
+        quantity: that the channel measures.
+        channel: its name.
+        stated: the unit that they were taken to be in.
+
+    Returns:
+        The unit's name, empty if no unit of this quantity helps.
+    """
+    low, high = _USUAL[quantity]
+    high = min(high, most_of(channel) or high)
+    if quantity == "angle" and ("roll" in channel or "pitch" in channel):
+        high = 1.0
+    largest = float(np.percentile(np.abs(numbers), 99.0)) if numbers.size else 0.0
+    for name in units_of(quantity):
+        unit = find_unit(name)
+        if unit is None or unit.name == stated.name or "absolute" in name:
+            continue
+        size = largest * unit.factor
+        if low <= size <= high and size < abs(largest * stated.factor):
+            return name
+    return ""

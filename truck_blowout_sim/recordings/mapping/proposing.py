@@ -1,0 +1,188 @@
+"""A mapping begun for a log: guesses from names, stated units, and the size of the numbers.
+
+Every guess is marked as one; none is used before a person has read the file.
+
+Validated with: test/recordings/test_inspect.py.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from truck_blowout_sim.recordings.channels import Channel, by_name, channels_for
+from truck_blowout_sim.recordings.logs.log import Column, Log
+from truck_blowout_sim.recordings.mapping.plausible import most_of
+from truck_blowout_sim.recordings.mapping.vocabulary import channel_hinted
+from truck_blowout_sim.recordings.units import (
+    GRAVITY_MPS2,
+    SI_QUANTITIES,
+    Unit,
+    find_unit,
+    units_of,
+)
+
+FloatArray = NDArray[np.float64]
+
+_DOWNWARD = ("vy_mps", "y_m", "yaw_rad", "yaw_rate_radps", "pitch_rad", "pitch_rate_radps",
+             "ay_mps2", "az_mps2")  # fmt: skip
+_MOSTLY = 0.3  # correlation that a sign needs
+_COMPASS_DEG = 90.0
+
+
+@dataclass(frozen=True)
+class Proposal:
+    """A column that may be a channel.
+
+    Attributes:
+        column, channel: full names.
+        unit: empty where the log states it.
+        sign, offset: as in a mapping file.
+        why: what each part was guessed from.
+    """
+
+    column: str
+    channel: str
+    unit: str = ""
+    sign: float = 1.0
+    offset: float = 0.0
+    why: tuple[str, ...] = ()
+
+
+def propose(log: Log, taken: Mapping[str, object] | None = None) -> list[Proposal]:
+    """Guess which column is which channel; each channel once, the fullest column first.
+
+    Args:
+        log: the columns.
+        taken: channels that are there already.
+    """
+    table = by_name(channels_for((), ()))
+    best: dict[str, tuple[tuple[float, int], Proposal, Column]] = {}
+    for at, name in enumerate(log.names):
+        channel = table.get(channel_hinted(name))
+        if channel is None or channel.name in (taken or {}):
+            continue
+        column = log.column(name)
+        found = _of_column(name, column, channel)
+        if found is None:
+            continue
+        rank = (_rank(name, column), -at)
+        if channel.name not in best or rank > best[channel.name][0]:
+            best[channel.name] = (rank, found, column)
+    order = {name: k for k, name in enumerate(table)}
+    picked = sorted(best.values(), key=lambda entry: order[entry[1].channel])
+    return _with_signs([(proposal, column) for _, proposal, column in picked])
+
+
+def unit_by_size(numbers: FloatArray, channel: str, quantity: str) -> str:
+    """The unit of a quantity under which the numbers are those of an ordinary drive."""
+    told = np.abs(numbers[np.isfinite(numbers)])
+    if not told.size:
+        return ""
+    high, middle = float(np.percentile(told, 99.0)), float(np.median(told))
+    if quantity == "acceleration":
+        if channel.endswith("az_mps2"):
+            return "g" if abs(middle - 1.0) < abs(middle - GRAVITY_MPS2) else "m/s2"
+        return "g" if high < 1.0 else "m/s2"
+    if quantity == "pressure":
+        limits = ((2.5, "MPa"), (16.0, "bar"), (250.0, "psi"), (2500.0, "kPa"))
+        return next((name for most, name in limits if high < most), "Pa")
+    if quantity == "ratio":
+        return "%" if high > (most_of(channel) or 1.05) else "1"
+    limits_by = {"speed": 45.0, "angular rate": 1.2, "angle": _angle_limit(channel)}
+    si, other = units_of(quantity)[:2]
+    return other if high > limits_by.get(quantity, np.inf) else si
+
+
+def _angle_limit(channel: str) -> float:
+    """Beyond this an angle is in degrees: a lean below half a radian, a hand wheel of 2 turns."""
+    if "roll" in channel or "pitch" in channel:
+        return 0.5
+    return 12.0 if channel.startswith("steering") else 7.0
+
+
+def _of_column(name: str, column: Column, channel: Channel) -> Proposal | None:
+    quantity = SI_QUANTITIES[channel.unit]
+    why = ["channel from the name"]
+    stated = find_unit(column.unit)
+    if stated is not None and stated.quantity != quantity:
+        return None
+    told = column.values[np.isfinite(column.values)]
+    if told.size < 2:
+        return None
+    unit = ""
+    if stated is None:
+        in_name = _unit_in_name(name, quantity)
+        unit = in_name.name if in_name else unit_by_size(told, channel.name, quantity)
+        why.append(f"unit from {'the name' if in_name else 'the size of the numbers'}")
+    return Proposal(name, channel.name, unit, why=tuple(why))
+
+
+def _unit_in_name(name: str, quantity: str) -> Unit | None:
+    """A unit at the end of a name: ``speed_kmh``, ``SWA_deg``."""
+    words = name.replace(":", "_").replace(".", "_").replace(" ", "_").split("_")
+    for text in (words[-1], "/".join(words[-2:])):
+        unit = find_unit(text)
+        if len(words) > 1 and unit is not None and unit.quantity == quantity and text != "1":
+            return unit
+    return None
+
+
+def _rank(name: str, column: Column) -> float:
+    """More samples and a moving signal first; an angle before the parts of its quaternion."""
+    told = column.values[np.isfinite(column.values)]
+    moves = 1.0 if np.ptp(told) > 0.0 else 0.0
+    return moves + min(told.size, 10**7) / 1e7
+
+
+def _with_signs(pairs: list[tuple[Proposal, Column]]) -> list[Proposal]:
+    """Signs from gravity (z down) and from what must go together in a turn."""
+    columns = {proposal.channel: column for proposal, column in pairs}
+    out = []
+    for proposal, column in pairs:
+        unit, _, stem = proposal.channel.partition("_")
+        upward = columns.get(f"{unit}_az_mps2")
+        down = upward is not None and float(np.nanmedian(upward.values)) < 0.0
+        sign, why = 1.0, list(proposal.why)
+        if down and stem in _DOWNWARD:
+            sign = -1.0
+            why.append("sign: the vertical acceleration reads downward (SAE axes)")
+        reference = columns.get("tractor_yaw_rate_radps")
+        if proposal.channel == "steering_wheel_angle_rad" and reference is not None:
+            anchor = -1.0 if down_of(columns, "tractor") else 1.0
+            if anchor * _together(column, reference) < -_MOSTLY:
+                sign = -1.0
+                why.append("sign: it turns against the yaw rate")
+        offset = 0.0
+        if "heading" in proposal.column.lower() and stem == "yaw_rad":
+            sign, offset = -1.0, -_COMPASS_DEG
+            why.append("sign and offset: a compass heading, clockwise from north")
+        out.append(Proposal(proposal.column, proposal.channel, proposal.unit, sign, offset,
+                            tuple(why)))  # fmt: skip
+    return out
+
+
+def down_of(columns: Mapping[str, Column], unit: str) -> bool:
+    """Whether a unit's vertical acceleration says that its z axis points down."""
+    upward = columns.get(f"{unit}_az_mps2")
+    return upward is not None and float(np.nanmedian(upward.values)) < 0.0
+
+
+def _together(one: Column, other: Column) -> float:
+    """Correlation of two columns; 0 where they cannot be laid side by side."""
+    a, b = one.values, other.values
+    if one.times and other.times:
+        ta, tb = (next(iter(c.times.values())) for c in (one, other))
+        if ta.size < 2 or tb.size < 2:
+            return 0.0
+        b, a = np.interp(ta, tb, b), a
+    elif a.size != b.size:
+        return 0.0
+    there = np.isfinite(a) & np.isfinite(b)
+    a, b = a[there], b[there]
+    if a.size < 3 or np.std(a) == 0.0 or np.std(b) == 0.0:
+        return 0.0
+    return float(np.corrcoef(a, b)[0, 1])

@@ -1,0 +1,85 @@
+"""What loggers call a truck's quantities: names that hint at a channel.
+
+References: CarSim/TruckSim output variable names (Vx, AVz, Steer_SW); Racelogic VBOX channels;
+common CAN database and ROS message field names; German names as in MDF exports.
+Known limits: names only; units and sizes are weighed in `proposing`.
+Validated with: test/recordings/test_inspect.py.
+"""
+
+from __future__ import annotations
+
+import re
+
+TRAILER = re.compile(r"\b(?:trailer|trl|semi|semitrailer|unit ?2|auflieger|anhaenger)\b|_2$|\b2$")
+
+# short names that mean one thing exactly, after lower case and without the unit's number
+EXACT = {
+    "vx": "vx_mps", "vy": "vy_mps", "avz": "yaw_rate_radps", "avx": "roll_rate_radps",
+    "avy": "pitch_rate_radps", "ax": "ax_mps2", "ay": "ay_mps2", "az": "az_mps2",
+    "roll": "roll_rad", "pitch": "pitch_rad", "yaw": "yaw_rad", "xo": "x_m", "yo": "y_m",
+    "steer sw": "steering_wheel_angle_rad", "throttle": "throttle", "velocity": "vx_mps",
+    "heading": "yaw_rad", "longacc": "ax_mps2", "latacc": "ay_mps2",
+    "swa": "steering_wheel_angle_rad", "lws angle": "steering_wheel_angle_rad",
+    "speed": "vx_mps", "r": "yaw_rate_radps", "pbk con": "brake_pressure_drive_pa",
+    "x": "x_m", "y": "y_m", "easting": "x_m", "northing": "y_m",
+}  # fmt: skip
+
+# words of a name, the most telling first; a name of several words is tried as a whole
+PATTERNS = tuple(
+    (re.compile(pattern), stem)
+    for pattern, stem in (
+        (r"(road|front) ?wheel (angle|steer)|tire angle", ""),
+        (r"(steer\w*|hand ?wheel|lenkrad\w*|swa|sas)( wheel)?.*(rate|vel|speed|torque|moment)", ""),
+        (r"(steer\w*|str ?whl|hand ?wheel|lenkrad\w*|swa)( wheel)?.*(ang\w*|winkel|position|pos)?",
+         "steering_wheel_angle_rad"),
+        (r"(throttle|accel\w* ped\w*|gas ?pedal|fahrpedal|app)", "throttle"),
+        (r"orientation yaw", "yaw_rad"),
+        (r"orientation roll", "roll_rad"),
+        (r"orientation pitch", "pitch_rad"),
+        (r"(yaw ?(rate|vel\w*)|gyro ?z|gier\w*|ang\w* vel\w* z|angular z|rate ?z|wz)",
+         "yaw_rate_radps"),
+        (r"(roll ?(rate|vel\w*)|gyro ?x|ang\w* vel\w* x|angular x|rate ?x|wx)", "roll_rate_radps"),
+        (r"(pitch ?(rate|vel\w*)|gyro ?y|ang\w* vel\w* y|angular y|rate ?y|wy)",
+         "pitch_rate_radps"),
+        (r"(lat\w* acc\w*|acc\w* (lat\w*|y)|linear acceleration y|quer\w*besch\w*|a ?y)\b",
+         "ay_mps2"),
+        (r"(lon\w* acc\w*|acc\w* (lon\w*|x)|linear acceleration x|laengs\w*besch\w*|a ?x)\b",
+         "ax_mps2"),
+        (r"(vert\w* acc\w*|acc\w* (vert\w*|z)|linear acceleration z|a ?z)\b", "az_mps2"),
+        (r"(lat\w* (vel\w*|speed)|vel\w* (lat\w*|y)|linear y|v ?y)\b", "vy_mps"),
+        (r"(vert\w* (vel\w*|speed)|vel\w* (vert\w*|z)|linear z|wheel ?(speed|spd)|whl ?spd"
+         r"|engine ?speed)", ""),
+        (r"(veh\w* ?(spd|speed|vel\w*)|speed|lon\w* vel\w*|vel\w* x|linear x|geschw\w*|velocity)",
+         "vx_mps"),
+        (r"(yaw( ?angle)?|heading|course|psi|kurs)$", "yaw_rad"),
+        (r"roll( ?angle)?$", "roll_rad"),
+        (r"pitch( ?angle)?$", "pitch_rad"),
+        (r"(position x|pos ?x|utm ?e\w*|easting|x ?pos\w*)$", "x_m"),
+        (r"(position y|pos ?y|utm ?n\w*|northing|y ?pos\w*)$", "y_m"),
+        (r"brake? ?.*(pres\w*|druck).*(trl|trailer)", "brake_pressure_trailer_pa"),
+        (r"brake? ?.*(pres\w*|druck).*(front|steer)", "brake_pressure_steer_pa"),
+        (r"brake? ?.*(pres\w*|druck)", "brake_pressure_drive_pa"),
+    )
+)
+_CAMEL = re.compile(r"(?<=[a-z])(?=[A-Z])|(?<=[A-Z])(?=[A-Z][a-z])")
+_INPUTS = ("steering_wheel_angle_rad", "throttle", "brake_pressure")
+
+
+def words_of(name: str) -> str:
+    """A name in lower-case words: ``VehSpd_kph`` as ``veh spd kph``."""
+    apart = _CAMEL.sub(" ", name)
+    return " ".join(re.sub(r"[^0-9A-Za-z]+", " ", apart).lower().split())
+
+
+def channel_hinted(name: str) -> str:
+    """Channel that a column's name hints at, empty if it hints at none."""
+    words = words_of(name)
+    trailer = bool(TRAILER.search(words.replace("_", " ")) or TRAILER.search(name.lower()))
+    bare = TRAILER.sub("", words).strip()
+    stem = EXACT.get(bare) or EXACT.get(words_of(name.rpartition(":")[2]))
+    if stem is None:
+        field = words_of(name.partition(":")[2]) or bare
+        stem = next((s for text in (field, bare) for p, s in PATTERNS if p.search(text)), "")
+    if not stem or stem.startswith(_INPUTS):
+        return stem
+    return f"{'trailer' if trailer else 'tractor'}_{stem}"

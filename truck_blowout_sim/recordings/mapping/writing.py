@@ -1,0 +1,69 @@
+"""A begun mapping as the text of a YAML file, every guess marked.
+
+Validated with: test/recordings/test_inspect.py.
+"""
+
+from __future__ import annotations
+
+import json
+
+from truck_blowout_sim.recordings.mapping.inventory import Inventory
+from truck_blowout_sim.recordings.mapping.proposing import Proposal
+
+_YAML_WORDS = ("y", "n", "yes", "no", "on", "off", "true", "false", "null")
+_HEAD = """\
+# A mapping begun for {file} by `truck-blowout inspect --write-map`.
+# Every line marked GUESS was guessed: read it, correct it, then use it:
+#   truck-blowout compare {file} --map THIS_FILE
+# value = sign * (number + offset), then converted from `unit` to SI.
+# Axes: x forward, y left, z up; yaw, yaw rate and hand wheel to the left are positive.
+"""
+_NOTHING = "  # {}: nothing was recognized; e.g. tractor_vx_mps: {{from: COLUMN, unit: km/h}}\n"
+_TAIL = """
+# Where the log does not mark the tire that lost its air:
+# blowouts: [{tire: steer_left, at_s: 4.92}]
+# A clock known to be off:    shift_s: {COLUMN_OR_TOPIC: -0.2}
+# Another file of this test:  also: [steering.csv]
+# Recorded, but no measurement: exclude: [tractor_roll_rad]
+# Where an instrument sits, seen from base_link: sensors: {tractor: {x_m: -1.2, z_m: 0.4}}
+"""
+
+
+def mapping_text(inventory: Inventory) -> str:
+    """The mapping file that `inspect --write-map` writes."""
+    out = [_HEAD.format(file=inventory.file)]
+    if inventory.time_guess:
+        column, unit = inventory.time_guess
+        out.append(f"time: {{from: {_text(column)}, unit: {unit}}}  # GUESS: from the steps\n")
+    elif inventory.time_column:
+        unit = "" if inventory.time_unit == "clock" else f", unit: {inventory.time_unit or 's'}"
+        out.append(f"time: {{from: {_text(inventory.time_column)}{unit}}}\n")
+    out.append("channels:" + ("\n" if inventory.proposals else " {}\n"))
+    out += [_entry(proposal) for proposal in inventory.proposals]
+    if not inventory.proposals:
+        out.append(_NOTHING.format("channels"))
+    out.append(_TAIL)
+    unused = [line for line in inventory.lines if not line.channel]
+    if unused:
+        out.append("\n# Not used:\n")
+        out += [f"#   {line.name}{f' [{line.unit}]' if line.unit else ''}:"
+                f" {line.low:g} to {line.high:g}\n" for line in unused]  # fmt: skip
+    return "".join(out)
+
+
+def _entry(proposal: Proposal) -> str:
+    parts = [f"from: {_text(proposal.column)}"]
+    if proposal.unit:
+        parts.append(f"unit: {_text(proposal.unit)}")
+    if proposal.sign != 1.0:
+        parts.append(f"sign: {proposal.sign:g}")
+    if proposal.offset:
+        parts.append(f"offset: {proposal.offset:g}")
+    return f"  {proposal.channel}: {{{', '.join(parts)}}}  # GUESS: {'; '.join(proposal.why)}\n"
+
+
+def _text(value: str) -> str:
+    """As YAML reads it back as the same text: plain where that is safe, else quoted."""
+    plain = value.replace("_", "").replace(".", "").replace("/", "")
+    safe = plain.isalnum() and value[0].isalpha() and value.lower() not in _YAML_WORDS
+    return value if safe else json.dumps(value, ensure_ascii=False)

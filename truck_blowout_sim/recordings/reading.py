@@ -1,0 +1,75 @@
+"""The one door to recordings: any log of any logger, with a mapping where it needs one.
+
+Validated with: test/recordings/test_mapping_apply.py, test/recordings/test_bring_your_own_log.py.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+
+from truck_blowout_sim.errors import InputError
+from truck_blowout_sim.recordings.formats import BEGIN_MAPPING, read_native
+from truck_blowout_sim.recordings.mapping import Rules, combine, load_mapping, open_test
+from truck_blowout_sim.recordings.mapping.finish import (
+    at_base_link,
+    with_blowouts,
+    with_local_origin,
+    without_excluded,
+    without_planar_zeros,
+)
+from truck_blowout_sim.recordings.recording import Blowout, Recording
+
+
+def read_recording(
+    path: str | os.PathLike[str],
+    *,
+    mapping: Rules | str | os.PathLike[str] | None = None,
+    blow: Iterable[Blowout] = (),
+    also: Iterable[str | os.PathLike[str]] = (),
+    tires: Iterable[str] = (),
+    hubs: Iterable[str] = (),
+    namespace: str | None = None,
+    remap: Mapping[str, str] | None = None,
+    source: str = "experiment",
+) -> Recording:
+    """Read a recording of any format.
+
+    Args:
+        path: rosbag2 folder (or its metadata.yaml), ``.mcap``, ``.db3``, ``.bag``, ``.csv``,
+            ``.txt``, ``.vbo``, ``.mat``, or MDF.
+        mapping: what in the log becomes which channel: a mapping file, or rules. A file whose
+            columns or topics are named as in the table of channels needs none.
+        blow: blowouts that the log itself does not mark.
+        also: further files of the same test, besides those that the mapping names.
+        tires: tire names of the vehicle, if it is not the default truck.
+        hubs: hub names, likewise.
+        namespace: prefix of the truck's topics in a bag; found by itself if not given.
+        remap: foreign topic names of a bag to those of the table.
+        source: which of the thesis's variables of a ``.mat``: ``experiment`` or ``hve``.
+
+    Returns:
+        SI units, pressures gauge, ISO axes; what had to be assumed stands in its notes.
+
+    Raises:
+        InputError: one line: file, place, value, expectation.
+    """
+    path = Path(path)
+    blow = tuple(blow)
+    if mapping is None and not tuple(also):
+        read = read_native(path, tires=tires, hubs=hubs, namespace=namespace, remap=remap,
+                           source=source)  # fmt: skip
+        read = with_local_origin(read)
+        return with_blowouts(read, blow, tires=tires, hubs=hubs) if blow else read
+    rules = mapping if isinstance(mapping, Rules) else load_mapping(mapping) if mapping else Rules()
+    files = open_test(path, rules, also=map(Path, also), namespace=namespace, source=source)
+    read = combine(files, rules, tires=tires, hubs=hubs)
+    if not read.channels:
+        raise InputError("no column becomes a channel", file=path,
+                         expected=f"a mapping with channels ({BEGIN_MAPPING})")  # fmt: skip
+    if files[0].native is None:
+        read = without_planar_zeros(read)
+    read = with_local_origin(at_base_link(without_excluded(read, rules), rules.sensors))
+    stated = with_blowouts(read, rules.blowouts, tires=tires, hubs=hubs, file=rules.file or path)
+    return with_blowouts(stated, blow, tires=tires, hubs=hubs)
