@@ -18,7 +18,7 @@ PYTEST := -m pytest -n $(JOBS) --dist loadfile --no-loadscope-reorder
 unexport PYTHONPATH AMENT_PREFIX_PATH _ROS_WHEELS_BOOTSTRAP_COMPLETE
 
 .DEFAULT_GOAL := help
-.PHONY: help run test test-ros-all prove bench docs clean distclean
+.PHONY: help run test test-ros-all prove bench docs site clean distclean
 
 help:
 	@echo "make run           simulate the 2013 blowout test, compare the model with it: $(OUT)/"
@@ -26,7 +26,8 @@ help:
 	@echo "make test-ros-all  the node tests with ROS 2 kilted, then with jazzy"
 	@echo "make prove         concealed effects, diagnosed and scored: $(OUT)/proof (SET=ci|dev|test)"
 	@echo "make bench         speed of the model beside a peer, cost of the nodes"
-	@echo "make docs          redraw the pictures under docs/"
+	@echo "make docs          redraw the pictures under docs/, run the notebooks, write the references"
+	@echo "make site          the documentation as a site: $(OUT)/site/index.html"
 	@echo "make clean         remove what was made; make distclean: the environments too"
 
 run: .venv/ready
@@ -53,8 +54,15 @@ bench: .venv/ready-for-bench
 
 docs: .venv/ready
 	$(BIN)/python scripts/draw_architecture.py
+	$(BIN)/python scripts/write_notebooks.py
+	$(BIN)/python scripts/write_command_reference.py
 	$(BIN)/truck-blowout compare test_2013_steer_blowout --force -o $(OUT)/comparison
 	cp $(OUT)/comparison/figures/yaw_rate_tractor.png docs/steer_axle_blowout.png
+
+site: .venv/ready-for-docs
+	$(BIN)/python scripts/write_command_reference.py
+	NO_MKDOCS_2_WARNING=1 $(BIN)/mkdocs build --quiet --strict
+	@echo "$(OUT)/site/index.html"
 
 # requirements/<distribution>.txt pins everything; a newer file there sets up anew.
 .venv/ready: requirements/kilted.txt setup.py setup.cfg
@@ -62,6 +70,10 @@ docs: .venv/ready
 
 .venv/ready-for-bench: requirements/bench.txt .venv/ready
 	@$(BIN)/python -m pip install --quiet --quiet --disable-pip-version-check -r requirements/bench.txt
+	@touch $@
+
+.venv/ready-for-docs: requirements/docs.txt .venv/ready
+	@$(BIN)/python -m pip install --quiet --quiet --disable-pip-version-check -r requirements/docs.txt
 	@touch $@
 
 .venv-jazzy/ready: requirements/jazzy.txt setup.py setup.cfg

@@ -12,9 +12,12 @@ for distribution in kilted jazzy; do
     } > "requirements/$distribution.txt.new"
     mv "requirements/$distribution.txt.new" "requirements/$distribution.txt"
 done
-# Only what the benchmark needs beyond the pins above.
-{
-    echo "# Written by scripts/pin_requirements.sh from requirements/bench.in."
-    uv pip compile --quiet --universal --python-version 3.10 --no-header --no-emit-index-url \
-        --no-emit-find-links --no-annotate --constraint requirements/kilted.txt requirements/bench.in
-} > requirements/bench.txt
+# Only what the benchmarks and the documentation site need beyond the pins above.
+for purpose in bench docs; do
+    {
+        echo "# Written by scripts/pin_requirements.sh from requirements/$purpose.in."
+        uv pip compile --quiet --universal --python-version 3.10 --no-header --no-emit-index-url \
+            --no-emit-find-links --no-annotate --constraint requirements/kilted.txt \
+            "requirements/$purpose.in"
+    } > "requirements/$purpose.txt"
+done
