@@ -99,6 +99,9 @@ def diagnose(recordings: Sequence[Recording], *, baseline: Sequence[Recording] =
         study, found = searched(gate)
     material = _material(study, found, gate, loaded.name, (profile, next_run), progress)
     told = answer(material)
+    told = replace(told, evidence=replace(told.evidence, blowouts=tuple(
+        (r.name, event.time_s, " + ".join(event.tires))
+        for r in (*recordings, *baseline, *holdout) for event in r.blowouts)))
     return told, diagnosed_values(material, packed, told.verdict)
 
 

@@ -14,6 +14,7 @@ from truck_blowout_sim.diagnosis.result import Calibrated, Candidate, Fit, Overl
 from truck_blowout_sim.report.style import (
     AFTER,
     BEFORE,
+    EVENT,
     INK,
     MEASURED,
     ORANGE,
@@ -26,20 +27,37 @@ from truck_blowout_sim.report.style import (
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
 _COLUMNS = 2
+_ROLES = {"train": "fitted runs", "holdout": "unseen runs"}
 _GRAY = "#b5bdc5"
 _MOST_BARS = 20
+_MOST_CHANNELS = 24
+_FIT_CAPTION = ("The error (rms) of the worst channels, in units of their noise σ. At 1 σ noise "
+                "explains all that is left.")
 _IMPLAUSIBLE = 3.0
 
 
 def overlay_picture(
-    overlays: Sequence[Overlay], labels: Mapping[str, str], name: str
+    overlays: Sequence[Overlay], labels: Mapping[str, str], name: str,
+    blowouts: Sequence[tuple[str, float, str]] = (),
 ) -> Picture:
-    """Channels of one recording: record, model as given, model as diagnosed."""
+    """Channels of one recording: record, model as given, model as diagnosed.
+
+    Args:
+        overlays: of one recording.
+        labels: words for channels.
+        name: of the picture.
+        blowouts: (recording, instant, tires) to mark.
+    """
     rows = -(-len(overlays) // _COLUMNS)
     figure = new_figure((9.6, 2.4 * rows))
     panels = figure.subplots(rows, _COLUMNS, squeeze=False).ravel()
     for axes, overlay in zip(panels, overlays, strict=False):
         _overlay(axes, overlay, labels)
+        for recording, time_s, tires in blowouts:
+            if recording == overlay.recording:
+                axes.axvline(time_s, color=EVENT, linewidth=1.0, linestyle=":")
+                axes.annotate(f" {tires} blows", (time_s, 1.0), xycoords=("data", "axes fraction"),
+                              va="top", fontsize=7, color=EVENT)
     for axes in panels[len(overlays) :]:
         axes.remove()
     figure.supxlabel("time (s)", fontsize=9)
@@ -72,11 +90,12 @@ def fit_picture(fits: Mapping[str, Fit], labels: Mapping[str, str]) -> Picture:
     """Rms residual of each channel in sigma, before and after, on a logarithmic scale."""
     shown = [(role, fit) for role, fit in fits.items() if fit.before]
     channels = sorted({name for _, fit in shown for name in fit.before},
-                      key=lambda n: -max(fit.before.get(n, 0.0) for _, fit in shown))  # fmt: skip
+                      key=lambda n: -max(fit.before.get(n, 0.0) for _, fit in shown)
+                      )[:_MOST_CHANNELS]  # fmt: skip
     figure = new_figure((9.6, 1.2 + 0.21 * len(channels)))
     panels = figure.subplots(1, len(shown), sharex=True, sharey=True, squeeze=False)[0]
     for axes, (role, fit) in zip(panels, shown, strict=True):
-        axes.set_title(role)
+        axes.set_title(_ROLES.get(role, role))
         axes.axvspan(0.01, 1.0, color=INK, alpha=0.06, linewidth=0)
         before, after = (np.array([one.get(name, np.nan) for name in channels])
                          for one in (fit.before, fit.after))
@@ -93,7 +112,7 @@ def fit_picture(fits: Mapping[str, Fit], labels: Mapping[str, str]) -> Picture:
     panels[0].tick_params(axis="y", labelsize=8, length=0)
     panels[0].set_ylim(len(channels) - 0.5, -0.5)
     panels[-1].legend(loc="lower right")
-    return Picture("fit", "Fit by channel", "At 1 σ noise explains all that is left.", figure)
+    return Picture("fit", "Fit by channel", _FIT_CAPTION, figure)
 
 
 def _plain_number(value: float, _: object) -> str:

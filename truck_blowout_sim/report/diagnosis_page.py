@@ -9,13 +9,14 @@ from collections.abc import Mapping
 from pathlib import Path
 
 from truck_blowout_sim.comparison.words import labels_for
-from truck_blowout_sim.diagnosis.result import Diagnosis, Fit
+from truck_blowout_sim.diagnosis.result import Diagnosis, summarize
 from truck_blowout_sim.report.diagnosis_pictures import diagnosis_pictures
 from truck_blowout_sim.report.diagnosis_rows import (
     calibrated_row,
     candidate_row,
     effect_row,
     location_rows,
+    ranked,
 )
 from truck_blowout_sim.report.page import render, write_text
 from truck_blowout_sim.vehicle import Vehicle
@@ -28,7 +29,14 @@ _VERDICTS = {
     "unknown": ("unknown cause", "bad"),
 }
 _ROLES = (("Training", "train"), ("Holdout, never fitted", "holdout"), ("Baseline", "baseline"))
-_ABSENT = "–"
+_PRINTED_CANDIDATES, _PRINTED_NUMBERS = 10, 15
+_HEADS: tuple[Mapping[str, object], ...] = (
+    {"key": "where", "words": "where", "number": False},
+    {"key": "amount", "words": "amount", "number": False},
+    {"key": "gain", "words": "evidence Δχ²", "number": True},
+    {"key": "p", "words": "p", "number": True},
+    {"key": "holdout", "words": "on unseen runs", "number": True},
+)
 
 
 def write_diagnosis_report(diagnosis: Diagnosis, vehicle: Vehicle, path: Path,
@@ -57,16 +65,16 @@ def diagnosis_page(diagnosis: Diagnosis, vehicle: Vehicle, panels: int | None = 
     evidence, words = diagnosis.evidence, _VERDICTS[diagnosis.verdict]
     pictures = diagnosis_pictures(diagnosis, vehicle, labels, panels)
     effects = [
-        effect_row(effect, aliases)
+        effect_row(effect, aliases, diagnosis.effects)
         for effect, aliases in zip(diagnosis.effects, diagnosis.alias_sets, strict=True)
     ]
     said = {str(effect["equation"]) for effect in effects}
-    p_value = diagnosis.null_p_value
+    candidates = [candidate_row(c) for c in ranked(evidence.candidates)]
+    calibrated = [calibrated_row(c) for c in evidence.calibrated]
     return render("diagnosis.html", {
-        "sentence": diagnosis.sentence,
+        "summary": summarize(diagnosis, lambda channel: labels.get(channel, channel)),
         "verdict_words": words[0],
         "verdict_class": words[1],
-        "null_p_value": "" if p_value is None else f"{p_value:.2g}",
         "vehicle": evidence.vehicle or vehicle.name,
         "vehicle_title": vehicle.title,
         "recordings": _recordings(diagnosis),
@@ -74,18 +82,21 @@ def diagnosis_page(diagnosis: Diagnosis, vehicle: Vehicle, panels: int | None = 
         "effects": effects,
         "equations": [line for line in evidence.equations if line not in said],
         "next_test": diagnosis.next_test,
+        "worst": pictures.worst,
         "truck": pictures.truck,
         "location": location_rows(diagnosis.location, labels),
         "maps": pictures.maps,
         "forces": pictures.forces,
         "beats": pictures.beats,
-        "candidates": [candidate_row(c) for c in evidence.candidates],
+        "candidates": candidates,
+        "candidate_heads": [h for h in _HEADS if any(row[str(h["key"])] for row in candidates)],
+        "printed_candidates": _PRINTED_CANDIDATES,
         "candidates_picture": pictures.candidates,
         "fit": pictures.fit,
-        "fit_roles": [role for role, fit in _fits(diagnosis).items() if fit.before],
-        "fit_rows": _fit_rows(diagnosis, labels),
         "overlays": pictures.overlays,
-        "calibrated": [calibrated_row(c) for c in evidence.calibrated],
+        "calibrated": calibrated,
+        "calibrated_units": any(row["unit"] for row in calibrated),
+        "moved": [row for row in calibrated if row["far"]][:_PRINTED_NUMBERS],
         "pulls": pictures.pulls,
         "missing_channels": [(labels.get(n, n), w) for n, w in evidence.missing_channels],
         "assumptions": evidence.assumptions,
@@ -100,27 +111,3 @@ def _recordings(diagnosis: Diagnosis) -> list[tuple[str, str]]:
         if names:
             found.append((words, ", ".join(names)))
     return found
-
-
-def _fits(diagnosis: Diagnosis) -> Mapping[str, Fit]:
-    return {"train": diagnosis.train, "holdout": diagnosis.holdout}
-
-
-def _fit_rows(diagnosis: Diagnosis, labels: Mapping[str, str]) -> list[Mapping[str, object]]:
-    """One row a channel, worst first."""
-    fits = [fit for fit in _fits(diagnosis).values() if fit.before]
-    names = {name for fit in fits for name in fit.before}
-    worst = sorted(names, key=lambda n: (-max(fit.before.get(n, 0.0) for fit in fits), n))
-    return [
-        {
-            "label": labels.get(name, name),
-            "cells": [
-                _sigma(numbers.get(name)) for fit in fits for numbers in (fit.before, fit.after)
-            ],
-        }
-        for name in worst
-    ]
-
-
-def _sigma(value: float | None) -> str:
-    return _ABSENT if value is None else f"{value:.2f}"

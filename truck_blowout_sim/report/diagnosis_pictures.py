@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import groupby
 
 import numpy as np
+from numpy.typing import NDArray
 
 from truck_blowout_sim.diagnosis.result import ChannelTimeMap, Diagnosis, Overlay
 from truck_blowout_sim.report.diagnosis_fits import (
@@ -20,7 +21,7 @@ from truck_blowout_sim.report.style import Picture, styled
 from truck_blowout_sim.report.truck_drawing import draw_truck
 from truck_blowout_sim.vehicle import Vehicle
 
-_MOST_PANELS = 8
+_MOST_PANELS, _WORST_PANELS = 8, 4
 _ORDER = {"train": 0, "holdout": 1, "baseline": 2}
 
 
@@ -28,6 +29,7 @@ _ORDER = {"train": 0, "holdout": 1, "baseline": 2}
 class DiagnosisPictures:
     """Pictures by part of the page; empty or ``None`` where there is nothing to draw."""
 
+    worst: Picture | None
     truck: Picture | None
     maps: tuple[Picture, ...]
     forces: tuple[Picture, ...]
@@ -40,7 +42,7 @@ class DiagnosisPictures:
     @property
     def everything(self) -> tuple[Picture, ...]:
         """All of them in order."""
-        single = (self.truck, self.beats, self.candidates, self.fit, self.pulls)
+        single = (self.worst, self.truck, self.beats, self.candidates, self.fit, self.pulls)
         parts = (*self.maps, *self.forces, *self.overlays, *(p for p in single if p is not None))
         return tuple(sorted(parts, key=lambda picture: picture.name))
 
@@ -56,6 +58,7 @@ def diagnosis_pictures(
     evidence = diagnosis.evidence
     fits = {"train": diagnosis.train, "holdout": diagnosis.holdout}
     return DiagnosisPictures(
+        worst=_worst(diagnosis, labels),
         truck=_truck(diagnosis, vehicle),
         maps=tuple(map_picture(m, labels, k)
                    for k, m in enumerate(_maps(evidence.maps, panels is not None), 1)),
@@ -63,9 +66,37 @@ def diagnosis_pictures(
         beats=beat_picture(evidence.beats) if evidence.beats else None,
         candidates=candidates_picture(evidence.candidates) if evidence.candidates else None,
         fit=fit_picture(fits, labels) if any(f.before for f in fits.values()) else None,
-        overlays=_overlays(evidence.overlays, labels, panels),
+        overlays=_overlays(evidence.overlays, labels, panels, evidence.blowouts),
         pulls=pulls_picture(evidence.calibrated) if evidence.calibrated else None,
     )
+
+
+def _worst(diagnosis: Diagnosis, labels: Mapping[str, str]) -> Picture | None:
+    """The run that the given model misses most, in the channels that show the cause best.
+
+    Those are the channels whose error the diagnosis lowers most; without one, the worst.
+    """
+    drawn = [o for o in diagnosis.evidence.overlays if o.role != "baseline" and o.noise]
+    if not drawn:
+        return None
+    miss: dict[str, float] = {}
+    for one in drawn:
+        miss[one.recording] = miss.get(one.recording, 0.0) + _missed(one, one.before)
+    run = max(miss, key=lambda name: miss[name])
+    own = sorted((o for o in drawn if o.recording == run), key=lambda o: -_explained(o))
+    return overlay_picture(own[:_WORST_PANELS], labels, "worst", diagnosis.evidence.blowouts)
+
+
+def _missed(overlay: Overlay, model: NDArray[np.float64]) -> float:
+    """Mean square of what a model misses, in squares of the channel's noise."""
+    left = (overlay.measured - model) / (overlay.noise or 1.0)
+    return float(np.nanmean(left**2)) if np.isfinite(left).any() else 0.0
+
+
+def _explained(overlay: Overlay) -> float:
+    """How much of it the diagnosed model explains."""
+    before = _missed(overlay, overlay.before)
+    return before if overlay.after is None else before - _missed(overlay, overlay.after)
 
 
 def _truck(diagnosis: Diagnosis, vehicle: Vehicle) -> Picture | None:
@@ -91,8 +122,8 @@ def _maps(maps: tuple[ChannelTimeMap, ...], briefly: bool) -> tuple[ChannelTimeM
     return tuple(m for m in maps if worst[m.role] is m)
 
 
-def _overlays(overlays: tuple[Overlay, ...], labels: Mapping[str, str], panels: int | None
-              ) -> tuple[Picture, ...]:
+def _overlays(overlays: tuple[Overlay, ...], labels: Mapping[str, str], panels: int | None,
+              blowouts: Sequence[tuple[str, float, str]]) -> tuple[Picture, ...]:
     """One picture a recording and up to eight channels, training runs first."""
 
     def key(overlay: Overlay) -> tuple[int, str]:
@@ -103,5 +134,6 @@ def _overlays(overlays: tuple[Overlay, ...], labels: Mapping[str, str], panels: 
         members = list(group)[:panels]
         for first in range(0, len(members), _MOST_PANELS):
             name = f"overlay_{len(pictures) + 1}"
-            pictures.append(overlay_picture(members[first : first + _MOST_PANELS], labels, name))
+            pictures.append(overlay_picture(members[first : first + _MOST_PANELS], labels, name,
+                                            blowouts))
     return tuple(pictures)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 
 from truck_blowout_sim.comparison.errors import shortened
 from truck_blowout_sim.diagnosis.result import (
@@ -13,18 +13,19 @@ from truck_blowout_sim.diagnosis.result import (
     Effect,
     Interval,
     Location,
-    Parameter,
+    amount_text,
+    label_of,
 )
 
 Row = Mapping[str, object]
 _ABSENT = "–"
 _IMPLAUSIBLE = 3.0
+_NOTABLE = 1.0  # prior sigmas: a number within it is where the sheet puts it
 _MOST_CHANNELS = 5
 
 
-def effect_row(effect: Effect, aliases: AliasSet) -> Row:
+def effect_row(effect: Effect, aliases: AliasSet, effects: Sequence[Effect]) -> Row:
     """An effect with its parameters, onset and look-alikes."""
-    where = str(effect.where)
     others = [
         f"{name} ({place})" if place else name
         for name, place in zip(aliases.names, aliases.places or [""] * len(aliases.names),
@@ -32,14 +33,14 @@ def effect_row(effect: Effect, aliases: AliasSet) -> Row:
     ][1:]  # fmt: skip
     onset = effect.onset_s
     return {
-        "title": f"{effect.name} · {where}" if where else effect.name,
+        "title": label_of(effect, effects),
+        "instrument": effect.instrument,
         "kind": effect.kind,
         "sentence": effect.sentence,
         "equation": effect.equation,
-        "parameters": [_parameter(name, p) for name, p in effect.parameters.items()],
-        "has_onset": onset is not None,
-        "onset": "always there" if onset is None else f"{onset:.2f}",
-        "onset_interval": interval_text(effect.onset_ci90_s, _hundredths),
+        "parameters": [(_plain(name), amount_text(name, p), p.note)
+                       for name, p in effect.parameters.items()],
+        "onset": _onset(onset, effect.onset_ci90_s),
         "aliases": ", ".join(others),
         "splits": aliases.splits,
     }
@@ -47,7 +48,7 @@ def effect_row(effect: Effect, aliases: AliasSet) -> Row:
 
 def candidate_row(candidate: Candidate) -> Row:
     """A candidate with its evidence and what became of it."""
-    outcome, style = ("rejected", "muted")
+    outcome, style = ("not named", "muted")
     if candidate.accepted:
         outcome, style = ("named", "bad")
     elif candidate.aliased:
@@ -59,8 +60,8 @@ def candidate_row(candidate: Candidate) -> Row:
         "name": candidate.name,
         "where": str(candidate.where) or _ABSENT,
         "gain": f"{candidate.delta_chi2:,.0f}",
-        "p": _ABSENT if p_value is None else f"{p_value:.2g}",
-        "holdout": _ABSENT if holdout is None else f"{holdout:,.0f}",
+        "p": "" if p_value is None else f"{p_value:.2g}",
+        "holdout": "" if holdout is None else f"{holdout:,.0f}",
         "amount": candidate.amount,
         "outcome": outcome,
         "style": style,
@@ -74,7 +75,8 @@ def calibrated_row(number: Calibrated) -> Row:
         "name": number.name,
         "prior": f"{shortened(number.prior)} ± {shortened(number.prior_sigma)}",
         "estimate": f"{_exact(number.value)} ± {shortened(number.sigma)}",
-        "unit": number.unit,
+        "unit": "" if number.unit in ("1", "SI") else number.unit,
+        "far": abs(number.pull) > _NOTABLE,
         "pull": f"{number.pull:+.1f}",
         "style": "bad" if abs(number.pull) > _IMPLAUSIBLE else "",
     }
@@ -119,14 +121,21 @@ def interval_text(interval: Interval | None, form: Callable[[float], str]) -> st
     return f"{form(low)} to {form(high)}"
 
 
-def _parameter(name: str, parameter: Parameter) -> Row:
-    return {
-        "name": name,
-        "value": _exact(parameter.value),
-        "interval": interval_text(parameter.ci90, _exact),
-        "unit": "" if parameter.unit == "1" else parameter.unit,
-        "note": parameter.note,
-    }
+def ranked(candidates: Sequence[Candidate]) -> list[Candidate]:
+    """What was named first, then what fits as well, then the rest; each the strongest first."""
+    return sorted(candidates, key=lambda c: (not c.accepted, not c.aliased, -c.delta_chi2))
+
+
+def _onset(onset_s: float | None, interval: Interval | None) -> str:
+    """Since when, with its interval if it has one."""
+    if onset_s is None:
+        return "always there"
+    known = "" if interval is None else f" (90 %: {interval_text(interval, _hundredths)})"
+    return f"{onset_s:.2f} s{known}"
+
+
+def _plain(name: str) -> str:
+    return name.replace("_", " ")
 
 
 def _hundredths(value: float) -> str:

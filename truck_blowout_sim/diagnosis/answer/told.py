@@ -70,7 +70,8 @@ def sensor_effect(finding: SensorFinding) -> Effect:
     return Effect(name=finding.name, kind="sensor", where=Place(body=finding.body or None),
                   parameters={n: Parameter(a.value, a.unit, a.ci90)
                               for n, a in finding.parameters.items()},
-                  equation=finding.equation, sentence=finding.sentence)
+                  equation=finding.equation, sentence=finding.sentence,
+                  instrument=finding.instrument, channels=finding.channels)
 
 
 def alias_set(rivals: Sequence[Ranked]) -> AliasSet:

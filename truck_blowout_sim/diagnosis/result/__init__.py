@@ -26,6 +26,7 @@ from truck_blowout_sim.diagnosis.result.parts import (
     Verdict,
     Wrench,
 )
+from truck_blowout_sim.diagnosis.result.summary import Summary, amount_text, label_of, summarize
 
 __all__ = [
     "KINDS",
@@ -48,7 +49,11 @@ __all__ = [
     "Parameter",
     "Place",
     "Role",
+    "Summary",
     "Verdict",
     "Wrench",
+    "amount_text",
+    "label_of",
+    "summarize",
     "write_diagnosis",
 ]

@@ -154,6 +154,7 @@ class Evidence:
         assumptions: everything that was taken for granted, one sentence each.
         missing_channels: (channel, what it would have told apart).
         notes: what happened on the way that a reader should know.
+        blowouts: (recording, instant, tires) of each tire that was blown on command.
         facts: other figures by name, as text (version, run time, number of simulations).
     """
 
@@ -170,3 +171,4 @@ class Evidence:
     missing_channels: tuple[tuple[str, str], ...] = ()
     notes: tuple[str, ...] = ()
     facts: tuple[tuple[str, str], ...] = ()
+    blowouts: tuple[tuple[str, float, str], ...] = ()

@@ -63,6 +63,7 @@ class Effect:
         sentence: for a person.
         onset_s: since when; ``None``: always there.
         onset_ci90_s: interval of the onset.
+        instrument: which one, in words, of a sensor's fault; ``channels``: those it spoils.
     """
 
     name: str
@@ -73,6 +74,8 @@ class Effect:
     sentence: str
     onset_s: float | None = None
     onset_ci90_s: Interval | None = None
+    instrument: str = ""
+    channels: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         if self.kind not in KINDS:

@@ -2,7 +2,9 @@
 
     {"verdict", "effects": [{"name", "kind", "where", "onset_s", "onset_ci90_s", "parameters",
     "equation", "sentence"}], "alias_sets", "location": {"channels", "interval_s", "body",
-    "line_of_action_x_m", "line_of_action_ci90_m", "wrench"}, "fit", "null_p_value", "next_test"}
+    "line_of_action_x_m", "line_of_action_ci90_m", "wrench"}, "fit", "null_p_value", "next_test",
+    "summary": {"wrong", "sure", "changed"}, "pulled": [{"name", "value", "unit", "ci90",
+    "prior_sigmas"}]}; an effect of an instrument has "instrument" and "channels" beside these.
 
 Null stands where something does not apply, was not asked, or is left open by the data.
 
@@ -12,19 +14,25 @@ Validated with: test/report/test_result_json.py.
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import asdict
 from typing import TYPE_CHECKING
 
 from truck_blowout_sim.comparison.plain_json import finite_or_none
+from truck_blowout_sim.diagnosis.result.evidence import Calibrated
 from truck_blowout_sim.diagnosis.result.parts import Effect, Fit, Interval, Location, Parameter
 
 if TYPE_CHECKING:
     from truck_blowout_sim.diagnosis.result import Diagnosis
 
 Object = dict[str, object]
+_FAR = 3.0  # prior sigmas from the sheet
+_NINETY = 1.645
 
 
 def encode_diagnosis(diagnosis: Diagnosis) -> Object:
     """The public answer as plain objects in the order of the file."""
+    from truck_blowout_sim.diagnosis.result.summary import summarize
+
     return {
         "verdict": diagnosis.verdict,
         "effects": [_effect(effect) for effect in diagnosis.effects],
@@ -33,7 +41,16 @@ def encode_diagnosis(diagnosis: Diagnosis) -> Object:
         "fit": {"train": _fit(diagnosis.train), "holdout": _fit(diagnosis.holdout)},
         "null_p_value": diagnosis.null_p_value,
         "next_test": diagnosis.next_test,
+        "summary": asdict(summarize(diagnosis)),
+        "pulled": [_number(n) for n in diagnosis.evidence.calibrated if abs(n.pull) > _FAR],
     }
+
+
+def _number(number: Calibrated) -> Object:
+    """A number of the sheet that the recordings pull far from it."""
+    half = _NINETY * number.sigma
+    return {"name": number.name, "value": number.value, "unit": number.unit,
+            "ci90": [number.value - half, number.value + half], "prior_sigmas": number.pull}
 
 
 def _effect(effect: Effect) -> Object:
@@ -47,6 +64,8 @@ def _effect(effect: Effect) -> Object:
         "parameters": {name: _parameter(p) for name, p in effect.parameters.items()},
         "equation": effect.equation,
         "sentence": effect.sentence,
+        **({"instrument": effect.instrument, "channels": list(effect.channels)}
+           if effect.kind == "sensor" else {}),
     }
 
 

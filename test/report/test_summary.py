@@ -1,0 +1,63 @@
+"""The answer in three sentences."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+
+from truck_blowout_sim.diagnosis.result import (
+    AliasSet,
+    Diagnosis,
+    Effect,
+    Fit,
+    Parameter,
+    Place,
+    amount_text,
+    label_of,
+    summarize,
+)
+
+
+def test_what_got_worse_is_said_beside_what_got_better(diagnosis: Diagnosis) -> None:
+    fit = Fit({"tractor_vx_mps": 49.0, "tractor_roll_rad": 22.0, "tractor_vy_mps": 1.2},
+              {"tractor_vx_mps": 1.9, "tractor_roll_rad": 46.0, "tractor_vy_mps": 1.3})  # fmt: skip
+    said = summarize(replace(diagnosis, holdout=fit)).changed
+    assert said == (
+        "On unseen runs the error, in units of each channel's noise, fell for tractor vx "
+        "(49 to 1.9); it rose for tractor roll (22 to 46)."
+    )
+
+
+def test_chance_look_alikes_and_amount_are_said(diagnosis: Diagnosis) -> None:
+    said = summarize(diagnosis).sure
+    assert "fewer than 1 of" in said or "in 1 of" in said
+    assert "cannot tell" in said
+    assert "90 %" in said
+
+
+@pytest.mark.parametrize(
+    ("name", "parameter", "text"),
+    [
+        ("bias", Parameter(0.01, "rad/s", (0.008, 0.012)),
+         "0.573 deg/s (90 %: 0.458 to 0.688)"),
+        ("scale_error", Parameter(0.08, "1", (0.07, 0.09)), "8 % (90 %: 7 to 9)"),
+        ("gain", Parameter(0.0, "1", (0.0, 0.1)), "0 (90 %: 0 to 0.1)"),
+    ],
+)  # fmt: skip
+def test_amounts_are_in_units_a_person_reads(name: str, parameter: Parameter, text: str) -> None:
+    assert amount_text(name, parameter) == text
+
+
+def test_effects_of_one_name_are_told_apart() -> None:
+    late = [
+        Effect("channel_delay", "sensor", Place(body="tractor"), {}, "", "", instrument=words)
+        for words in ("tractor gyros", "tractor velocity")
+    ]
+    labels = [label_of(effect, late) for effect in late]
+    assert labels == [
+        "channel_delay tractor (tractor gyros)", "channel_delay tractor (tractor velocity)"
+    ]  # fmt: skip
+    answer = Diagnosis("sensor_artefact", "Two are late.", tuple(late),
+                       (AliasSet(("channel_delay",)), AliasSet(("channel_delay",))))  # fmt: skip
+    assert summarize(answer).wrong == "Two are late."

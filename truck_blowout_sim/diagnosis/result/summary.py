@@ -1,0 +1,146 @@
+"""Three sentences for somebody who reads no further: what is wrong, how sure, what got better.
+
+Made from the answer alone, so that terminal, page and file say the same.
+
+Validated with: test/report/test_summary.py.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+from truck_blowout_sim.diagnosis.result.diagnosis import Diagnosis
+from truck_blowout_sim.diagnosis.result.parts import Effect, Fit, Parameter
+
+Label = Callable[[str], str]
+_NOTABLE = 1.0  # times the noise: a change below it nobody sees
+_SHARE = 0.05
+_MOST = 3
+_SHOWN = {"rad/s": (180.0 / math.pi, " deg/s"), "rad": (180.0 / math.pi, " deg"),
+          "s": (1.0, " s"), "m": (1.0, " m"), "1": (1.0, "")}  # fmt: skip
+_SHARES = ("scale_error", "roll_leak")
+_ENDS = ("_mps2", "_mps", "_radps", "_rad", "_pa", "_m")
+
+
+@dataclass(frozen=True)
+class Summary:
+    """The answer in three sentences."""
+
+    wrong: str
+    sure: str
+    changed: str
+
+
+def summarize(diagnosis: Diagnosis, label: Label | None = None) -> Summary:
+    """The three sentences.
+
+    Args:
+        diagnosis: the answer.
+        label: words for a channel; from its name by default.
+    """
+    named = label or plain
+    return Summary(diagnosis.sentence, _sure(diagnosis), _changed(diagnosis, named))
+
+
+def plain(channel: str) -> str:
+    """A channel's name in words, without its unit."""
+    end = next((e for e in _ENDS if channel.endswith(e)), "")
+    return channel.removesuffix(end).replace("_", " ")
+
+
+def amount_text(name: str, parameter: Parameter) -> str:
+    """A parameter with its 90 % interval, in units that a person reads."""
+    factor, unit = _SHOWN.get(parameter.unit, (1.0, f" {parameter.unit}"))
+    if name in _SHARES:
+        factor, unit = 100.0, " %"
+    low, high = (_number(factor * end) for end in parameter.ci90)
+    text = f"{_number(factor * parameter.value)}{unit}"
+    if not any(math.isfinite(end) for end in parameter.ci90):
+        return f"{text} (no bounds)"
+    if not math.isfinite(parameter.ci90[0]):
+        return f"{text} (90 %: up to {high})"
+    if not math.isfinite(parameter.ci90[1]):
+        return f"{text} (90 %: from {low})"
+    return f"{text} (90 %: {low} to {high})"
+
+
+def label_of(effect: Effect, effects: Sequence[Effect]) -> str:
+    """Name and place; where several are alike in both, the instant or the instrument too."""
+    same = [e for e in effects if e.name == effect.name]
+    text = f"{effect.name} {effect.where}".strip()
+    if len(same) > 1 and effect.instrument:
+        return f"{text} ({effect.instrument})"
+    if len(same) > 1 and effect.onset_s is not None:
+        return f"{text} (from {effect.onset_s:.2f} s)"
+    if len(same) > 1 and sum(str(e.where) == str(effect.where) for e in same) > 1:
+        return f"{text} ({next(iter(effect.parameters), same.index(effect) + 1)})"
+    return text
+
+
+def _sure(diagnosis: Diagnosis) -> str:
+    said = [_chance(diagnosis)]
+    for effect, aliases in zip(diagnosis.effects, diagnosis.alias_sets, strict=True):
+        what = label_of(effect, diagnosis.effects)
+        if effect.parameters:
+            name, first = next(iter(effect.parameters.items()))
+            said.append(f"{what}: {name.replace('_', ' ')} {amount_text(name, first)}")
+        others = [n for n in aliases.names[1:] if n != effect.name]
+        if others:
+            said.append(f"these recordings cannot tell {what} from {_listed(others, ' or ')}")
+    text = "; ".join(one for one in said if one)
+    return f"{text[:1].upper()}{text[1:]}." if text else "No evidence was computed."
+
+
+def _chance(diagnosis: Diagnosis) -> str:
+    p_value = diagnosis.null_p_value
+    if p_value is None:
+        return ""
+    if p_value >= 0.1:
+        return (f"a truck with nothing missing shows as much in {p_value:.0%} of such cases, "
+                "so nothing can be claimed")
+    if p_value < 1e-4:
+        return "a truck with nothing missing shows as much in fewer than 1 of 10,000 cases"
+    return f"a truck with nothing missing shows as much in 1 of {1.0 / p_value:,.0f} cases"
+
+
+def _changed(diagnosis: Diagnosis, label: Label) -> str:
+    unseen = bool(diagnosis.holdout.before)
+    fit = diagnosis.holdout if unseen else diagnosis.train
+    if not fit.before:
+        return "No prediction was made."
+    where = ("On unseen runs" if unseen else
+             "No unseen run was given (--holdout); on the fitted runs")  # fmt: skip
+    better, worse = _moved(fit, better=True), _moved(fit, better=False)
+    if not better and not worse:
+        return f"{where} no channel's error changed by as much as its noise."
+    return (f"{where} the error, in units of each channel's noise, fell for "
+            f"{_spelled(better, fit, label)}; it rose for {_spelled(worse, fit, label)}.")
+
+
+def _moved(fit: Fit, *, better: bool) -> list[str]:
+    """Channels whose error fell (or rose) by more than a glance shows, the largest change first."""
+    sign = 1.0 if better else -1.0
+    change = {name: sign * (before - fit.after[name])
+              for name, before in fit.before.items() if name in fit.after}  # fmt: skip
+    notable = [name for name, size in change.items()
+               if size > max(_NOTABLE * 0.5, _SHARE * fit.before[name])]  # fmt: skip
+    return sorted(notable, key=lambda name: -change[name])
+
+
+def _spelled(names: Sequence[str], fit: Fit, label: Label) -> str:
+    parts = [f"{label(name)} ({_number(fit.before[name])} to {_number(fit.after[name])})"
+             for name in names[:_MOST]]  # fmt: skip
+    more = len(names) - _MOST
+    others = [f"{more} more channel{'s' if more > 1 else ''}"] if more > 0 else []
+    return _listed([*parts, *others], " and ") or "no channel"
+
+
+def _listed(words: Sequence[str], last: str) -> str:
+    return last.join([", ".join(words[:-1]), words[-1]]) if len(words) > 1 else "".join(words)
+
+
+def _number(value: float) -> str:
+    text = f"{value:.3g}"
+    return f"{value:,.0f}" if "e+" in text else text
