@@ -112,3 +112,9 @@ def test_a_channel_finds_its_rule_by_end_or_by_beginning(few: Settings) -> None:
     assert few.rule("hub_speed_drive_1_left_radps") is few.channels["hub_speed_"]
     assert few.rule("tractor_x_m") is None
     assert few.rule("steering_wheel_angle_rad") is None
+
+
+def test_a_misspelt_effect_is_refused(refusal: Callable[[Edit], str]) -> None:
+    line = refusal(lambda tree: tree["harder"].update(croswind={"delta": 1.0}))
+    assert "harder: unknown key 'croswind'; expected one of" in line
+    assert "'rol_steer'" in refusal(lambda tree: tree["forms"].update(rol_steer={"share": 0.1}))

@@ -12,6 +12,7 @@ from typing import Any
 import yaml
 
 from truck_blowout_sim.diagnosis.case.nuisance import Nuisance
+from truck_blowout_sim.diagnosis.effects import LIBRARY
 from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.resources import config_file
 from truck_blowout_sim.vehicle import Packed
@@ -156,6 +157,8 @@ def load_settings(packed: Packed, name: str = "default") -> Settings:
     method: dict[str, Any] = {key: _number(path, f"method.{key}", entry, "value")
                               for key, entry in tree["method"].items()}
     channels = {key: _rule(path, key, entry) for key, entry in tree["channels"].items()}
+    for part in ("harder", "forms"):
+        _check(path, part, tree.get(part, {}), {effect.name for effect in LIBRARY})
     harder, blown = _thresholds(path, tree.get("harder", {}))
     forms = {key: _number(path, f"forms.{key}", entry, "share")
              for key, entry in tree.get("forms", {}).items()}

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from truck_blowout_sim.physics.layout import GLOBAL_S, N_WORK, TIRE_S, TOPOLOGY
+from truck_blowout_sim.physics.layout import GLOBAL_S, N_WORK, TIRE_S
 from truck_blowout_sim.physics.observe import output_names
 from truck_blowout_sim.simulation.ending import Ending, ending_of, rolled_over_rad
 from truck_blowout_sim.simulation.equilibrium import InitialState, initial_vector
@@ -123,8 +123,7 @@ class Driven:
         self._params, self._pilot = packed.params.copy(), drive.pilot.copy()
         self.inputs, self.blow_steps = drive.inputs.copy(), drive.blow_steps.copy()
         self._watch, self._rolls = drive.watch.copy(), rolled_over_rad(packed)
-        self._slots = (self._topology[TOPOLOGY.state_tire_at] + drive.blown * len(TIRE_S)
-                       + TIRE_S.blown_time_s)
+        self._slots = packed.tire_states(TIRE_S.blown_time_s)[drive.blown]
         self._mass_kg, self._work = total_mass_kg(packed), np.zeros(N_WORK)
 
     def steps(self, x: Floats, first: int, last: int, out: Floats) -> bool:

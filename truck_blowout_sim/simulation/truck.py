@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from truck_blowout_sim.errors import InputError, quoted
-from truck_blowout_sim.physics.layout import GLOBAL_S, N_WORK, TIRE_S, TOPOLOGY
+from truck_blowout_sim.physics.layout import GLOBAL_S, N_WORK, TIRE_S
 from truck_blowout_sim.physics.observe import observe, output_names
 from truck_blowout_sim.physics.step import advance
 from truck_blowout_sim.simulation.ending import Ending, ending_of, rolled_over_rad
@@ -35,6 +35,7 @@ class Truck:
         self.output_names = output_names(self.vehicle.units, self.vehicle.hubs, self.vehicle.tires)
         self._params = self.packed.params
         self._topology = self.packed.topology
+        self._blown_at = self.packed.tire_states(TIRE_S.blown_time_s)
         self._work = np.zeros(N_WORK)
         self._inputs = np.array(self.initial.inputs, dtype=np.float64)
         self._out = np.zeros(len(self.output_names))
@@ -69,7 +70,7 @@ class Truck:
 
     def blow(self, tire: str) -> bool:
         """Burst a tire now. Returns False if it was blown already."""
-        slot = self._tire_slot(tire) + TIRE_S.blown_time_s
+        slot = self._blown_slot(tire)
         if self.state[slot] <= self.time_s:
             return False
         self.state[slot] = self.time_s
@@ -79,7 +80,7 @@ class Truck:
     def blown(self) -> tuple[str, ...]:
         """Names of the tires blown so far."""
         return tuple(t for t in self.vehicle.tires
-                     if self.state[self._tire_slot(t) + TIRE_S.blown_time_s] <= self.time_s)
+                     if self.state[self._blown_slot(t)] <= self.time_s)
 
     def reset(self) -> None:
         """Back to the initial state and time; every tire whole again."""
@@ -95,10 +96,9 @@ class Truck:
         """All outputs now by name; SI units as in the names, pressures gauge."""
         return dict(zip(self.output_names, self.output_vector().tolist(), strict=True))
 
-    def _tire_slot(self, tire: str) -> int:
-        """First state position of a tire."""
+    def _blown_slot(self, tire: str) -> int:
+        """State position of the instant at which a tire burst."""
         if tire not in self.vehicle.tires:
             raise InputError(f"unknown tire {quoted(tire)}", file=self.vehicle.name,
                              expected="one of " + ", ".join(self.vehicle.tires))
-        at = int(self._topology[TOPOLOGY.state_tire_at])
-        return at + self.vehicle.tires.index(tire) * len(TIRE_S)
+        return int(self._blown_at[self.vehicle.tires.index(tire)])

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from truck_blowout_sim.physics.energy import energy_j
 from truck_blowout_sim.physics.jit import core
-from truck_blowout_sim.physics.layout import GLOBAL_S, N_WORK, TIRE_S, TOPOLOGY
+from truck_blowout_sim.physics.layout import GLOBAL_S, N_WORK, TIRE_S
 from truck_blowout_sim.physics.powers import N_POWERS, POWER, powers_w
 from truck_blowout_sim.physics.step import step
 from truck_blowout_sim.simulation.drive import Drive, execute
@@ -50,7 +50,7 @@ def audit(packed: Packed, drive: Drive) -> Audit:
     inputs = execute(packed, drive).inputs
     topo, params = packed.topology, packed.params.copy()
     x = initial_vector(packed, drive.initial, drive.step_s)
-    slots = topo[TOPOLOGY.state_tire_at] + drive.blown * len(TIRE_S) + TIRE_S.blown_time_s
+    slots = packed.tire_states(TIRE_S.blown_time_s)[drive.blown]
     work, open_j = np.zeros(N_POWERS), np.zeros(len(inputs))
     start = _balance(x, params, topo, inputs, drive.step_s, drive.initial.time_s,
                      drive.blow_steps, slots, np.zeros(N_WORK), work, open_j)

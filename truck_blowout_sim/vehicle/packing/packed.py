@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from truck_blowout_sim.physics import layout
 from truck_blowout_sim.vehicle.document import Place
 from truck_blowout_sim.vehicle.packing import chassis, running_gear
 from truck_blowout_sim.vehicle.packing.bounds import check_value, may_be_infinite
@@ -96,6 +97,12 @@ class Packed:
         for name, value in values.items():
             params[self.position(name)] = value
         return replace(self, params=params)
+
+    def tire_states(self, field: int) -> NDArray[np.int64]:
+        """Position in the state vector of one field of `TIRE_S`, for every tire."""
+        tires = np.arange(self.topology[layout.TOPOLOGY.n_tires])
+        return np.asarray(self.topology[layout.TOPOLOGY.state_tire_at]
+                          + tires * len(layout.TIRE_S) + field)
 
     def without_events(self) -> NDArray[np.float64]:
         """A copy of the parameters in which nothing that is timed ever happens."""
