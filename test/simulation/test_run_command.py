@@ -12,14 +12,16 @@ from truck_blowout_sim.cli.main import main
 from truck_blowout_sim.recordings import read_recording
 
 
-def run(*words: str, cwd: Path) -> subprocess.CompletedProcess[str]:
+def run(*words: str, cwd: Path, page: bool = False) -> subprocess.CompletedProcess[str]:
+    words = words if page else (*words, "--no-page")
     return subprocess.run([sys.executable, "-m", "truck_blowout_sim", "run", *words], cwd=cwd,
                           capture_output=True, text=True, check=False)
 
 
 def test_it_writes_a_bag_that_reads_back(tmp_path: Path) -> None:
-    done = run("fishhook", cwd=tmp_path)
+    done = run("fishhook", cwd=tmp_path, page=True)
     assert done.returncode == 0, done.stderr
+    assert "burst" in (tmp_path / "fishhook.html").read_text()
     assert "trailer_1_left_outer+trailer_1_left_inner blown at 3.5 s" in done.stdout
     assert "times faster than real time" in done.stdout
     assert done.stderr == ""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+import webbrowser
 from pathlib import Path
 from time import perf_counter
 
@@ -13,7 +14,7 @@ from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 from truck_blowout_sim.cli.outputs import FORCE, JSON, YES, ask_about, claim, say
 from truck_blowout_sim.cli.settings import parse_blowouts, set_values
 from truck_blowout_sim.errors import InputError, quoted
-from truck_blowout_sim.recordings import write_recording
+from truck_blowout_sim.recordings import Recording, write_recording
 from truck_blowout_sim.simulation.drive import Drive, Ran, execute
 from truck_blowout_sim.simulation.measures import measure
 from truck_blowout_sim.simulation.plausible import implausible
@@ -44,11 +45,16 @@ def command(
     form: str = typer.Option("bag", "--format", help="bag or csv."),
     step_s: float = typer.Option(0.001, help="Step [s]."),
     rate_hz: float = typer.Option(100.0, help="Rate of the recording [Hz]."),
+    page: bool = typer.Option(True, help="Write a page with figures beside the output, .html."),
+    open_page: bool = typer.Option(False, "--open", help="Open the page in the browser."),
     yes: bool = YES,
     force: bool = FORCE,
     as_json: bool = JSON,
 ) -> None:
-    """Simulate a scenario without ROS, faster than real time, and write a bag."""
+    """Simulate a scenario without ROS, faster than real time; write a bag and a page of figures.
+
+    Example: truck-blowout run steer_axle_blowout -o out/blowout --open
+    """
     if form not in _SUFFIX:
         raise InputError(f"--format {quoted(form)}", expected="bag or csv")
     loaded = load_scenario(scenario)
@@ -59,23 +65,46 @@ def command(
     if form == "csv" and target.suffix != ".csv":
         target = target.with_name(f"{target.name}.csv")
     claim(target, force=force, inputs=[loaded.path, truck.vehicle.path])
+    html = page_beside(target)
+    if page or open_page:
+        claim(html, force=force, inputs=[loaded.path, truck.vehicle.path])
     packed, drive, blowouts = prepare(truck, loaded, step_s=step_s, rate_hz=rate_hz)
     ask_about(implausible(packed, drive), yes)
     ran, factor = _run(packed, drive, loaded.name)
     recording = recorded(packed, drive, ran, blowouts, loaded)
     write_recording(recording, target)
+    if page or open_page:
+        _write_page(recording, packed, html)
     for note in recording.notes:
         typer.echo(f"note: {note}", err=True)
     result = {
         "output": str(target), "scenario": loaded.name, "vehicle": packed.vehicle.name,
         "start_s": recording.start_s, "end_s": recording.end_s, "summary": summarize(recording),
         "blowouts": [{"time_s": b.time_s, "tires": b.tires} for b in recording.blowouts],
+        "page": str(html) if page or open_page else None,
         "measures": measure(packed, drive, ran, loaded.spec.lane_width_m).as_row(),
     }
     say(as_json, result, [
         str(result["summary"]),
         f"{target}: {len(recording.channels)} channels, {recording.start_s:g} s to "
-        f"{recording.end_s:g} s, {factor:.0f} times faster than real time"])
+        f"{recording.end_s:g} s, {factor:.0f} times faster than real time",
+        *([f"{html}: figures; `truck-blowout view {target}` shows the truck moving"]
+          if page or open_page else [])])
+    if open_page:
+        webbrowser.open(html.resolve().as_uri())
+
+
+def page_beside(target: Path) -> Path:
+    """The page of a run: beside its bag or CSV, of the same name."""
+    return target.with_name(f"{target.name.removesuffix('.csv')}.html")
+
+
+def _write_page(recording: Recording, packed: Packed, html: Path) -> None:
+    from truck_blowout_sim.motion import motion_of
+    from truck_blowout_sim.report.run_page import write_run_page
+
+    motion = motion_of(recording, packed.vehicle)
+    write_run_page(recording, motion, packed.vehicle, summarize(recording), html)
 
 
 def _run(packed: Packed, drive: Drive, name: str) -> tuple[Ran, float]:
