@@ -37,17 +37,14 @@ def test_tables_9_and_10_to_the_digit(thesis: Packed, state: Floats, number: int
     r = row(thesis, state, time_s)
     p = thesis.params
     t = min(i for n, i in thesis.index.items() if n.startswith("tire.steer_left."))
-    s = int(thesis.topology[TOPOLOGY.state_tire_at])
-    rolling = blowout.rolling_radius_m(p, t, 0.01, 0.0, r)
-    assert rolling == pytest.approx(radius_mm / 1000, abs=1e-12)
+    assert p[r + 1] == pytest.approx(radius_mm / 1000, abs=1e-12)
     # the published radius is the one under the reference load, with the published rate
     load = p[t + TIRE.reference_load_n]
-    fz, _ = blowout.vertical_load(state, s, p, t, radius_mm / 1000, 0.0, r)
-    more, _ = blowout.vertical_load(state, s, p, t, radius_mm / 1000 - 1e-6, 0.0, r)
+    fz, more = (blowout.vertical_load(p, t, 0.0, height, 0.0, True, p[r + 1], p[r + 2])[0]
+                for height in (radius_mm / 1000, radius_mm / 1000 - 1e-6))
     assert fz == pytest.approx(load, rel=1e-9)
     assert (more - fz) / 1e-6 == pytest.approx(1000.0 * stiffness_npmm, rel=1e-6)
-    f = blowout.rolling_coefficient(p, t, 1.0, 0.01, 0.0, 88.5 * KMH, r)
-    assert f == pytest.approx(constant + per_kmh * 88.5, abs=1e-12)
+    assert p[r + 5] + p[r + 6] * 88.5 * KMH == pytest.approx(constant + per_kmh * 88.5, abs=1e-12)
 
 
 def test_steps_change_at_their_instants_and_not_before(thesis: Packed, state: Floats) -> None:
@@ -60,40 +57,35 @@ def test_steps_change_at_their_instants_and_not_before(thesis: Packed, state: Fl
     assert blowout.step_row(state, s, thesis.params, table) == table + 1
 
 
-def curve(truck: Packed, state: Floats, at: int, s: int, gauge_pa: float, heights: Floats
-          ) -> Floats:
-    state[s + TIRE_S.pressure_pa] = gauge_pa
-    return np.array([blowout.vertical_load(state, s, truck.params, at, h, 0.0, -1)[0]
+def curve(truck: Packed, at: int, gauge_pa: float, heights: Floats) -> Floats:
+    return np.array([blowout.vertical_load(truck.params, at, gauge_pa, h, 0.0, False, 0.0, 1.0)[0]
                      for h in heights])
 
 
-def test_continuous_law_has_no_step_anywhere(truck: Packed, state: Floats,
-                                             block: Callable[[str], int],
-                                             slot: Callable[[str, str], int]) -> None:
-    at, s = block("tire.steer_left"), slot("tire", "steer_left")
+def test_continuous_law_has_no_step_anywhere(truck: Packed, block: Callable[[str], int]) -> None:
+    at = block("tire.steer_left")
     heights = np.linspace(0.51, 0.33, 20_000)
     move = heights[0] - heights[1]
     for gauge in (7.6e5, 3e5, 0.0):
-        loads = curve(truck, state, at, s, gauge, heights)
+        loads = curve(truck, at, gauge, heights)
         assert np.abs(np.diff(loads)).max() < 5e6 * move
         rims = np.array([blowout.rim_fraction(truck.params, at, h) for h in heights])
-        radii = np.array([blowout.rolling_radius_m(truck.params, at, 0.506 - h, r, -1)
+        radii = np.array([blowout.rolling_radius_m(truck.params, at, 0.506 - h, r)
                           for h, r in zip(heights, rims, strict=True)])
         assert np.abs(np.diff(radii)).max() < 2.0 * move
         f = np.array([blowout.rolling_coefficient(truck.params, at, gauge / 7.6e5, 0.506 - h, r,
-                                                  23.0, -1)
+                                                  23.0, 1.0)
                       for h, r in zip(heights, rims, strict=True)])
         assert np.abs(np.diff(f)).max() < 10.0 * move
 
 
-def test_stiffness_falls_with_pressure_and_rises_on_the_rim(
-        truck: Packed, state: Floats, block: Callable[[str], int],
-        slot: Callable[[str, str], int]) -> None:
+def test_stiffness_falls_with_pressure_and_rises_on_the_rim(truck: Packed,
+                                                            block: Callable[[str], int]) -> None:
     """Not monotonic: 968 kN/m inflated, 84 flat, over 3,000 on the rim."""
-    at, s = block("tire.steer_left"), slot("tire", "steer_left")
+    at = block("tire.steer_left")
 
     def stiffness(gauge: float, height: float) -> float:
-        loads = curve(truck, state, at, s, gauge, np.array([height, height - 1e-5]))
+        loads = curve(truck, at, gauge, np.array([height, height - 1e-5]))
         return float(loads[1] - loads[0]) / 1e-5
 
     inflated = stiffness(truck["tire.steer_left.pressure_pa"], 0.48)
@@ -102,21 +94,18 @@ def test_stiffness_falls_with_pressure_and_rises_on_the_rim(
     assert stiffness(0.0, 0.34) > 3.0e6
 
 
-def test_flat_tire_carries_a_steer_load_at_its_flat_radius(
-        truck: Packed, state: Floats, block: Callable[[str], int],
-        slot: Callable[[str, str], int]) -> None:
-    at, s = block("tire.steer_left"), slot("tire", "steer_left")
+def test_flat_tire_carries_a_steer_load_at_its_flat_radius(truck: Packed,
+                                                            block: Callable[[str], int]) -> None:
+    at = block("tire.steer_left")
     heights = np.linspace(0.36, 0.33, 3001)
-    loads = curve(truck, state, at, s, 0.0, heights)
+    loads = curve(truck, at, 0.0, heights)
     assert np.interp(25_000.0, loads, heights) == pytest.approx(0.345, abs=0.002)
     assert blowout.rim_fraction(truck.params, at, 0.345) == 1.0
 
 
-def test_a_tire_in_the_air_carries_nothing(truck: Packed, state: Floats,
-                                           block: Callable[[str], int],
-                                           slot: Callable[[str, str], int]) -> None:
-    at, s = block("tire.steer_left"), slot("tire", "steer_left")
-    assert blowout.vertical_load(state, s, truck.params, at, 0.6, 5.0, -1)[0] == 0.0
+def test_a_tire_in_the_air_carries_nothing(truck: Packed, block: Callable[[str], int]) -> None:
+    at = block("tire.steer_left")
+    assert blowout.vertical_load(truck.params, at, 7e5, 0.6, 5.0, False, 0.0, 1.0)[0] == 0.0
 
 
 def test_a_flat_tire_that_stops_short_of_the_rim_drags_as_much(truck: Packed,
@@ -129,9 +118,17 @@ def test_a_flat_tire_that_stops_short_of_the_rim_drags_as_much(truck: Packed,
     def drag(gauge_share: float, radius: float) -> float:
         rim = blowout.rim_fraction(truck.params, at, radius)
         return float(blowout.rolling_coefficient(truck.params, at, gauge_share, free - radius, rim,
-                                                 20.0, -1))
+                                                 20.0, 1.0))
 
     assert drag(0.0, 0.376) == pytest.approx(flat, rel=0.02)
     # halfway to the rim half of it and the usual rolling resistance; with its air none of it
     assert drag(0.0, 0.5 * (free + 0.375)) == pytest.approx(0.5 * flat, rel=0.15)
     assert drag(0.9, 0.47) < 0.01
+
+
+def test_rolling_resistance_rises_as_a_tire_softens(truck: Packed, block: Callable[[str], int]
+                                                    ) -> None:
+    at, full = block("tire.steer_left"), truck["tire.steer_left.reference_pressure_pa"]
+    assert blowout.softness(truck.params, at, 0.96 * full) == 1.0
+    assert blowout.softness(truck.params, at, 0.5 * full) == pytest.approx(0.5**-0.4)
+    assert blowout.softness(truck.params, at, 0.0) == pytest.approx(0.05**-0.4)

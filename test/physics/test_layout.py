@@ -2,13 +2,14 @@ from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
 import pytest
 
 from truck_blowout_sim.physics import layout
 from truck_blowout_sim.vehicle import Packed
 
 BLOCKS = (layout.WORLD, layout.STEER, layout.COUPLING, layout.DRIVE, layout.ABS, layout.CIRCUIT,
-          layout.UNIT, layout.AXLE, layout.HUB, layout.TIRE, layout.TOPOLOGY, layout.GLOBAL_S,
+          layout.UNIT, layout.AXLE, layout.HUB, layout.TOPOLOGY, layout.GLOBAL_S,
           layout.UNIT_S, layout.AXLE_S, layout.HUB_S, layout.TIRE_S, layout.INPUT, layout.UNIT_W)
 
 
@@ -20,8 +21,14 @@ def test_a_block_numbers_its_fields(block: tuple[Any, ...]) -> None:
 def test_every_parameter_has_one_place(truck: Packed) -> None:
     positions = list(truck.index.values())
     assert len(set(positions)) == len(positions)
-    assert sorted(positions) == list(range(len(positions)))
-    assert len(positions) <= truck.params.size
+    assert max(positions) < truck.topology[layout.TOPOLOGY.table_at] <= truck.params.size
+
+
+def test_tires_stand_side_by_side(truck: Packed) -> None:
+    for number, tire in enumerate(truck.names.tires):
+        at = truck.topology[layout.TOPOLOGY.tire_at] + number
+        assert truck.index[f"tire.{tire}.volume_m3"] == at + layout.TIRE.volume_m3
+    assert np.diff(layout.TIRE).tolist() == [layout.TIRE_LANES] * (len(layout.TIRE) - 1)
 
 
 def test_the_state_has_room_for_everything(truck: Packed) -> None:

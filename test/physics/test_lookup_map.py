@@ -25,10 +25,10 @@ def test_nodes_midpoints_and_edges() -> None:
     assert interpolate(p, 0, 0, 9.0, 9000.0) == pytest.approx(2100.0)
 
 
-def map_force(thesis: Packed, tan: float, fz: float, scale: float = 1.0) -> float:
+def map_force(thesis: Packed, tan: float, fz: float) -> float:
     at = min(i for name, i in thesis.index.items() if name.startswith("tire.steer_left."))
     table = int(thesis.topology[TOPOLOGY.table_at] + thesis["tire.steer_left.map_table"])
-    return forces(thesis.params, at, table, fz, 0.0, tan, 1.0, 1.0, scale, 1.0)[1]
+    return forces(thesis.params, at, table, fz, 0.0, tan, 1.0, 1.0)[1]
 
 
 def test_the_shipped_map_follows_the_recommended_tire(thesis: Packed) -> None:
@@ -37,6 +37,5 @@ def test_the_shipped_map_follows_the_recommended_tire(thesis: Packed) -> None:
         assert fy / 1000.0 == pytest.approx(expected, rel=0.02)
 
 
-def test_force_is_odd_in_slip_and_scales(thesis: Packed) -> None:
+def test_force_is_odd_in_slip(thesis: Packed) -> None:
     assert map_force(thesis, -0.05, 2e4) == -map_force(thesis, 0.05, 2e4)
-    assert map_force(thesis, 0.05, 2e4, 0.1) == pytest.approx(0.1 * map_force(thesis, 0.05, 2e4))

@@ -14,11 +14,15 @@ Floats = NDArray[np.float64]
 UPRIGHT = {"steering.caster_rad": 0.0}
 
 
+def moment_nm(p: Floats, *rest: object) -> float:
+    return steering.kingpin_moment_nm(p, steering.kingpin_axis(p), *rest)
+
+
 def lever_mm(truck: Packed, radius_m: float, braked: bool) -> float:
     """Kingpin moment per longitudinal force of the left wheel, along the tilted kingpin."""
     p = truck.with_values(UPRIGHT).params
     brake = 1000.0 * radius_m if braked else 0.0
-    moment = steering.kingpin_moment_nm(p, 1.0, 0.0, 0.0, radius_m, (-1000.0, 0.0, 0.0), 0.0, brake,
+    moment = moment_nm(p, 1.0, 0.0, 0.0, radius_m, (-1000.0, 0.0, 0.0), 0.0, brake,
                                         0.0)
     tilt = math.cos(truck["steering.kingpin_inclination_rad"])
     return moment / tilt
@@ -34,7 +38,7 @@ def test_a_free_wheel_pulls_at_the_spindle_offset(truck: Packed) -> None:
 
 
 def test_drag_of_the_left_wheel_steers_left_and_of_the_right_one_right(truck: Packed) -> None:
-    left, right = (steering.kingpin_moment_nm(truck.params, side, 0.0, 0.0, 0.47,
+    left, right = (moment_nm(truck.params, side, 0.0, 0.0, 0.47,
                                               (-1000.0, 0.0, 0.0), 0.0, 0.0, 0.0)
                    for side in (1.0, -1.0))
     assert left > 0.0
@@ -43,7 +47,7 @@ def test_drag_of_the_left_wheel_steers_left_and_of_the_right_one_right(truck: Pa
 
 def test_loads_balance_until_the_axle_tilts(truck: Packed) -> None:
     def both(roll: float) -> float:
-        return sum(steering.kingpin_moment_nm(truck.params, side, roll, 0.0, 0.478,
+        return sum(moment_nm(truck.params, side, roll, 0.0, 0.478,
                                               (0.0, 0.0, 26_000.0), 0.0, 0.0, 0.0)
                    for side in (1.0, -1.0))
 
@@ -53,7 +57,7 @@ def test_loads_balance_until_the_axle_tilts(truck: Packed) -> None:
 
 
 def test_lateral_force_behind_the_kingpin_turns_back(truck: Packed) -> None:
-    moment = steering.kingpin_moment_nm(truck.params, 1.0, 0.0, 0.0, 0.478, (0.0, 5000.0, 0.0),
+    moment = moment_nm(truck.params, 1.0, 0.0, 0.0, 0.478, (0.0, 5000.0, 0.0),
                                         0.0, 0.0, 0.0)
     trail = 0.478 * math.tan(truck["steering.caster_rad"])
     assert moment == pytest.approx(-5000.0 * trail, rel=0.02)

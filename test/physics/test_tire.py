@@ -8,7 +8,8 @@ from numpy.typing import NDArray
 
 from truck_blowout_sim.physics.layout import TIRE_S
 from truck_blowout_sim.physics.tires import magic_formula
-from truck_blowout_sim.physics.tires.tire import tire_forces
+from truck_blowout_sim.physics.tires.lanes import LANE, LANE_BLOCK
+from truck_blowout_sim.physics.tires.tire import magic_formula_forces, soften, stretch
 from truck_blowout_sim.vehicle import Packed
 
 Floats = NDArray[np.float64]
@@ -20,8 +21,18 @@ FZ, SPEED = 25_000.0, 20.0
 def force(truck: Packed, state: Floats, s: int, t: int, *, vx: float = SPEED, vy: float = 0.0,
           roll: float | None = None, rim: float = 0.0, camber: float = 0.0, fz: float = FZ
           ) -> tuple[float, float, float]:
-    return tire_forces(state, s, truck.params, t, 0, fz, rim, -1, vx, vy,
-                       vx if roll is None else roll, camber, 1.0, 1.0, 0.001)
+    """Forces of one tire after a step of 1 ms, its slips kept in the state, its load given."""
+    lanes = np.zeros(LANE_BLOCK)
+    lanes[[LANE.vx_mps, LANE.vy_mps, LANE.sin_camber]] = vx, vy, np.sin(camber)
+    lanes[[LANE.friction, LANE.axle_peak, LANE.radius_m]] = 1.0, 1.0, 1.0
+    lanes[LANE.spin_radps] = vx if roll is None else roll
+    lanes[[LANE.pressure_pa, LANE.rim, LANE.fz_n]] = state[s + TIRE_S.pressure_pa], rim, fz
+    lanes[[LANE.slip, LANE.slip_tan]] = state[s + TIRE_S.slip], state[s + TIRE_S.slip_tan]
+    stretch(truck.params, t, lanes, 0, 0.001)
+    magic_formula_forces(truck.params, t, lanes, 0)
+    soften(truck.params, t, lanes, 0)
+    state[s + TIRE_S.slip], state[s + TIRE_S.slip_tan] = lanes[[LANE.slip, LANE.slip_tan]]
+    return tuple(lanes[[LANE.fx_n, LANE.fy_n, LANE.mz_nm]].tolist())
 
 
 @pytest.fixture

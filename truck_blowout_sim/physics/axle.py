@@ -32,7 +32,6 @@ from truck_blowout_sim.physics.layout import (
     HUB_S,
     HUB_SIZE,
     TIRE_S,
-    TIRE_SIZE,
     TOPOLOGY,
     TOPOLOGY_AXLE_SIZE,
     TOPOLOGY_SIZE,
@@ -101,33 +100,95 @@ def lateral_acceleration(x: Floats, us: int, p: Floats, a: int, work: Floats, w:
 
 
 @core
-def axle_step(x: Floats, p: Floats, topo: Integers, i: int, work: Floats, w: int,
-              gravity: tuple[float, float, float], drive_n: float, dt: float) -> float:
-    """One axle for one step: adds its wrench to the body, advances its velocities and spins.
+def place_axle(x: Floats, p: Floats, topo: Integers, i: int, first: int, work: Floats, w: int,
+               lanes: Floats, dt: float) -> int:
+    """Steer one axle and place its tires for the pass over all tires.
 
-    Returns the kingpin moment [N m] of a steered axle, else 0.
+    ``first`` is the number of its first tire; returns the number of the next axle's.
+    """
+    us = len(GLOBAL_S) + topo[TOPOLOGY_SIZE + i * TOPOLOGY_AXLE_SIZE] * len(UNIT_S)
+    a = topo[TOPOLOGY.axle_at] + i * AXLE_SIZE
+    s = topo[TOPOLOGY.state_axle_at] + i * len(AXLE_S)
+    left, right = travels(x, us, work, w, p, a, s)
+    steer = axle_steer_rad(p, a, left, right)
+    if p[a + AXLE.lateral_compliance_radpn] != 0.0:
+        steer += p[a + AXLE.lateral_compliance_radpn] * _axle_lateral(x, topo, i)
+    x[s + AXLE_S.steer_rad] = steer
+    rx, rz = p[a + AXLE.x_m], p[a + AXLE.roll_centre_z_m]
+    at = to_map(work, w, rx, 0.0, rz)
+    v = point_velocity(x, us, rx, 0.0, rz)
+    m = to_map(work, w, v[0], v[1], v[2])
+    cy, sy = work[w + UNIT_W.cos_yaw], work[w + UNIT_W.sin_yaw]
+    yaw_rate, _, _ = angle_rates(x, us, work, w)
+    motion = (cy * m[0] + sy * m[1],
+              cy * m[1] - sy * m[0]
+              + x[s + AXLE_S.roll_rate_radps] * (x[us + UNIT_S.z_m] + at[2]), yaw_rate)
+    place = (x[us + UNIT_S.x_m] + at[0], x[us + UNIT_S.y_m] + at[1], cy, sy)
+    for k in range(2):
+        h = topo[TOPOLOGY.hub_at] + (2 * i + k) * HUB_SIZE
+        hs = topo[TOPOLOGY.state_hub_at] + (2 * i + k) * len(HUB_S)
+        angle = steer + p[h + HUB.toe_rad]
+        if i == topo[TOPOLOGY.steered_axle]:
+            angle += steering.wheel_angle_rad(x, p, 1.0 - 2.0 * k, p[a + AXLE.half_track_m])
+        count = tires_of_hub(topo, first, 2 * i + k)
+        wheel.place_tires(x, hs, p, h, a, s, topo, first, count, angle, place, motion, lanes, dt)
+        first += count
+    return first
+
+
+@core
+def tires_of_hub(topo: Integers, first: int, hub: int) -> int:
+    """How many tires from number ``first`` on stand on a hub; tires are numbered hub by hub."""
+    tires_at = TOPOLOGY_SIZE + topo[TOPOLOGY.n_axles] * TOPOLOGY_AXLE_SIZE
+    count = 0
+    while first + count < topo[TOPOLOGY.n_tires] and topo[tires_at + first + count] == hub:
+        count += 1
+    return count
+
+
+@core
+def travels(x: Floats, us: int, work: Floats, w: int, p: Floats, a: int, s: int
+            ) -> tuple[float, float]:
+    """Compression [m] of the springs of the axle at ``a`` and ``s``, left and right."""
+    twist = x[us + UNIT_S.twist_front_rad + (0 if p[a + AXLE.x_m] > 0.0 else 1)]
+    return (suspension.travel_m(x, us, work, w, p, a, s, 1.0, twist),
+            suspension.travel_m(x, us, work, w, p, a, s, -1.0, twist))
+
+
+@core
+def axle_steer_rad(p: Floats, a: int, left: float, right: float) -> float:
+    """Steer [rad] of an axle from its build and its springs."""
+    lean = 0.5 * (left - right) / p[a + AXLE.half_spacing_m]
+    return (p[a + AXLE.misalignment_rad]
+            - (p[a + AXLE.roll_steer] + p[a + AXLE.roll_steer_extra]) * lean
+            + p[a + AXLE.drop_steer_radpm] * 0.5 * (left + right))
+
+
+@core
+def move_axle(x: Floats, p: Floats, topo: Integers, i: int, first: int, work: Floats, w: int,
+              gravity: tuple[float, float, float], kingpin_axis: tuple[float, float, float],
+              drive_n: float, lanes: Floats, dt: float) -> tuple[int, float]:
+    """One axle after the pass over all tires: its wrench to the body, its velocities and spins.
+
+    Returns the number of the next axle's first tire, and the kingpin moment [N m] of a steered
+    axle, else 0.
     """
     head = TOPOLOGY_SIZE + i * TOPOLOGY_AXLE_SIZE
     us = len(GLOBAL_S) + topo[head] * len(UNIT_S)
     a = topo[TOPOLOGY.axle_at] + i * AXLE_SIZE
     s = topo[TOPOLOGY.state_axle_at] + i * len(AXLE_S)
     end = 0 if p[a + AXLE.x_m] > 0.0 else 1
-    twist = x[us + UNIT_S.twist_front_rad + end]
-    left = suspension.travel_m(x, us, work, w, p, a, s, 1.0, twist)
-    right = suspension.travel_m(x, us, work, w, p, a, s, -1.0, twist)
+    high = _roll_centre_z(x, us, p, a, work, w)
+    first, force, kingpin = _collect(x, p, topo, i, first, a, s, high, kingpin_axis, drive_n, lanes,
+                                     dt)
+    left, right = travels(x, us, work, w, p, a, s)
     arm = p[a + AXLE.half_spacing_m]
     lean = 0.5 * (left - right) / arm
-    steer = (p[a + AXLE.misalignment_rad]
-             - (p[a + AXLE.roll_steer] + p[a + AXLE.roll_steer_extra]) * lean
-             + p[a + AXLE.drop_steer_radpm] * 0.5 * (left + right))
-    if p[a + AXLE.lateral_compliance_radpn] != 0.0:
-        steer += p[a + AXLE.lateral_compliance_radpn] * _axle_lateral(x, topo, i)
-    x[s + AXLE_S.steer_rad] = steer
-    force = _tires(x, p, topo, i, us, a, s, work, w, steer, drive_n, dt)
     partner = topo[head + 2]
     if partner >= 0:
         pa = topo[TOPOLOGY.axle_at] + partner * AXLE_SIZE
         ps = topo[TOPOLOGY.state_axle_at] + partner * len(AXLE_S)
+        twist = x[us + UNIT_S.twist_front_rad + end]
         left = suspension.equalised_m(
             p, a, left, suspension.travel_m(x, us, work, w, p, pa, ps, 1.0, twist))
         right = suspension.equalised_m(
@@ -139,20 +200,20 @@ def axle_step(x: Floats, p: Floats, topo: Integers, i: int, work: Floats, w: int
     x[s + AXLE_S.spring_left_n], x[s + AXLE_S.spring_right_n] = f_left, f_right
     roll_nm = arm * (f_left - f_right) + p[a + AXLE.aux_roll_nmprad] * lean
     spring = 2.0 * p[a + AXLE.spring_npm] * arm * arm + p[a + AXLE.aux_roll_nmprad]
-    high = p[a + AXLE.roll_centre_z_m] - p[UNIT_AT + topo[head] * UNIT_SIZE + UNIT.torsion_z_m]
-    work[w + UNIT_W.front_nm + end] += roll_nm - high * force[1]
+    over = p[a + AXLE.roll_centre_z_m] - p[UNIT_AT + topo[head] * UNIT_SIZE + UNIT.torsion_z_m]
+    work[w + UNIT_W.front_nm + end] += roll_nm - over * force[1]
     work[w + UNIT_W.front_nmprad + end] += spring
     _load_body(work, w, p, a, force, f_left + f_right, roll_nm)
     cy, sy = work[w + UNIT_W.cos_yaw], work[w + UNIT_W.sin_yaw]
     mass = p[a + AXLE.mass_kg]
     slope = cy * gravity[1] - sy * gravity[0]
     carry_mass(x, us, p, a, work, w, mass, mass * (cy * gravity[0] + sy * gravity[1]), mass * slope)
-    above = x[s + AXLE_S.z_m] - _roll_centre_z(x, us, p, a, work, w)
+    above = x[s + AXLE_S.z_m] - high
     pull = mass * above * (lateral_acceleration(x, us, p, a, work, w) - slope)
     inertia = p[a + AXLE.ixx_kgm2] + mass * above * above
     x[s + AXLE_S.vz_mps] += dt * ((force[2] - f_left - f_right) / mass + gravity[2])
     x[s + AXLE_S.roll_rate_radps] += dt * (force[3] - roll_nm + pull) / inertia
-    return force[6]
+    return first, kingpin
 
 
 @core
@@ -174,57 +235,37 @@ def _roll_centre_z(x: Floats, us: int, p: Floats, a: int, work: Floats, w: int) 
 
 
 @core
-def _tires(x: Floats, p: Floats, topo: Integers, i: int, us: int, a: int, s: int, work: Floats,
-           w: int, steer: float, drive_n: float, dt: float
-           ) -> tuple[float, float, float, float, float, float, float]:
-    """Sum both hubs about the roll centre: fx … mz in heading axes; last the kingpin moment."""
-    rx, rz = p[a + AXLE.x_m], p[a + AXLE.roll_centre_z_m]
-    at = to_map(work, w, rx, 0.0, rz)
-    v = point_velocity(x, us, rx, 0.0, rz)
-    m = to_map(work, w, v[0], v[1], v[2])
-    cy, sy = work[w + UNIT_W.cos_yaw], work[w + UNIT_W.sin_yaw]
-    up = x[us + UNIT_S.z_m] + at[2]
-    yaw_rate, _, _ = angle_rates(x, us, work, w)
-    motion = (cy * m[0] + sy * m[1],
-              cy * m[1] - sy * m[0] + x[s + AXLE_S.roll_rate_radps] * up, yaw_rate)
-    place = (x[us + UNIT_S.x_m] + at[0], x[us + UNIT_S.y_m] + at[1], cy, sy, x[0])
+def _collect(x: Floats, p: Floats, topo: Integers, i: int, first: int, a: int, s: int, up: float,
+             kingpin_axis: tuple[float, float, float], drive_n: float, lanes: Floats, dt: float
+             ) -> tuple[int, tuple[float, float, float, float, float, float], float]:
+    """Sum both hubs about the roll centre, ``up`` above the road, and its kingpin moments.
+
+    Returns the next axle's first tire, fx … mz in heading axes, and the kingpin moment.
+    """
     fx, fy, fz, mx, my, mz, kingpin = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
-    tires_at = TOPOLOGY_SIZE + topo[TOPOLOGY.n_axles] * TOPOLOGY_AXLE_SIZE
-    tire, n_tires = 0, topo[TOPOLOGY.n_tires]
-    while tire < n_tires and topo[tires_at + tire] < 2 * i:
-        tire += 1
     circuit = topo[TOPOLOGY_SIZE + i * TOPOLOGY_AXLE_SIZE + 1]
     for k in range(2):
-        hub = 2 * i + k
-        side = 1.0 - 2.0 * k
-        h = topo[TOPOLOGY.hub_at] + hub * HUB_SIZE
-        hs = topo[TOPOLOGY.state_hub_at] + hub * len(HUB_S)
-        # tires are numbered hub by hub
-        start, count = tire, 0
-        while tire < n_tires and topo[tires_at + tire] == hub:
-            tire, count = tire + 1, count + 1
-        angle = steer + p[h + HUB.toe_rad]
-        if i == topo[TOPOLOGY.steered_axle]:
-            angle += steering.wheel_angle_rad(x, p, side, p[a + AXLE.half_track_m])
-        ts = topo[TOPOLOGY.state_tire_at] + start * len(TIRE_S)
+        h = topo[TOPOLOGY.hub_at] + (2 * i + k) * HUB_SIZE
+        hs = topo[TOPOLOGY.state_hub_at] + (2 * i + k) * len(HUB_S)
         spin = x[hs + HUB_S.spin_radps]
-        out = wheel.hub_step(x, hs, p, h, ts, topo[TOPOLOGY.tire_at] + start * TIRE_SIZE, count,
-                             len(TIRE_S), TIRE_SIZE, topo[TOPOLOGY.table_at], s, angle, place,
-                             motion, p[a + AXLE.peak_scale], circuit, drive_n, dt)
+        count = tires_of_hub(topo, first, 2 * i + k)
+        out = wheel.collect_tires(x, hs, p, h, topo, first, count, circuit, drive_n, lanes, dt)
         fx, fy, fz = fx + out[0], fy + out[1], fz + out[2]
         mx, my, mz = mx + out[3] + up * out[1], my + out[4] - up * out[0], mz + out[5]
         if i == topo[TOPOLOGY.steered_axle]:
+            ts = topo[TOPOLOGY.state_tire_at] + first * len(TIRE_S)
             gyro = -p[h + HUB.spin_inertia_kgm2] * spin * x[s + AXLE_S.roll_rate_radps]
             kingpin += steering.kingpin_moment_nm(
-                p, side, x[s + AXLE_S.roll_rad], angle, out[6],
-                (x[ts + TIRE_S.fx_n], x[ts + TIRE_S.fy_n], x[ts + TIRE_S.fz_n]),
+                p, kingpin_axis, 1.0 - 2.0 * k, x[s + AXLE_S.roll_rad], x[hs + HUB_S.steer_rad],
+                out[6], (x[ts + TIRE_S.fx_n], x[ts + TIRE_S.fy_n], x[ts + TIRE_S.fz_n]),
                 x[ts + TIRE_S.mz_nm], x[hs + HUB_S.brake_nm], gyro)
-    return fx, fy, fz, mx, my, mz, kingpin
+        first += count
+    return first, (fx, fy, fz, mx, my, mz), kingpin
 
 
 @core
 def _load_body(work: Floats, w: int, p: Floats, a: int,
-               force: tuple[float, float, float, float, float, float, float], spring_n: float,
+               force: tuple[float, float, float, float, float, float], spring_n: float,
                roll_nm: float) -> None:
     """Hand the axle's force and moments to the body at the roll centre."""
     ex, ey, ez = heading_axes(work, w)

@@ -11,8 +11,6 @@ Validated with: test/physics/test_body.py (free fall, free spin, carried mass, t
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -178,27 +176,54 @@ def twist_frame(x: Floats, s: int, p: Floats, a: int, work: Floats, w: int, dt: 
 
 
 @core
+def inverse3(a: float, b: float, c: float, d: float, e: float, f: float
+             ) -> tuple[float, float, float, float, float, float]:
+    """Inverse of the symmetric matrix (a b c; b d e; c e f), in the same order."""
+    aa, bb, cc = d * f - e * e, c * e - b * f, b * e - c * d
+    scale = 1.0 / (a * aa + b * bb + c * cc)
+    return (scale * aa, scale * bb, scale * cc, scale * (a * f - c * c), scale * (b * c - a * e),
+            scale * (a * d - b * b))
+
+
+@core
+def times3(m: tuple[float, float, float, float, float, float], x: float, y: float, z: float
+           ) -> tuple[float, float, float]:
+    """Product of a symmetric matrix, as of `inverse3`, and a vector."""
+    return (m[0] * x + m[1] * y + m[2] * z, m[1] * x + m[3] * y + m[4] * z,
+            m[2] * x + m[4] * y + m[5] * z)
+
+
+@core
 def solve_unit(x: Floats, s: int, work: Floats, w: int) -> None:
-    """Solve the 6x6 system (Cholesky, in place) and store the accelerations in the state."""
-    at = w + UNIT_W.matrix
-    for i in range(6):
-        ii = at + entry(i, i)
-        for k in range(i):
-            work[ii] -= work[at + entry(k, i)] ** 2
-        work[ii] = math.sqrt(work[ii])
-        inverse = 1.0 / work[ii]
-        for j in range(i + 1, 6):
-            ij = at + entry(i, j)
-            for k in range(i):
-                work[ij] -= work[at + entry(k, i)] * work[at + entry(k, j)]
-            work[ij] *= inverse
+    """Solve the 6x6 system and store the accelerations in the state.
+
+    Block by block: with (M B; B' J) (a, alpha) = (f, m), the moments less what the forces account
+    for, m - B' M^-1 f, turn the inertia J - B' M^-1 B; the rest accelerates M.
+    """
+    k = w + UNIT_W.matrix
+    mass = inverse3(work[k], work[k + 1], work[k + 2], work[k + 6], work[k + 7], work[k + 11])
+    # columns of B, and of M^-1 B
+    b0 = (work[k + 3], work[k + 8], work[k + 12])
+    b1 = (work[k + 4], work[k + 9], work[k + 13])
+    b2 = (work[k + 5], work[k + 10], work[k + 14])
+    c0 = times3(mass, b0[0], b0[1], b0[2])
+    c1 = times3(mass, b1[0], b1[1], b1[2])
+    c2 = times3(mass, b2[0], b2[1], b2[2])
+    inertia = inverse3(work[k + 15] - dot(b0, c0), work[k + 16] - dot(b0, c1),
+                       work[k + 17] - dot(b0, c2), work[k + 18] - dot(b1, c1),
+                       work[k + 19] - dot(b1, c2), work[k + 20] - dot(b2, c2))
     b = w + UNIT_W.fx_n
-    for i in range(6):
-        for k in range(i):
-            work[b + i] -= work[at + entry(k, i)] * work[b + k]
-        work[b + i] /= work[at + entry(i, i)]
-    for i in range(5, -1, -1):
-        for k in range(i + 1, 6):
-            work[b + i] -= work[at + entry(i, k)] * work[b + k]
-        work[b + i] /= work[at + entry(i, i)]
-        x[s + UNIT_S.ax_mps2 + i] = work[b + i]
+    force = (work[b], work[b + 1], work[b + 2])
+    turn = times3(inertia, work[b + 3] - dot(c0, force), work[b + 4] - dot(c1, force),
+                  work[b + 5] - dot(c2, force))
+    move = times3(mass, force[0], force[1], force[2])
+    for i in range(3):
+        x[s + UNIT_S.pdot_radps2 + i] = turn[i]
+        x[s + UNIT_S.ax_mps2 + i] = (move[i] - c0[i] * turn[0] - c1[i] * turn[1]
+                                     - c2[i] * turn[2])
+
+
+@core
+def dot(a: tuple[float, float, float], b: tuple[float, float, float]) -> float:
+    """Scalar product."""
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]

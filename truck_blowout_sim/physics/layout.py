@@ -6,7 +6,8 @@ Counts (units, axles, hubs, tires) come from the topology vector, so nothing her
 axles a vehicle has. Numba folds the constants.
 
 References: none, this is bookkeeping.
-Known limits: at most two units; an axle has exactly one left and one right hub.
+Known limits: at most two units; tires, the last blocks, stand side by side (`tires.lanes`); an
+axle has exactly one left and one right hub.
 Validated with: test/physics/test_layout.py.
 """
 
@@ -62,8 +63,9 @@ __all__ = [
     "STEER_AT",
     "STEP_COLUMNS",
     "TIRE",
+    "TIRE_BLOCK",
+    "TIRE_LANES",
     "TIRE_S",
-    "TIRE_SIZE",
     "TOPOLOGY",
     "TOPOLOGY_AXLE_SIZE",
     "TOPOLOGY_SIZE",
@@ -98,9 +100,10 @@ __all__ = [
 Block = TypeVar("Block", bound=tuple[Any, ...])
 
 
-def _number(block: type[Block]) -> Block:
-    """Number the fields of ``block`` 0, 1, 2 … and return the instance."""
-    return block(*range(len(block._fields)))  # type: ignore[attr-defined]
+def _number(block: type[Block], apart: int = 1) -> Block:
+    """Number the fields of ``block`` from 0, ``apart`` from each other, and return the instance."""
+    places = range(0, apart * len(block._fields), apart)  # type: ignore[attr-defined]
+    return block(*places)
 
 
 WORLD = _number(WorldParams)
@@ -112,7 +115,10 @@ CIRCUIT = _number(CircuitParams)
 UNIT = _number(UnitParams)
 AXLE = _number(AxleParams)
 HUB = _number(HubParams)
-TIRE = _number(TireParams)
+# Parameters of tires stand side by side, so that one instruction works on several tires: field by
+# field, in each the tires of a block. Tire k of a block has its field at k + TIRE.field.
+TIRE_LANES = 24
+TIRE = _number(TireParams, apart=TIRE_LANES)
 
 N_CIRCUITS = 3
 WORLD_AT = 0
@@ -126,7 +132,7 @@ UNIT_AT = CIRCUIT_AT + N_CIRCUITS * CIRCUIT_SIZE
 UNIT_SIZE = len(UNIT)
 AXLE_SIZE = len(AXLE)
 HUB_SIZE = len(HUB)
-TIRE_SIZE = len(TIRE)
+TIRE_BLOCK = len(TIRE) * TIRE_LANES
 
 TOPOLOGY = _number(Topology)
 TOPOLOGY_SIZE = len(TOPOLOGY)

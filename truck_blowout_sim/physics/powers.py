@@ -32,7 +32,6 @@ from truck_blowout_sim.physics.layout import (
     STATE_UNIT_AT,
     TIRE,
     TIRE_S,
-    TIRE_SIZE,
     TOPOLOGY,
     TOPOLOGY_AXLE_SIZE,
     TOPOLOGY_SIZE,
@@ -45,6 +44,7 @@ from truck_blowout_sim.physics.layout import (
 )
 from truck_blowout_sim.physics.rotation import fill_rotation, to_body, to_map
 from truck_blowout_sim.physics.tires import blowout
+from truck_blowout_sim.physics.tires.lanes import tire_offset
 
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
@@ -167,7 +167,7 @@ def _hub_powers(x: Floats, after: Floats, p: Floats, topo: Integers, i: int, sid
         if topo[TOPOLOGY_SIZE + topo[TOPOLOGY.n_axles] * TOPOLOGY_AXLE_SIZE + t] != hub:
             continue
         ts = topo[TOPOLOGY.state_tire_at] + t * len(TIRE_S)
-        tp = topo[TOPOLOGY.tire_at] + t * TIRE_SIZE
+        tp = topo[TOPOLOGY.tire_at] + tire_offset(t)
         arm = p[h + HUB.y_m] + p[tp + TIRE.y_m]
         radius = _rolling_radius(x, after, ts, p, tp, topo[TOPOLOGY.table_at])
         vx, vy = motion[0] - yaw * arm, motion[1]
@@ -203,4 +203,4 @@ def _rolling_radius(x: Floats, after: Floats, ts: int, p: Floats, tp: int, table
         # mid-step time: the rows of a table change at step edges
         return p[blowout.step_row(x, ts, p, table_at + int(p[tp + TIRE.table])) + 1]
     deflection = p[tp + TIRE.unloaded_radius_m] - after[ts + TIRE_S.loaded_radius_m]
-    return blowout.rolling_radius_m(p, tp, deflection, after[ts + TIRE_S.rim], -1)
+    return blowout.rolling_radius_m(p, tp, deflection, after[ts + TIRE_S.rim])

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from truck_blowout_sim.physics.jit import core
 from truck_blowout_sim.physics.layout import UNIT_S, UNIT_W
-from truck_blowout_sim.physics.trig import turned
+from truck_blowout_sim.physics.trig import heading, turned
 
 Floats = NDArray[np.float64]
 
@@ -22,7 +22,7 @@ Floats = NDArray[np.float64]
 @core
 def fill_rotation(x: Floats, s: int, work: Floats, w: int) -> None:
     """Write the rotation body -> map of the unit at state ``s`` into ``work`` at ``w``."""
-    cy, sy = math.cos(x[s + UNIT_S.yaw_rad]), math.sin(x[s + UNIT_S.yaw_rad])
+    cy, sy = heading(x[s + UNIT_S.yaw_rad])
     cp, sp = turned(x[s + UNIT_S.pitch_rad])
     cr, sr = turned(x[s + UNIT_S.roll_rad])
     work[w + UNIT_W.rxx] = cy * cp

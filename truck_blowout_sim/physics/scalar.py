@@ -14,11 +14,7 @@ from truck_blowout_sim.physics.jit import core
 @core
 def clip(value: float, low: float, high: float) -> float:
     """Limit ``value`` to [low, high]."""
-    if value < low:
-        return low
-    if value > high:
-        return high
-    return value
+    return low if value < low else (high if value > high else value)
 
 
 @core

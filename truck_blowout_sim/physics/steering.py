@@ -35,21 +35,29 @@ def wheel_angle_rad(x: Floats, p: Floats, side: float, half_track_m: float) -> f
 
 
 @core
-def kingpin_moment_nm(p: Floats, side: float, roll_rad: float, steer_rad: float, radius_m: float,
-                      force: tuple[float, float, float], aligning_nm: float, brake_nm: float,
-                      gyro_nm: float) -> float:
+def kingpin_axis(p: Floats) -> tuple[float, float, float]:
+    """Direction of the left kingpin while the axle is level: backward, inward, up; unit length."""
+    cos_c, sin_c = turned(p[STEER_AT + STEER.caster_rad])
+    cos_k, sin_k = turned(p[STEER_AT + STEER.kingpin_inclination_rad])
+    tan_c, tan_k = sin_c / cos_c, sin_k / cos_k
+    size = math.sqrt(1.0 + tan_c * tan_c + tan_k * tan_k)
+    return tan_c / size, tan_k / size, 1.0 / size
+
+
+@core
+def kingpin_moment_nm(p: Floats, axis: tuple[float, float, float], side: float, roll_rad: float,
+                      steer_rad: float, radius_m: float, force: tuple[float, float, float],
+                      aligning_nm: float, brake_nm: float, gyro_nm: float) -> float:
     """Moment [N m] about one kingpin, positive steering left.
 
-    ``force``: tire force in wheel axes (forward, left, up); ``radius_m``: loaded radius;
+    ``axis``: `kingpin_axis`; ``force``: tire force in wheel axes (forward, left, up);
+    ``radius_m``: loaded radius;
     ``brake_nm``: reaction of the brake on the knuckle; ``gyro_nm``: gyroscopic moment about z.
     """
     ct, st = turned(roll_rad)
-    tan_c = math.tan(p[STEER_AT + STEER.caster_rad])
-    tan_k = math.tan(p[STEER_AT + STEER.kingpin_inclination_rad])
-    size = math.sqrt(1.0 + tan_c * tan_c + tan_k * tan_k)
-    kx = -tan_c / size
-    ky = (-side * tan_k * ct - st) / size
-    kz = (ct - side * tan_k * st) / size
+    kx = -axis[0]
+    ky = -side * axis[1] * ct - axis[2] * st
+    kz = axis[2] * ct - side * axis[1] * st
     cd, sd = turned(steer_rad)
     fx, fy, fz = force[0] * cd - force[1] * sd, force[0] * sd + force[1] * cd, force[2]
     # spin axis, pointing left

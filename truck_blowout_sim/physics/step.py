@@ -16,10 +16,10 @@ from numpy.typing import NDArray
 
 from truck_blowout_sim.physics import abs_logic, brakes, driveline, road, steering
 from truck_blowout_sim.physics.aero import add_air
-from truck_blowout_sim.physics.axle import axle_step
+from truck_blowout_sim.physics.axle import move_axle, place_axle
 from truck_blowout_sim.physics.body import add_force, solve_unit, start_unit, twist_frame
 from truck_blowout_sim.physics.fifth_wheel import add_coupling
-from truck_blowout_sim.physics.jit import core, entry
+from truck_blowout_sim.physics.jit import core, entry, stack_floats
 from truck_blowout_sim.physics.layout import (
     ABS,
     ABS_AT,
@@ -43,6 +43,8 @@ from truck_blowout_sim.physics.layout import (
 )
 from truck_blowout_sim.physics.probe import add_probe
 from truck_blowout_sim.physics.rotation import angle_rates, fill_rotation, to_body, to_map
+from truck_blowout_sim.physics.tires.lanes import N_LANES
+from truck_blowout_sim.physics.tires.tire import tire_pass
 
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
@@ -75,10 +77,7 @@ def step(x: Floats, p: Floats, topo: Integers, inputs: Floats, dt: float, work: 
     push = p[DRIVE_AT + DRIVE.push_n]
     if push != 0.0:
         add_force(work, 0, (push, 0.0, 0.0), (0.0, 0.0, -p[UNIT_AT + UNIT.cg_height_m]))
-    kingpin = 0.0
-    for i in range(topo[TOPOLOGY.n_axles]):
-        u = topo[TOPOLOGY_SIZE + i * TOPOLOGY_AXLE_SIZE]
-        kingpin += axle_step(x, p, topo, i, work, u * UNIT_WORK_SIZE, g, drive, dt)
+    kingpin = advance_axles(x, p, topo, work, g, drive, dt)
     for u in range(n_units):
         twist_frame(x, STATE_UNIT_AT + u * N_UNIT_STATE, p, UNIT_AT + u * UNIT_SIZE, work,
                     u * UNIT_WORK_SIZE, dt)
@@ -92,6 +91,25 @@ def step(x: Floats, p: Floats, topo: Integers, inputs: Floats, dt: float, work: 
         x[s + AXLE_S.z_m] += dt * x[s + AXLE_S.vz_mps]
         x[s + AXLE_S.roll_rad] += dt * x[s + AXLE_S.roll_rate_radps]
     x[GLOBAL_S.time_s] += dt
+
+
+@core
+def advance_axles(x: Floats, p: Floats, topo: Integers, work: Floats,
+                  gravity: tuple[float, float, float], drive_n: float, dt: float) -> float:
+    """Place all tires, let one pass make their forces, move axles; the kingpin moment [N m]."""
+    lanes = stack_floats(N_LANES)
+    first = 0
+    for i in range(topo[TOPOLOGY.n_axles]):
+        w = topo[TOPOLOGY_SIZE + i * TOPOLOGY_AXLE_SIZE] * UNIT_WORK_SIZE
+        first = place_axle(x, p, topo, i, first, work, w, lanes, dt)
+    tire_pass(p, topo[TOPOLOGY.tire_at], topo[TOPOLOGY.table_at], lanes, first, dt)
+    axis = steering.kingpin_axis(p)
+    first, kingpin = 0, 0.0
+    for i in range(topo[TOPOLOGY.n_axles]):
+        w = topo[TOPOLOGY_SIZE + i * TOPOLOGY_AXLE_SIZE] * UNIT_WORK_SIZE
+        first, moment = move_axle(x, p, topo, i, first, work, w, gravity, axis, drive_n, lanes, dt)
+        kingpin += moment
+    return kingpin
 
 
 @core

@@ -1,7 +1,8 @@
-"""A hub with its tires: loads, slips, forces, spin.
+"""A hub with its tires: where they stand and how they move, what they make, how the hub spins.
 
 Duals share the hub's spin and position but each carries load by its own radius, so the survivor
-takes over from a blown partner that hangs clear.
+takes over from a blown partner that hangs clear. Between `place_tires` and `collect_tires` the pass
+of `tires.tire` runs over all tires of the truck.
 
 References: docs/physics.md, "Wheels and contact": loaded radius for shape, rolling for spin.
 Known limits: contact straight below the wheel centre; small tilt.
@@ -15,87 +16,121 @@ from numpy.typing import NDArray
 
 from truck_blowout_sim.physics import brakes, road
 from truck_blowout_sim.physics.jit import core
-from truck_blowout_sim.physics.layout import AXLE_S, HUB, HUB_S, TIRE, TIRE_S
-from truck_blowout_sim.physics.scalar import clip
+from truck_blowout_sim.physics.layout import (
+    AXLE,
+    AXLE_S,
+    HUB,
+    HUB_S,
+    STEP_COLUMNS,
+    TIRE,
+    TIRE_S,
+    TOPOLOGY,
+)
 from truck_blowout_sim.physics.tires import blowout, gas
-from truck_blowout_sim.physics.tires.tire import tire_forces
+from truck_blowout_sim.physics.tires.lanes import LANE, lane_offset, tire_offset
 from truck_blowout_sim.physics.trig import turned
 
 Floats = NDArray[np.float64]
-_STILL_RADPS = 0.5  # rolling resistance fades below this spin
+Integers = NDArray[np.int64]
+_STIFFNESS, _CORNERING, _ALIGNING, _ROLLING, _ROLLING_SPM = (
+    STEP_COLUMNS.index(name) for name in ("stiffness_npm", "cornering_scale", "aligning_scale",
+                                          "rolling_0", "rolling_spm"))
+_RADIUS = STEP_COLUMNS.index("radius_m")
 
 
 @core
-def tire_wrench(x: Floats, s: int, p: Floats, t: int, table_at: int, axle_s: int, arm_m: float,
-                place: tuple[float, float, float], velocity: tuple[float, float],
-                spin_radps: float, camber_rad: float, axle_peak: float, dt: float
-                ) -> tuple[float, float]:
-    """Forces of one tire, stored in its state; returns rolling radius [m] and hub torque [N m].
+def place_tires(x: Floats, s: int, p: Floats, h: int, a: int, axle_s: int, topo: Integers,
+                first: int, count: int, steer_rad: float,
+                place: tuple[float, float, float, float],
+                motion: tuple[float, float, float], lanes: Floats, dt: float) -> None:
+    """Fill the lanes of a hub's tires and let their air go.
 
-    ``arm_m``: lateral place on the axle; ``place``: map x, y of the contact and time;
-    ``velocity``: contact point in wheel axes.
+    ``place``: map x, y of the axle's roll centre, cosine and sine of heading. ``motion``: forward
+    and lateral velocity at the contact line of the axle's middle, yaw rate.
     """
-    ground = road.height(p, place[0], place[1])
-    above = x[axle_s + AXLE_S.z_m] + arm_m * x[axle_s + AXLE_S.roll_rad] - ground
-    sink = -(x[axle_s + AXLE_S.vz_mps] + arm_m * x[axle_s + AXLE_S.roll_rate_radps])
-    step = -1
-    if p[t + TIRE.law] > 0.0:
-        step = blowout.step_row(x, s, p, table_at + int(p[t + TIRE.table]))
-    rim = blowout.rim_fraction(p, t, above) if step < 0 else 0.0
-    gas.advance_pressure(x, s, p, t, rim, dt)
-    x[s + TIRE_S.rim] = rim
-    fz, deflection = blowout.vertical_load(x, s, p, t, above, sink, step)
-    radius = blowout.rolling_radius_m(p, t, deflection, rim, step)
-    mu = road.friction(p, place[2], place[0], place[1])
-    fx, fy, mz = tire_forces(x, s, p, t, table_at, fz, rim, step, velocity[0], velocity[1],
-                             spin_radps * radius, camber_rad, mu, axle_peak, dt)
-    inflation = x[s + TIRE_S.pressure_pa] / p[t + TIRE.reference_pressure_pa]
-    f = blowout.rolling_coefficient(p, t, inflation, deflection, rim, abs(velocity[0]), step)
-    rolling = f * fz * radius * clip(spin_radps / _STILL_RADPS, -1.0, 1.0)
-    x[s + TIRE_S.fx_n], x[s + TIRE_S.fy_n], x[s + TIRE_S.fz_n] = fx, fy, fz
-    x[s + TIRE_S.mz_nm], x[s + TIRE_S.rolling_nm] = mz, rolling
-    x[s + TIRE_S.loaded_radius_m] = above
-    return radius, -fx * radius - rolling
+    cd, sd = turned(steer_rad)
+    sin_camber = turned(p[h + HUB.camber_rad] - x[axle_s + AXLE_S.roll_rad])[1]
+    x[s + HUB_S.steer_rad] = steer_rad
+    for k in range(first, first + count):
+        ts = topo[TOPOLOGY.state_tire_at] + k * len(TIRE_S)
+        t, w = topo[TOPOLOGY.tire_at] + tire_offset(k), lane_offset(k)
+        arm = p[h + HUB.y_m] + p[t + TIRE.y_m]
+        vx, vy = motion[0] - motion[2] * arm, motion[1]
+        at_x, at_y = place[0] - place[3] * arm, place[1] + place[2] * arm
+        lanes[w + LANE.vx_mps] = vx * cd + vy * sd
+        lanes[w + LANE.vy_mps] = vy * cd - vx * sd
+        lanes[w + LANE.spin_radps] = x[s + HUB_S.spin_radps]
+        above = x[axle_s + AXLE_S.z_m] + arm * x[axle_s + AXLE_S.roll_rad] - road.height(
+            p, at_x, at_y)
+        lanes[w + LANE.above_m] = above
+        lanes[w + LANE.sink_mps] = -(x[axle_s + AXLE_S.vz_mps]
+                                     + arm * x[axle_s + AXLE_S.roll_rate_radps])
+        lanes[w + LANE.sin_camber] = sin_camber
+        lanes[w + LANE.friction] = road.friction(p, x[0], at_x, at_y)
+        lanes[w + LANE.axle_peak] = p[a + AXLE.peak_scale]
+        lanes[w + LANE.arm_m] = arm
+        lanes[w + LANE.cos_steer], lanes[w + LANE.sin_steer] = cd, sd
+        lanes[w + LANE.slip] = x[ts + TIRE_S.slip]
+        lanes[w + LANE.slip_tan] = x[ts + TIRE_S.slip_tan]
+        inflate(x, ts, p, t, topo[TOPOLOGY.table_at], above, lanes, w, dt)
 
 
 @core
-def hub_step(x: Floats, s: int, p: Floats, h: int, tire_s: int, t: int, n_tires: int, n_state: int,
-             n_param: int, table_at: int, axle_s: int, steer_rad: float,
-             place: tuple[float, float, float, float, float],
-             motion: tuple[float, float, float], axle_peak: float, circuit: int, drive_n: float,
-             dt: float) -> tuple[float, float, float, float, float, float, float]:
-    """All tires of one hub and its spin for one step.
+def inflate(x: Floats, s: int, p: Floats, t: int, table_at: int, above_m: float, lanes: Floats,
+            w: int, dt: float) -> None:
+    """Air and law of one tire: what the pass over all tires cannot do without branches."""
+    stepped = p[t + TIRE.law] > 0.0
+    lanes[w + LANE.stepped] = 1.0 if stepped else 0.0
+    if stepped:
+        row = blowout.step_row(x, s, p, table_at + int(p[t + TIRE.table]))
+        lanes[w + LANE.row_radius_m] = p[row + _RADIUS]
+        lanes[w + LANE.row_stiffness_npm] = p[row + _STIFFNESS]
+        lanes[w + LANE.row_cornering] = p[row + _CORNERING]
+        lanes[w + LANE.row_aligning] = p[row + _ALIGNING]
+        lanes[w + LANE.row_rolling] = (p[row + _ROLLING]
+                                       + p[row + _ROLLING_SPM] * abs(lanes[w + LANE.vx_mps]))
+    if gas.leaks(x, s, p, t):
+        rim = 0.0 if stepped else blowout.rim_fraction(p, t, above_m)
+        gas.advance_pressure(x, s, p, t, rim, dt)
+    lanes[w + LANE.pressure_pa] = x[s + TIRE_S.pressure_pa]
+    lanes[w + LANE.softness] = blowout.softness(p, t, x[s + TIRE_S.pressure_pa])
 
-    ``place``: map x, y of the axle's roll centre, cosine and sine of heading, time.
-    ``motion``: forward and lateral velocity at the contact line of the axle's middle, yaw rate.
+
+@core
+def collect_tires(x: Floats, s: int, p: Floats, h: int, topo: Integers, first: int, count: int,
+                  circuit: int, drive_n: float, lanes: Floats, dt: float
+                  ) -> tuple[float, float, float, float, float, float, float]:
+    """Keep what a hub's tires made, and advance its spin.
+
     Returns, in heading axes about the axle's middle at the ground: fx, fy, fz [N], roll moment of
     the vertical forces, pitch couple, yaw moment [N m]; last the loaded radius [m].
     """
-    cd, sd = turned(steer_rad)
-    camber = p[h + HUB.camber_rad] - x[axle_s + AXLE_S.roll_rad]
     spin = x[s + HUB_S.spin_radps]
     fx_sum, fy_sum, fz_sum, mx, my, mz_sum = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
     torque, radius, above = 0.0, 0.0, 0.0
-    for k in range(n_tires):
-        ts, tp = tire_s + k * n_state, t + k * n_param
-        arm = p[h + HUB.y_m] + p[tp + TIRE.y_m]
-        vx, vy = motion[0] - motion[2] * arm, motion[1]
-        contact = (place[0] - place[3] * arm, place[1] + place[2] * arm, place[4])
-        radius, hub_nm = tire_wrench(x, ts, p, tp, table_at, axle_s, arm, contact,
-                                     (vx * cd + vy * sd, vy * cd - vx * sd), spin, camber,
-                                     axle_peak, dt)
-        fx, fy, fz = x[ts + TIRE_S.fx_n], x[ts + TIRE_S.fy_n], x[ts + TIRE_S.fz_n]
-        above = x[ts + TIRE_S.loaded_radius_m]
+    for k in range(first, first + count):
+        ts, w = topo[TOPOLOGY.state_tire_at] + k * len(TIRE_S), lane_offset(k)
+        fx, fy, fz = lanes[w + LANE.fx_n], lanes[w + LANE.fy_n], lanes[w + LANE.fz_n]
+        mz, rolling = lanes[w + LANE.mz_nm], lanes[w + LANE.rolling_nm]
+        arm, above = lanes[w + LANE.arm_m], lanes[w + LANE.above_m]
+        radius = lanes[w + LANE.radius_m]
+        cd, sd = lanes[w + LANE.cos_steer], lanes[w + LANE.sin_steer]
+        hub_nm = -fx * radius - rolling
         gx, gy = fx * cd - fy * sd, fx * sd + fy * cd
         fx_sum, fy_sum, fz_sum = fx_sum + gx, fy_sum + gy, fz_sum + fz
         mx += arm * fz
         my += fx * above + hub_nm
-        mz_sum += x[ts + TIRE_S.mz_nm] - arm * gx
+        mz_sum += mz - arm * gx
         torque += hub_nm
-    x[s + HUB_S.steer_rad] = steer_rad
-    drive_nm = drive_n * p[h + HUB.drive_share] * radius
+        x[ts + TIRE_S.slip] = lanes[w + LANE.slip]
+        x[ts + TIRE_S.slip_tan] = lanes[w + LANE.slip_tan]
+        x[ts + TIRE_S.rim] = lanes[w + LANE.rim]
+        x[ts + TIRE_S.fx_n], x[ts + TIRE_S.fy_n], x[ts + TIRE_S.fz_n] = fx, fy, fz
+        x[ts + TIRE_S.mz_nm], x[ts + TIRE_S.rolling_nm] = mz, rolling
+        x[ts + TIRE_S.loaded_radius_m] = above
     inertia = p[h + HUB.spin_inertia_kgm2]
     brake_nm = brakes.torque_nm(x, s, p, h, circuit)
+    drive_nm = drive_n * p[h + HUB.drive_share] * radius
     brakes.advance_spin(x, s, inertia, torque + drive_nm, brake_nm, dt)
     my -= inertia * (x[s + HUB_S.spin_radps] - spin) / dt
     return fx_sum, fy_sum, fz_sum, mx, my, mz_sum, above

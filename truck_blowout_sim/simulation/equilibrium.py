@@ -24,7 +24,6 @@ from truck_blowout_sim.physics.layout import (
     STATE_UNIT_AT,
     TIRE,
     TIRE_S,
-    TIRE_SIZE,
     TOPOLOGY,
     UNIT,
     UNIT_AT,
@@ -33,6 +32,7 @@ from truck_blowout_sim.physics.layout import (
 )
 from truck_blowout_sim.physics.steering import commanded_rad
 from truck_blowout_sim.physics.step import step
+from truck_blowout_sim.physics.tires.lanes import tire_offset
 from truck_blowout_sim.simulation.inputs import STANDSTILL, Inputs
 from truck_blowout_sim.vehicle import Packed
 
@@ -97,7 +97,7 @@ def _design_state(packed: Packed, initial: InitialState) -> Floats:
         x[s + AXLE_S.z_m] = p[topo[TOPOLOGY.axle_at] + i * AXLE_SIZE + AXLE.center_height_m]
     for t in range(topo[TOPOLOGY.n_tires]):
         s = topo[TOPOLOGY.state_tire_at] + t * len(TIRE_S)
-        a = topo[TOPOLOGY.tire_at] + t * TIRE_SIZE
+        a = topo[TOPOLOGY.tire_at] + tire_offset(t)
         x[s + TIRE_S.pressure_pa] = p[a + TIRE.pressure_pa]
         x[s + TIRE_S.blown_time_s] = np.inf
         hub = topo[topo.size - topo[TOPOLOGY.n_tires] + t]

@@ -37,27 +37,24 @@ def step_row(x: Floats, s: int, p: Floats, table: int) -> int:
 
 
 @core
-def vertical_load(x: Floats, s: int, p: Floats, t: int, height_m: float, sink_mps: float,
-                  step: int) -> tuple[float, float]:
+def vertical_load(p: Floats, t: int, gauge_pa: float, height_m: float, sink_mps: float,
+                  stepped: bool, row_radius_m: float, row_stiffness_npm: float
+                  ) -> tuple[float, float]:
     """Load [N] and deflection [m] of a tire whose center is ``height_m`` above the road.
 
-    ``sink_mps`` is the rate of compression; ``step`` the row of a step table or -1.
+    ``sink_mps`` is the rate of compression; ``stepped``: a row of a step table rules the tire.
     """
-    radius = p[t + TIRE.unloaded_radius_m]
-    stiffness = (p[t + TIRE.stiffness_npm]
-                 + p[t + TIRE.stiffness_npmppa] * x[s + TIRE_S.pressure_pa])
-    if step >= 0:
-        # rows give the radius under the reference load
-        stiffness = p[step + 2]
-        radius = p[step + 1] + p[t + TIRE.reference_load_n] / stiffness
+    sound = p[t + TIRE.stiffness_npm] + p[t + TIRE.stiffness_npmppa] * gauge_pa
+    stiffness = row_stiffness_npm if stepped else sound
+    # rows give the radius under the reference load
+    free = row_radius_m + p[t + TIRE.reference_load_n] / stiffness
+    radius = free if stepped else p[t + TIRE.unloaded_radius_m]
     deflection = radius - height_m
-    if deflection <= 0.0:
-        return 0.0, deflection
-    load = stiffness * deflection + p[t + TIRE.damping_nspm] * sink_mps
     crush = p[t + TIRE.rim_contact_radius_m] - height_m
-    if crush > 0.0 and step < 0:
-        load += p[t + TIRE.rim_stiffness_npm] * crush + p[t + TIRE.rim_damping_nspm] * sink_mps
-    return max(load, 0.0), deflection
+    rim = p[t + TIRE.rim_stiffness_npm] * crush + p[t + TIRE.rim_damping_nspm] * sink_mps
+    rim = 0.0 if stepped or crush <= 0.0 else rim
+    load = stiffness * deflection + p[t + TIRE.damping_nspm] * sink_mps + rim
+    return max(load, 0.0) if deflection > 0.0 else 0.0, deflection
 
 
 @core
@@ -73,27 +70,30 @@ def collapse(p: Floats, t: int, inflation: float) -> float:
 
 
 @core
-def rolling_radius_m(p: Floats, t: int, deflection_m: float, rim: float, step: int) -> float:
+def rolling_radius_m(p: Floats, t: int, deflection_m: float, rim: float) -> float:
     """Effective rolling radius [m]: a flat steel belt still rolls its own length."""
-    if step >= 0:
-        return p[step + 1]
     free = p[t + TIRE.unloaded_radius_m] - p[t + TIRE.radius_fraction] * max(deflection_m, 0.0)
     return free + rim * (p[t + TIRE.flat_radius_m] - free) + p[t + TIRE.radius_offset_m]
 
 
 @core
+def softness(p: Floats, t: int, gauge_pa: float) -> float:
+    """Factor of rolling resistance at a pressure away from the reference one."""
+    reference = p[t + TIRE.reference_pressure_pa]
+    if abs(gauge_pa - reference) <= 0.05 * reference:
+        return 1.0
+    return max(gauge_pa / reference, 0.05) ** (-p[t + TIRE.rolling_pressure_exponent])
+
+
+@core
 def rolling_coefficient(p: Floats, t: int, inflation: float, deflection_m: float, rim: float,
-                        speed_mps: float, step: int) -> float:
-    """Rolling resistance per load: f = f0 + fV V, more when soft, the flat's drag when collapsed.
+                        speed_mps: float, soft: float) -> float:
+    """Rolling resistance per load: (f0 + fV V) times `softness`, the flat's drag when collapsed.
 
     A carcass without air is folded as far as it is pressed: flat duals that carry little stop short
     of the rim and drag nearly as much as on it.
     """
-    if step >= 0:
-        return p[step + 5] + p[step + 6] * speed_mps
-    f = p[t + TIRE.rolling_0] + p[t + TIRE.rolling_spm] * speed_mps
-    if abs(inflation - 1.0) > 0.05:
-        f *= max(inflation, 0.05) ** (-p[t + TIRE.rolling_pressure_exponent])
+    f = (p[t + TIRE.rolling_0] + p[t + TIRE.rolling_spm] * speed_mps) * soft
     way = p[t + TIRE.unloaded_radius_m] - p[t + TIRE.rim_radius_m]
     folded = collapse(p, t, inflation) * clip(deflection_m / way, 0.0, 1.0)
     return f + max(rim, folded) * (p[t + TIRE.flat_rolling] * p[t + TIRE.flat_drag_scale] - f)

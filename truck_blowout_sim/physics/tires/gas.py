@@ -46,13 +46,17 @@ def pressure_rate_paps(p_abs_pa: float, p0_abs_pa: float, ambient_pa: float, tem
 
 
 @core
-def advance_pressure(x: Floats, s: int, p: Floats, t: int, rim: float, dt: float) -> None:
-    """Let the tire at state ``s`` and parameters ``t`` lose air for ``dt``; ``rim`` is rho now."""
+def leaks(x: Floats, s: int, p: Floats, t: int) -> bool:
+    """Whether the tire is losing air now; a failure by itself begins here."""
     if x[0] >= p[t + TIRE.blow_time_s] and x[s + TIRE_S.blown_time_s] == np.inf:
         x[s + TIRE_S.blown_time_s] = p[t + TIRE.blow_time_s]
+    return x[s + TIRE_S.blown_time_s] <= x[0] and x[s + TIRE_S.pressure_pa] > 0.0
+
+
+@core
+def advance_pressure(x: Floats, s: int, p: Floats, t: int, rim: float, dt: float) -> None:
+    """Let the tire at state ``s`` and parameters ``t`` lose air for ``dt``; ``rim`` is rho now."""
     gauge = x[s + TIRE_S.pressure_pa]
-    if x[s + TIRE_S.blown_time_s] > x[0] or gauge <= 0.0:
-        return
     ambient = p[WORLD_AT + WORLD.air_pressure_pa]
     loss = p[t + TIRE.flat_volume_fraction]
     volume = p[t + TIRE.volume_m3] * (1.0 - loss * rim)

@@ -42,15 +42,14 @@ def interpolate(p: Floats, at: int, which: int, slip_rad: float, fz_n: float) ->
 
 @core
 def forces(p: Floats, t: int, at: int, fz_n: float, slip: float, slip_tan: float,
-           friction: float, axle_peak: float, cornering_scale: float, aligning_scale: float
-           ) -> tuple[float, float, float]:
-    """Forces [N] and aligning moment [N m], rolling forward; scales of the blown tire's step."""
+           friction: float, axle_peak: float) -> tuple[float, float, float]:
+    """Forces [N] and aligning moment [N m] of a whole tire, rolling forward."""
     peak_x, _, stiffness_x = limits(p, t, fz_n, friction, axle_peak)
     mu = friction * p[t + TIRE.friction_scale]
     fx = peak_x * shape(stiffness_x * slip / peak_x, p[t + TIRE.shape_x], p[t + TIRE.curvature_x])
     alpha = arctan(slip_tan)
     side = 1.0 if alpha >= 0.0 else -1.0
     rest = math.sqrt(max(1.0 - (fx / peak_x) ** 2, 0.0))
-    fy = side * interpolate(p, at, 0, abs(alpha), fz_n) * mu * axle_peak * cornering_scale * rest
-    mz = -side * interpolate(p, at, 1, abs(alpha), fz_n) * aligning_scale * rest
+    fy = side * interpolate(p, at, 0, abs(alpha), fz_n) * mu * axle_peak * rest
+    mz = -side * interpolate(p, at, 1, abs(alpha), fz_n) * rest
     return fx, fy, mz

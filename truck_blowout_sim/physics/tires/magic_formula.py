@@ -20,6 +20,7 @@ from truck_blowout_sim.physics.layout import TIRE
 from truck_blowout_sim.physics.trig import arctan, cosine, sine
 
 Floats = NDArray[np.float64]
+_LEAST_SLIP = 1e-9  # below it the curve is its tangent
 
 
 @core
@@ -50,9 +51,9 @@ def pneumatic_trail_m(p: Floats, t: int, fz_n: float, inflation: float, alpha_ra
     q = max(inflation, p[t + TIRE.pressure_valid])
     ratio = fz_n / p[t + TIRE.reference_load_n]
     level, slope = p[t + TIRE.trail_0], p[t + TIRE.trail_load]
-    if 2.0 * slope * ratio > level + slope:
-        # load times trail is a parabola: beyond its vertex there are no data, so it is held there
-        ratio = 0.5 * (level + slope) / slope
+    # load times trail is a parabola: beyond its vertex there are no data, so it is held there
+    vertex = 0.5 * (level + slope) / slope
+    ratio = vertex if 2.0 * slope * ratio > level + slope else ratio
     base = level - slope * (ratio - 1.0)
     stretch = 1.0 + p[t + TIRE.trail_pressure] * (1.0 - q)
     decay = cosine(p[t + TIRE.trail_shape] * arctan(p[t + TIRE.trail_stretch] * alpha_rad))
@@ -84,9 +85,7 @@ def forces(p: Floats, t: int, fz_n: float, inflation: float, slip: float, slip_t
     alpha = arctan(slip_tan)
     sx = stiffness_x * slip / peak_x
     sy = cornering * alpha / peak_y
-    total = math.sqrt(sx * sx + sy * sy)
-    if total < 1e-9:
-        return stiffness_x * slip, cornering * alpha, 0.0
+    total = max(math.sqrt(sx * sx + sy * sy), _LEAST_SLIP)
     fx = peak_x * shape(total, p[t + TIRE.shape_x], p[t + TIRE.curvature_x]) * sx / total
     fy = peak_y * shape(total, p[t + TIRE.shape_y], p[t + TIRE.curvature_y]) * sy / total
     return fx, fy, -pneumatic_trail_m(p, t, fz_n, inflation, alpha) * fy

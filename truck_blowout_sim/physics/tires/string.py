@@ -23,7 +23,7 @@ _LEAST_MPS = 1e-3  # of travel, in the slip of a sliding contact
 @core
 def lag(value: float, speed: float, drive: float, length_m: float, dt: float) -> float:
     """Implicit step of length * ds/dt + |speed| s = drive."""
-    return (value + dt * drive / length_m) / (1.0 + dt * abs(speed) / length_m)
+    return (value * length_m + dt * drive) / (length_m + dt * abs(speed))
 
 
 @core
@@ -35,9 +35,7 @@ def kept_share(slip: float, slip_tan: float, grip_x: float, grip_y: float,
     slide_y_mps``: slip speeds of the contact, of the signs of the slips they lead to.
     """
     x, y = slip * grip_x, slip_tan * grip_y
-    stretch = math.sqrt(x * x + y * y)
-    if stretch <= 1.0:
-        return 1.0
+    stretch = max(math.sqrt(x * x + y * y), 1.0)
     travel = max(abs(speed_mps), _LEAST_MPS)
     # what the sliding of this moment sustains, along the stretch
     sustained = (x * slide_x_mps * grip_x + y * slide_y_mps * grip_y) / (travel * stretch)

@@ -1,9 +1,9 @@
-"""One tire: slip lag, force, moment, at whatever state of inflation.
+"""All tires of a truck in one pass: load, slip, forces, moments, at whatever state of inflation.
 
-References: Pacejka, Tire and Vehicle Dynamics, chapter 5; `string`, `blowout`.
+References: Pacejka, Tire and Vehicle Dynamics, chapter 5; `string`, `blowout`, `magic_formula`.
 Known limits: camber thrust without lag, none on map tires; a standing tire has no trail.
 Validated with: test/physics/test_tire.py (steady state, relaxation length, standing spring, flat,
-trail in reverse).
+trail in reverse); test/physics/test_lanes.py (lanes do not touch each other).
 """
 
 from __future__ import annotations
@@ -12,73 +12,140 @@ import numpy as np
 from numpy.typing import NDArray
 
 from truck_blowout_sim.physics.jit import core
-from truck_blowout_sim.physics.layout import TIRE, TIRE_S
+from truck_blowout_sim.physics.layout import TIRE, TIRE_BLOCK, TIRE_LANES
 from truck_blowout_sim.physics.scalar import clip
 from truck_blowout_sim.physics.tires import blowout, linear, lookup_map, magic_formula
+from truck_blowout_sim.physics.tires.lanes import LANE, LANE_BLOCK, whole_vectors
 from truck_blowout_sim.physics.tires.string import kept_share, lag
-from truck_blowout_sim.physics.trig import turned
 
 Floats = NDArray[np.float64]
+MAGIC_FORMULA, LOOKUP_MAP, LINEAR = 0.0, 1.0, 2.0  # TIRE.model
 _STANDSTILL_MPS = 0.5  # below it the string gets a damper, so that a standing truck does not ring
+_STANDSTILL_DAMPING = 0.2  # slip per m/s
+_STILL_RADPS = 0.5  # rolling resistance fades below this spin
 
 
 @core
-def tire_forces(x: Floats, s: int, p: Floats, t: int, table_at: int, fz_n: float, rim: float,
-                step: int, vx_mps: float, vy_mps: float, roll_mps: float, camber_rad: float,
-                friction: float, axle_peak: float, dt: float) -> tuple[float, float, float]:
-    """Advance the slip lag by ``dt`` and return fx, fy [N] and mz [N m] in wheel axes.
+def tire_pass(p: Floats, tires_at: int, table_at: int, lanes: Floats, n_tires: int, dt: float
+              ) -> None:
+    """Advance slips and fill forces of all tires, whose inputs stand in ``lanes``."""
+    done, t, w = 0, tires_at, 0
+    while done < n_tires:
+        n = min(n_tires - done, TIRE_LANES)
+        for k in range(whole_vectors(n)):
+            carry(p, t + k, lanes, w + k)
+            stretch(p, t + k, lanes, w + k, dt)
+            magic_formula_forces(p, t + k, lanes, w + k)
+        others = 0.0
+        for k in range(n):
+            others += p[t + k + TIRE.model]
+        if others > MAGIC_FORMULA:
+            for k in range(n):
+                if p[t + k + TIRE.model] != MAGIC_FORMULA:
+                    other_forces(p, t + k, table_at, lanes, w + k)
+        for k in range(whole_vectors(n)):
+            soften(p, t + k, lanes, w + k)
+        done, t, w = done + n, t + TIRE_BLOCK, w + LANE_BLOCK
 
-    ``vx_mps, vy_mps``: contact point in wheel axes; ``roll_mps``: spin times rolling radius.
-    """
-    inflation = x[s + TIRE_S.pressure_pa] / p[t + TIRE.reference_pressure_pa]
-    model = int(p[t + TIRE.model])
-    if model == 2:
-        cornering = p[t + TIRE.linear_cornering_nprad] * p[t + TIRE.cornering_scale]
-        peak_x = linear.limit_n(p, t, fz_n, friction, axle_peak)
-        peak_y, slope_x = peak_x, p[t + TIRE.linear_slip_n]
-    else:
-        cornering = magic_formula.cornering_stiffness_nprad(p, t, fz_n, inflation)
-        peak_x, peak_y, slope_x = magic_formula.limits(p, t, fz_n, friction, axle_peak)
-    soft = max(rim, blowout.collapse(p, t, inflation))
-    flat = 1.0 - soft * (1.0 - p[t + TIRE.flat_cornering] * p[t + TIRE.flat_cornering_scale])
+
+@core
+def carry(p: Floats, t: int, lanes: Floats, w: int) -> None:
+    """Rim contact, vertical load, radius and rolling resistance of the tire in lane ``w``."""
+    stepped = lanes[w + LANE.stepped] > 0.0
+    gauge, above = lanes[w + LANE.pressure_pa], lanes[w + LANE.above_m]
+    rim = 0.0 if stepped else blowout.rim_fraction(p, t, above)
+    fz, deflection = blowout.vertical_load(
+        p, t, gauge, above, lanes[w + LANE.sink_mps], stepped, lanes[w + LANE.row_radius_m],
+        lanes[w + LANE.row_stiffness_npm])
+    radius = blowout.rolling_radius_m(p, t, deflection, rim)
+    radius = lanes[w + LANE.row_radius_m] if stepped else radius
+    inflation = gauge / p[t + TIRE.reference_pressure_pa]
+    f = blowout.rolling_coefficient(p, t, inflation, deflection, rim,
+                                    abs(lanes[w + LANE.vx_mps]), lanes[w + LANE.softness])
+    f = lanes[w + LANE.row_rolling] if stepped else f
+    lanes[w + LANE.rim] = rim
+    lanes[w + LANE.fz_n] = fz
+    lanes[w + LANE.radius_m] = radius
+    lanes[w + LANE.rolling_nm] = f * fz * radius * clip(
+        lanes[w + LANE.spin_radps] / _STILL_RADPS, -1.0, 1.0)
+
+
+@core
+def stretch(p: Floats, t: int, lanes: Floats, w: int, dt: float) -> None:
+    """Advance the slips of the tire in lane ``w`` by ``dt``; see `string`."""
+    vx, slide_y = lanes[w + LANE.vx_mps], -lanes[w + LANE.vy_mps]
+    slide_x = lanes[w + LANE.spin_radps] * lanes[w + LANE.radius_m] - vx
+    fz, rim = lanes[w + LANE.fz_n], lanes[w + LANE.rim]
+    road, axle_peak = lanes[w + LANE.friction], lanes[w + LANE.axle_peak]
+    inflation = lanes[w + LANE.pressure_pa] / p[t + TIRE.reference_pressure_pa]
+    straight = p[t + TIRE.model] == LINEAR
+    bent = magic_formula.cornering_stiffness_nprad(p, t, fz, inflation)
+    cornering = p[t + TIRE.linear_cornering_nprad] * p[t + TIRE.cornering_scale]
+    cornering = cornering if straight else bent
+    peak_x, peak_y, slope_x = magic_formula.limits(p, t, fz, road, axle_peak)
+    limit = linear.limit_n(p, t, fz, road, axle_peak)
+    peak_x, peak_y = limit if straight else peak_x, limit if straight else peak_y
+    slope_x = p[t + TIRE.linear_slip_n] if straight else slope_x
     length_y = cornering / p[t + TIRE.lateral_stiffness_npm]
     length_y = max(length_y + rim * (p[t + TIRE.flat_relaxation_m] - length_y), 0.02)
     length_y *= p[t + TIRE.relaxation_scale]
-    stiffness_x = fz_n * p[t + TIRE.slip_stiffness]
-    length_x = max(stiffness_x / p[t + TIRE.longitudinal_stiffness_npm], 0.05)
-    slip = clip(lag(x[s + TIRE_S.slip], vx_mps, roll_mps - vx_mps, length_x, dt), -1.0, 1.0)
-    tan = clip(lag(x[s + TIRE_S.slip_tan], vx_mps, -vy_mps, length_y, dt), -3.0, 3.0)
-    if peak_x > 0.0:
-        kept = kept_share(slip, tan, slope_x / peak_x, cornering / peak_y, roll_mps - vx_mps,
-                          -vy_mps, vx_mps)
-        slip, tan = kept * slip, kept * tan
-    x[s + TIRE_S.slip] = slip
-    x[s + TIRE_S.slip_tan] = tan
-    if fz_n <= 0.0:
-        return 0.0, 0.0, 0.0
-    if abs(vx_mps) < _STANDSTILL_MPS:
-        rest = 1.0 - abs(vx_mps) / _STANDSTILL_MPS
-        slip = clip(slip + 0.2 * rest * (roll_mps - vx_mps), -1.0, 1.0)
-        tan = clip(tan - 0.2 * rest * vy_mps, -3.0, 3.0)
+    length_x = fz * p[t + TIRE.slip_stiffness] / p[t + TIRE.longitudinal_stiffness_npm]
+    slip = clip(lag(lanes[w + LANE.slip], vx, slide_x, max(length_x, 0.05), dt), -1.0, 1.0)
+    tan = clip(lag(lanes[w + LANE.slip_tan], vx, slide_y, length_y, dt), -3.0, 3.0)
+    kept = kept_share(slip, tan, slope_x / peak_x, cornering / peak_y, slide_x, slide_y, vx)
+    kept = kept if peak_x > 0.0 else 1.0
+    slip, tan = kept * slip, kept * tan
+    lanes[w + LANE.slip] = slip
+    lanes[w + LANE.slip_tan] = tan
+    damping = _STANDSTILL_DAMPING * max(1.0 - abs(vx) / _STANDSTILL_MPS, 0.0)
+    lanes[w + LANE.force_slip] = clip(slip + damping * slide_x, -1.0, 1.0)
+    lanes[w + LANE.force_slip_tan] = clip(tan + damping * slide_y, -3.0, 3.0)
+    lanes[w + LANE.cornering_nprad] = cornering
+    lanes[w + LANE.soft] = max(rim, blowout.collapse(p, t, inflation))
+
+
+@core
+def magic_formula_forces(p: Floats, t: int, lanes: Floats, w: int) -> None:
+    """Forces of the tire in lane ``w`` while it is whole."""
+    inflation = lanes[w + LANE.pressure_pa] / p[t + TIRE.reference_pressure_pa]
+    fx, fy, mz = magic_formula.forces(
+        p, t, lanes[w + LANE.fz_n], inflation, lanes[w + LANE.force_slip],
+        lanes[w + LANE.force_slip_tan], lanes[w + LANE.friction], lanes[w + LANE.axle_peak],
+        lanes[w + LANE.cornering_nprad])
+    lanes[w + LANE.fx_n], lanes[w + LANE.fy_n], lanes[w + LANE.mz_nm] = fx, fy, mz
+
+
+@core
+def other_forces(p: Floats, t: int, table_at: int, lanes: Floats, w: int) -> None:
+    """As `magic_formula_forces`, of a map tire or a linear one."""
+    fz, road = lanes[w + LANE.fz_n], lanes[w + LANE.friction]
+    slip, tan = lanes[w + LANE.force_slip], lanes[w + LANE.force_slip_tan]
+    if p[t + TIRE.model] == LOOKUP_MAP:
+        fx, fy, mz = lookup_map.forces(p, t, table_at + int(p[t + TIRE.map_table]), fz, slip, tan,
+                                       road, lanes[w + LANE.axle_peak])
+    else:
+        fx, fy, mz = linear.forces(p, t, fz, slip, tan, road, lanes[w + LANE.axle_peak],
+                                   lanes[w + LANE.cornering_nprad])
+    lanes[w + LANE.fx_n], lanes[w + LANE.fy_n], lanes[w + LANE.mz_nm] = fx, fy, mz
+
+
+@core
+def soften(p: Floats, t: int, lanes: Floats, w: int) -> None:
+    """What is left of the forces of a tire that loses its air; camber thrust; side of the trail."""
+    stepped, soft = lanes[w + LANE.stepped] > 0.0, lanes[w + LANE.soft]
+    fz, mapped = lanes[w + LANE.fz_n], p[t + TIRE.model] == LOOKUP_MAP
+    flat = 1.0 - soft * (1.0 - p[t + TIRE.flat_cornering] * p[t + TIRE.flat_cornering_scale])
+    flat = lanes[w + LANE.row_cornering] if stepped else flat
+    trail = 1.0 - soft * (1.0 - p[t + TIRE.flat_trail])
+    trail = lanes[w + LANE.row_aligning] if stepped else trail
     # the contact trails behind the wheel: on the other side of it in reverse
-    ahead = clip(vx_mps / _STANDSTILL_MPS, -1.0, 1.0)
-    if model == 1:
-        scale_y = p[step + 3] if step >= 0 else flat
-        scale_m = p[step + 4] if step >= 0 else 1.0 - rim * (1.0 - p[t + TIRE.flat_trail])
-        scale_m *= ahead
-        return lookup_map.forces(p, t, table_at + int(p[t + TIRE.map_table]), fz_n, slip, tan,
-                                 friction, axle_peak, scale_y, scale_m)
-    if model == 2:
-        fx, fy, mz = linear.forces(p, t, fz_n, slip, tan, friction, axle_peak, cornering)
-    else:
-        fx, fy, mz = magic_formula.forces(p, t, fz_n, inflation, slip, tan, friction, axle_peak,
-                                          cornering)
-    mz *= ahead
-    if step >= 0:
-        flat = p[step + 3]
-        mz *= p[step + 4]
-    else:
-        mz *= 1.0 - soft * (1.0 - p[t + TIRE.flat_trail])
+    trail *= clip(lanes[w + LANE.vx_mps] / _STANDSTILL_MPS, -1.0, 1.0)
     camber = p[t + TIRE.camber_gain] * (1.0 - soft * (1.0 - p[t + TIRE.flat_camber]))
-    limit = p[t + TIRE.peak_y] * fz_n * friction * p[t + TIRE.friction_scale]
-    return fx, clip(fy * flat + camber * fz_n * turned(camber_rad)[1], -limit, limit), mz
+    camber = 0.0 if mapped else camber
+    limit = p[t + TIRE.peak_y] * fz * lanes[w + LANE.friction] * p[t + TIRE.friction_scale]
+    limit = np.inf if mapped else limit
+    fy = clip(lanes[w + LANE.fy_n] * flat + camber * fz * lanes[w + LANE.sin_camber], -limit, limit)
+    # no load, no force
+    lanes[w + LANE.fx_n] = lanes[w + LANE.fx_n] if fz > 0.0 else 0.0
+    lanes[w + LANE.fy_n] = fy if fz > 0.0 else 0.0
+    lanes[w + LANE.mz_nm] = lanes[w + LANE.mz_nm] * trail if fz > 0.0 else 0.0

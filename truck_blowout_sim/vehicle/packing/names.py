@@ -9,6 +9,7 @@ from typing import Any
 
 from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.physics import layout
+from truck_blowout_sim.physics.tires.lanes import tire_offset
 from truck_blowout_sim.vehicle.document import Place
 from truck_blowout_sim.vehicle.schema.axle import CIRCUITS
 from truck_blowout_sim.vehicle.vehicle import Vehicle
@@ -49,9 +50,18 @@ def parameter_blocks(vehicle: Vehicle) -> list[tuple[str, type[Any]]]:
 
 def parameter_index(vehicle: Vehicle) -> dict[str, int]:
     """Position of every named parameter of a vehicle."""
-    blocks = parameter_blocks(vehicle)
-    keys = [f"{prefix}.{field}" for prefix, block in blocks for field in block._fields]
-    return {key: position for position, key in enumerate(keys)}
+    index: dict[str, int] = {}
+    at = 0  # tires, the last blocks, stand side by side behind the others
+    for prefix, block in parameter_blocks(vehicle):
+        if block is layout.TireParams:
+            first = at + tire_offset(vehicle.tires.index(prefix.removeprefix("tire.")))
+            places = [first + place for place in layout.TIRE]
+        else:
+            places = list(range(at, at + len(block._fields)))
+            at += len(places)
+        index |= {f"{prefix}.{field}": place
+                  for field, place in zip(block._fields, places, strict=True)}
+    return index
 
 
 def state_index(vehicle: Vehicle) -> dict[str, int]:

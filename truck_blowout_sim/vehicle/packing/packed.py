@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from truck_blowout_sim.physics import layout
+from truck_blowout_sim.physics.tires.lanes import MAX_TIRES, tire_offset
 from truck_blowout_sim.vehicle.document import Place
 from truck_blowout_sim.vehicle.packing import chassis, running_gear
 from truck_blowout_sim.vehicle.packing.bounds import check_value, may_be_infinite
@@ -162,9 +163,23 @@ def _running_gear(vehicle: Vehicle, loads: StaticLoads, tables: Tables) -> list[
     axles = vehicle.spec.axles
     blocks = [running_gear.axle_block(vehicle, name, loads) for name in vehicle.axles]
     blocks += [running_gear.hub_block(axles[vehicle.axle_of_hub(hub)], hub) for hub in vehicle.hubs]
-    blocks += [
+    tires = [
         running_gear.tire_block(vehicle, tire, hub, tables)
         for hub in vehicle.hubs
         for tire in vehicle.tires_of_hub(hub)
     ]
-    return [value for block in blocks for value in block]
+    return [*(value for block in blocks for value in block), *side_by_side(tires)]
+
+
+def side_by_side(tires: Sequence[Sequence[float]]) -> list[float]:
+    """Blocks of tires in the order of the layout: field by field, in each the tires.
+
+    Raises:
+        ValueError: more tires than the core has room for.
+    """
+    if len(tires) > MAX_TIRES:
+        raise ValueError(f"{len(tires)} tires, at most {MAX_TIRES} have room")
+    lanes = np.zeros(-(-len(tires) // layout.TIRE_LANES) * layout.TIRE_BLOCK)
+    for number, block in enumerate(tires):
+        lanes[tire_offset(number) + np.array(layout.TIRE)] = block
+    return lanes.tolist()
