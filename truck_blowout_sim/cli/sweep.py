@@ -17,6 +17,7 @@ from truck_blowout_sim.cli.outputs import FORCE, JSON, YES, claim, say
 if TYPE_CHECKING:
     from truck_blowout_sim.simulation.studies.sweep import Plan
 
+SEVERAL = ("--vary", "--channels", "-c")
 _CONTINUES = "the same command goes on from here"
 
 
@@ -40,7 +41,8 @@ def command(
         "international_9400i_trailmobile", help="Name of a shipped vehicle, or a YAML file."
     ),
     channels: list[str] = typer.Option(
-        [], "--channels", help="Output or input to keep over time in the table. May be repeated."
+        [], "--channels", "-c", metavar="C",
+        help="Outputs and inputs to keep over time in the table; one or several."
     ),
     rate_hz: float = typer.Option(100.0, "--rate-hz", help="Rate of measures and channels [Hz]."),
     step_s: float = typer.Option(0.001, "--step-s", help="Step [s]."),
