@@ -18,6 +18,7 @@ from truck_blowout_sim.errors import InputError
 
 LIBRARY = "library.json"  # beside the recordings: the model's vehicle, what it must do without
 VEHICLE = "international_9400i_trailmobile"
+SIGMA_B = "sigma_b.json"   # beside cases/ and answers/
 ROLES = ("train", "baseline", "holdout")
 NOTHING_MISSING = ("consistent", "miscalibrated")
 
@@ -72,6 +73,7 @@ class Cause:
             family was taken out of the library.
         where: body, axle, hub, tire; None where it does not apply.
         sigma: how visible it is in the training runs; None if not calibrated.
+        sigma_b: how visible to an ideal detector of its world; None if not measured.
         onset_s: instant in each run, empty for what is always there.
         strength: (name, value, unit).
     """
@@ -82,6 +84,7 @@ class Cause:
     sigma: float | None
     onset_s: Mapping[str, float]
     strength: tuple[str, float, str]
+    sigma_b: float | None = None
 
 
 @dataclass(frozen=True)
@@ -135,16 +138,28 @@ def read_truth(path: Path) -> Truth:
         group = str(tree["group"])
         verdicts = tree["verdicts"] if "verdicts" in tree else [tree["verdict"]]
         right = NOTHING_MISSING if group == "null" else tuple(map(str, verdicts))
-        causes = tuple(_cause(entry) for entry in tree["effects"])
+        seen = _visibility(path)
+        causes = tuple(_cause(entry, seen[k] if k < len(seen) else None)
+                       for k, entry in enumerate(tree["effects"]))
         return Truth(group, right, causes, tuple(tree.get("missing_channels", ())))
     except (KeyError, TypeError, json.JSONDecodeError) as error:
         raise InputError(f"not an answer: {error!r}", file=path,
                          expected="group, verdicts, effects") from error
 
 
-def _cause(entry: Mapping[str, Any]) -> Cause:
+def _visibility(answer: Path) -> list[float]:
+    """sigma_b of each effect of a case of a world, where it was measured."""
+    path = answer.parents[1] / SIGMA_B
+    if not path.is_file():
+        return []
+    found = json.loads(path.read_text(encoding="utf-8")).get(answer.stem, {})
+    return list(map(float, found.get("sigma_b", ())))
+
+
+def _cause(entry: Mapping[str, Any], sigma_b: float | None = None) -> Cause:
     strength = entry["strength"] or {"name": "", "value": 0.0, "unit": ""}
     sigma = entry.get("sigma")
     return Cause(str(entry["name"]), str(entry["kind"]), dict(entry["where"]),
                  None if sigma is None else float(sigma), dict(entry.get("onset_s") or {}),
-                 (str(strength["name"]), float(strength["value"]), str(strength["unit"])))
+                 (str(strength["name"]), float(strength["value"]), str(strength["unit"])),
+                 sigma_b)

@@ -59,6 +59,7 @@ COMPARABLE: Mapping[str, Rule] = {
     "speed_scale": Rule("scale_error"),
     "channel_delay": Rule("delay"),
     "steering_angle_offset": Rule("offset"),
+    "steering_lag": Rule("extra_lag_s"),
 }
 # Another law means another quantity; said to the reader as it stands here.
 NOT_COMPARABLE: Mapping[str, str] = {
@@ -74,6 +75,7 @@ NOT_COMPARABLE: Mapping[str, str] = {
     "driveline_drag": "force at one speed of a law that fades against a constant force",
     "brake_fade": "loss over drum temperature against loss over energy",
     "payload_shift": "one block moves against the whole load",
+    "steering_ratio": "another gear or one that bends with the angle: two laws of one name",
     "lever_arm": "multiple of a vector against its components",
 }
 

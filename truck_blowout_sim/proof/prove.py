@@ -11,6 +11,7 @@ from truck_blowout_sim.comparison.plain_json import json_text
 from truck_blowout_sim.proof.baselines.sparse_regression import optimizer_name
 from truck_blowout_sim.proof.cases import Case, read_truth
 from truck_blowout_sim.proof.figures import pictures
+from truck_blowout_sim.proof.rows import as_json, rows, rows_table, uniformity
 from truck_blowout_sim.proof.score import score_case
 from truck_blowout_sim.proof.seal import check_seals
 from truck_blowout_sim.proof.short import short_table
@@ -38,13 +39,15 @@ def score_run(cases: Sequence[Case], lines: Mapping[str, Mapping[str, Any]], out
     figures["seals"] = asdict(seals)
     figures["optimizer_of_sparse_regression"] = optimizer_name()
     figures["code"] = sorted({str(lines[case].get("code")) for case in truths})
+    found, uniform = rows(scores, truths), uniformity(scores)
+    figures["rows"], figures["null_p_values_uniform"] = as_json(found), uniform
     figures["each"] = [asdict(score) for score in scores]
     out.mkdir(parents=True, exist_ok=True)
     _write(out / "proof.json", json_text(figures))
     head = seals.sentence() + (
         "" if len(figures["code"]) < 2 else
         f" The lines were made by {len(figures['code'])} versions of the code.")
-    _write(out / "proof.md", markdown(figures, scores, truths, head))
+    _write(out / "proof.md", markdown(figures, scores, truths, head, rows_table(found, uniform)))
     _write(out / "summary.md", short_table(figures) + "\n")
     for picture in pictures(figures):
         (out / f"{picture.name}.png").write_bytes(picture.png())

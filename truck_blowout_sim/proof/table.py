@@ -36,9 +36,10 @@ RIVAL_WORDS: Mapping[str, str] = {
 
 
 def markdown(figures: Mapping[str, Any], scores: Sequence[CaseScore], truths: Mapping[str, Truth],
-             seal: str) -> str:
-    """Everything, as one document."""
-    parts = [seal, "", "## Figures", "", *_proportions(figures), "", *_numbers(figures), "",
+             seal: str, required: Sequence[str] = ()) -> str:
+    """Everything, as one document; `required`: lines of the table of what must hold."""
+    parts = [seal, "", "## What must hold", "", *required, "", "## Figures", "",
+             *_proportions(figures), "", *_numbers(figures), "",
              "## Verdicts", "", *_confusion(figures), "", "## Power", "", *_power(figures), "",
              "## Effect by effect", "", *effect_table(figures["effects"]), "",
              "## p-values where nothing is missing", "", *_reliability(figures), "",

@@ -1,0 +1,64 @@
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+from truck_blowout_sim.proof.cases import read_truth
+from truck_blowout_sim.proof.rows import rows, uniformity, wrong_name
+from truck_blowout_sim.proof.score import CaseScore, score_case
+
+Maker = Callable[..., dict[str, Any]]
+
+
+def scored(tmp_path: Path, write_case: Callable[..., Path], name: str, line: dict[str, Any],
+           group: str = "null", effects: tuple[dict[str, Any], ...] = (),
+           sigma_b: float | None = None) -> tuple[CaseScore, Any]:
+    answer = write_case(tmp_path, name, group, effects)
+    if sigma_b is not None:
+        path, known = tmp_path / "sigma_b.json", {}
+        if path.is_file():
+            known = json.loads(path.read_text())
+        path.write_text(json.dumps({**known, name: {"sigma_b": [sigma_b]}}))
+    truth = read_truth(answer)
+    return score_case(line, truth), truth
+
+
+def test_only_effects_that_can_be_seen_count(
+        tmp_path: Path, write_case: Callable[..., Path], line: Maker, cause: Maker, effect: Maker
+) -> None:
+    faint = scored(tmp_path, write_case, "a", line("a", "consistent"), "single", (cause(),), 3.0)
+    plain = scored(tmp_path, write_case, "b", line("b", effects=(effect(),)), "single",
+                   (cause(),), 20.0)
+    lost = scored(tmp_path, write_case, "c", line("c", "consistent"), "single", (cause(),), 8.0)
+    found = dict(rows([s for s, _ in (faint, plain, lost)],
+                      {s.case: t for s, t in (faint, plain, lost)}))
+    named = found["effects seen by an ideal detector, among the causes named"]
+    assert (named.hits, named.trials) == (1, 2)
+
+
+def test_a_name_beside_the_true_one_is_wrong_unless_aliased(
+        tmp_path: Path, write_case: Callable[..., Path], line: Maker, cause: Maker, effect: Maker
+) -> None:
+    two = (effect(), effect("crosswind"))
+    both = scored(tmp_path, write_case, "a", line("a", effects=two), "single", (cause(),))
+    excused = scored(tmp_path, write_case, "b", line(
+        "b", effects=(effect("crosswind"),), alias_sets=(("crosswind", "brake_lag"),)),
+        "single", (cause(),))
+    assert wrong_name(*both)
+    assert not wrong_name(*excused)
+
+
+def test_false_alarms_are_names_and_unknown(
+        tmp_path: Path, write_case: Callable[..., Path], line: Maker, effect: Maker) -> None:
+    cases = [scored(tmp_path, write_case, name, line(name, verdict, effects=effects, p_value=p))
+             for name, verdict, effects, p in (
+                 ("a", "consistent", (), 0.3), ("b", "unknown", (), 0.01),
+                 ("c", "missing_physics", (effect(),), 0.02), ("d", "miscalibrated", (), 0.6),
+                 ("e", "consistent", (), 0.9))]
+    found = dict(rows([s for s, _ in cases], {s.case: t for s, t in cases}))
+    assert found["false alarms, nothing missing"].hits == 2
+    uniform = uniformity([s for s, _ in cases])
+    assert uniform is not None
+    assert uniform > 0.1

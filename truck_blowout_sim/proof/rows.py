@@ -1,0 +1,90 @@
+"""What must hold in every world, row by row, with Wilson intervals.
+
+An effect counts where an ideal detector sees it: sigma_b of at least 6, from ``sigma_b.json``
+beside the cases (`python -m proving_ground sigma`); without that file every effect counts.
+
+Validated with: test/proof/test_rows.py.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+from scipy.stats import kstest
+
+from truck_blowout_sim.proof.cases import Truth
+from truck_blowout_sim.proof.score import CaseScore
+from truck_blowout_sim.proof.statistics import Proportion, proportion
+
+VISIBLE = 6.0
+Row = tuple[str, Proportion]
+
+
+def rows(scores: Sequence[CaseScore], truths: Mapping[str, Truth]) -> list[Row]:
+    """The rows of one world, in order."""
+    missing = [s for s in scores if s.group != "null"]
+    physics = [s for s in scores if s.group in ("single", "pair")]
+
+    def of(group: str) -> list[CaseScore]:
+        return [s for s in scores if s.group == group]
+
+    def seen(score: CaseScore) -> bool:
+        return all(c.sigma_b is None or c.sigma_b >= VISIBLE for c in truths[score.case].causes)
+
+    def share(chosen: Sequence[CaseScore], holds: Callable[[CaseScore], bool | None]
+              ) -> Proportion:
+        return proportion(map(holds, chosen))
+
+    causes = [(c, t) for s in physics for c, t in zip(s.causes, truths[s.case].causes, strict=True)]
+    visible = [c.aliased for c, t in causes if t.kind == "physics"
+               and (t.sigma_b is None or t.sigma_b >= VISIBLE)]
+    intervals = [c.parameter.covered for s in scores for c in s.causes if c.parameter]
+    onsets = [c.onset_covered for s in scores for c in s.causes]
+    return [
+        ("false alarms, nothing missing", share(of("null"), lambda s: s.detected)),
+        ("effects seen by an ideal detector, among the causes named", proportion(visible)),
+        ("a wrong name stated, something missing",
+         share(missing, lambda s: wrong_name(s, truths[s.case]))),
+        ("of no list: unknown", share([s for s in of("unknown") if seen(s)],
+                                      lambda s: s.verdict == "unknown")),
+        ("both of a pair", share([s for s in of("pair") if seen(s)],
+                                 lambda s: all(c.aliased for c in s.causes))),
+        ("instrument told from truck", share(missing, lambda s: s.kind_right)),
+        ("instrument fault named", share(of("sensor"), lambda s: all(c.aliased for c in s.causes))),
+        ("90 % intervals of amounts hold the truth", proportion(intervals)),
+        ("90 % intervals of onsets hold the truth", proportion(onsets)),
+        ("truth in the alias set, where something was named",
+         share([s for s in scores if s.group == "single" and s.named],
+               lambda s: s.causes[0].aliased)),
+        ("holdout better", share(physics, lambda s: s.holdout.after < s.holdout.before
+                                 if s.holdout else None)),
+        ("p-value of 0.1 or less, nothing missing",
+         share(of("null"), lambda s: None if s.p_value is None else s.p_value <= 0.1)),
+    ]
+
+
+def wrong_name(score: CaseScore, truth: Truth) -> bool:
+    """Whether some name stated has no true cause in its alias set."""
+    true = {cause.name for cause in truth.causes if cause.kind in ("physics", "sensor")}
+    return any(not true & {name, *aliases}
+               for name, aliases in zip(score.named, score.aliases, strict=True))
+
+
+def uniformity(scores: Sequence[CaseScore]) -> float | None:
+    """Probability of the nulls' p-values, were they uniform (Kolmogorov and Smirnov)."""
+    values = [s.p_value for s in scores if s.group == "null" and s.p_value is not None]
+    return float(kstest(values, "uniform").pvalue) if len(values) >= 5 else None
+
+
+def rows_table(found: Sequence[Row], uniform: float | None) -> list[str]:
+    """The rows as Markdown."""
+    lines = ["| what must hold | reached (hits/cases; 95 % Wilson) |", "|---|---|"]
+    lines += [f"| {name} | {count} |" for name, count in found]
+    said = "–" if uniform is None else f"{uniform:.2g}"
+    return [*lines, f"| p-values of nulls uniform (Kolmogorov-Smirnov) | {said} |"]
+
+
+def as_json(found: Sequence[Row]) -> list[dict[str, Any]]:
+    """Plain objects."""
+    return [{"row": name, **count.as_json()} for name, count in found]
