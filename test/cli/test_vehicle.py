@@ -46,3 +46,19 @@ def test_a_shipped_vehicle_has_nothing_filled_in(capsys: pytest.CaptureFixture[s
     said = capsys.readouterr().out
     assert "11,925 lb" in said
     assert "filled in" not in said
+
+
+def test_rig_plots_are_drawn_for_the_tires_named(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    folder = tmp_path / "rig"
+    assert main(["vehicle", "rigid_truck", "--tire", "steer", "-o", str(folder)]) == 0
+    assert (folder / "rig_steer_left.png").stat().st_size > 10_000
+    assert "rig_steer_left.png" in capsys.readouterr().out
+    assert main(["vehicle", "rigid_truck", "--tire", "steer", "-o", str(folder)]) == 2
+    assert "--force" in capsys.readouterr().err
+
+
+def test_an_unknown_tire_is_refused_with_the_nearest(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["vehicle", "rigid_truck", "--tire", "ster_left"]) == 2
+    assert "expected steer_left" in capsys.readouterr().err

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass
+from difflib import get_close_matches
 from math import degrees
 
+from truck_blowout_sim.errors import InputError, quoted
 from truck_blowout_sim.simulation.handling import Handling, handling
 from truck_blowout_sim.vehicle import Packed, Vehicle, pack
 from truck_blowout_sim.vehicle.masses import unit_mass
@@ -107,6 +109,25 @@ def summarize_vehicle(vehicle: Vehicle | Packed, *, speed_mps: float = 20.0) -> 
         handling=handling(packed, speed_mps) if steered else None, filled_in=filled,
         stated_spreads=len(truck.spreads) - sum(1 for one in filled if one.spread),
     )  # fmt: skip
+
+
+def tires_named(vehicle: Vehicle, words: Sequence[str]) -> tuple[str, ...]:
+    """Tires that words stand for: a tire, a hub's or an axle's first tire, `all` for every axle.
+
+    Raises:
+        InputError: a word that names nothing of this vehicle.
+    """
+    first = {axle: vehicle.tires_of_hub(f"{axle}_left")[0] for axle in vehicle.axles}
+    known = {**{tire: tire for tire in vehicle.tires}, **first}
+    known |= {hub: vehicle.tires_of_hub(hub)[0] for hub in vehicle.hubs}
+    found: list[str] = []
+    for word in words:
+        if word != "all" and word not in known:
+            near = get_close_matches(word, known, n=1)
+            raise InputError(f"{quoted(word)} is no tire, hub or axle of {vehicle.name}",
+                             expected=near[0] if near else ", ".join(known))  # fmt: skip
+        found += list(first.values()) if word == "all" else [known[word]]
+    return tuple(dict.fromkeys(found))
 
 
 def _filled_in(vehicle: Vehicle) -> Iterator[FilledIn]:
