@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import asdict
 from pathlib import Path
 
 import typer
 
+from truck_blowout_sim.cli.outputs import FORCE, JSON, claim, say
 from truck_blowout_sim.simulation.validation import as_markdown, validate
 
 MARK = "<!-- below: written by `truck-blowout validate -o docs/validation.md` -->"
@@ -16,15 +18,22 @@ def command(
         None, "-o", "--output", help="Markdown file to write; what stands above the mark in an "
         "older one is kept. To the terminal if not given."
     ),
+    force: bool = FORCE,
+    as_json: bool = JSON,
 ) -> None:
     """Measure the model against the published figures of the test, in both vehicles."""
-    table = as_markdown(validate(lambda words: typer.echo(words, err=True)))
+    if output is not None:
+        claim(output, force=force)
+    sections = validate(lambda words: typer.echo(words, err=True))
+    table = as_markdown(sections)
+    result = {name: {mode: [asdict(row) for row in rows] for mode, rows in by_mode.items()}
+              for name, by_mode in sections.items()}
     if output is None:
-        typer.echo(table)
+        say(as_json, result, [table])
         return
     above = ""
     if output.is_file():
         # without the mark nothing in the older file is ours to replace
         above = output.read_text(encoding="utf-8").partition(MARK)[0]
     output.write_text(f"{above}{MARK}\n\n{table}", encoding="utf-8")
-    typer.echo(f"{output}: written")
+    say(as_json, {"output": str(output), **result}, [f"{output}: written"])
