@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from truck_blowout_sim.physics.layout import TIRE_S
 from truck_blowout_sim.physics.tires import magic_formula
 from truck_blowout_sim.physics.tires.lanes import LANE, LANE_BLOCK
-from truck_blowout_sim.physics.tires.tire import magic_formula_forces, soften, stretch
+from truck_blowout_sim.physics.tires.tire import tire_at_load
 from truck_blowout_sim.vehicle import Packed
 
 Floats = NDArray[np.float64]
@@ -28,9 +28,7 @@ def force(truck: Packed, state: Floats, s: int, t: int, *, vx: float = SPEED, vy
     lanes[LANE.spin_radps] = vx if roll is None else roll
     lanes[[LANE.pressure_pa, LANE.rim, LANE.fz_n]] = state[s + TIRE_S.pressure_pa], rim, fz
     lanes[[LANE.slip, LANE.slip_tan]] = state[s + TIRE_S.slip], state[s + TIRE_S.slip_tan]
-    stretch(truck.params, t, lanes, 0, 0.001)
-    magic_formula_forces(truck.params, t, lanes, 0)
-    soften(truck.params, t, lanes, 0)
+    tire_at_load(truck.params, t, 0, lanes, 0, 0.001)
     state[s + TIRE_S.slip], state[s + TIRE_S.slip_tan] = lanes[[LANE.slip, LANE.slip_tan]]
     return tuple(lanes[[LANE.fx_n, LANE.fy_n, LANE.mz_nm]].tolist())
 

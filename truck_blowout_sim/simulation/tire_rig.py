@@ -13,8 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from truck_blowout_sim.physics.jit import core
-from truck_blowout_sim.physics.layout import N_STEP_COLUMNS, TIRE, TIRE_S, TOPOLOGY
-from truck_blowout_sim.physics.tires.tire import tire_forces
+from truck_blowout_sim.physics.layout import N_STEP_COLUMNS, STEP_COLUMNS, TIRE, TOPOLOGY
+from truck_blowout_sim.physics.tires.lanes import LANE, LANE_BLOCK
+from truck_blowout_sim.physics.tires.tire import tire_at_load
 from truck_blowout_sim.vehicle import Packed
 
 Floats = NDArray[np.float64]
@@ -44,28 +45,31 @@ def tire_map(packed: Packed, tire: str, *, flat: bool, slip_rad: Floats, load_n:
     spec = packed.vehicle.tire_specs[tire]
     topo, p = packed.topology, packed.params
     t = packed.index[f"tire.{tire}.unloaded_radius_m"] - TIRE.unloaded_radius_m
-    x = np.zeros(topo[TOPOLOGY.n_state])
-    s = int(topo[TOPOLOGY.state_tire_at]) + packed.vehicle.tires.index(tire) * len(TIRE_S)
-    x[s + TIRE_S.pressure_pa] = 0.0 if flat else spec.pressure_pa
-    table_at, steps = int(topo[TOPOLOGY.table_at]), p[t + TIRE.law] > 0.0
-    step, rim = -1, float(flat)
-    if steps:
+    table_at, lanes = int(topo[TOPOLOGY.table_at]), np.zeros(LANE_BLOCK)
+    lanes[[LANE.vx_mps, LANE.spin_radps]] = _SPEED_MPS
+    lanes[[LANE.radius_m, LANE.friction, LANE.axle_peak]] = 1.0
+    lanes[LANE.pressure_pa] = 0.0 if flat else spec.pressure_pa
+    lanes[LANE.rim] = float(flat)
+    if p[t + TIRE.law] > 0.0:
         table = table_at + int(p[t + TIRE.table])
-        step, rim = table + 1 + (int(p[table]) - 1 if flat else 0) * N_STEP_COLUMNS, 0.0
+        row = table + 1 + (int(p[table]) - 1 if flat else 0) * N_STEP_COLUMNS
+        lanes[[LANE.stepped, LANE.rim]] = 1.0, 0.0
+        lanes[LANE.row_cornering] = p[row + STEP_COLUMNS.index("cornering_scale")]
+        lanes[LANE.row_aligning] = p[row + STEP_COLUMNS.index("aligning_scale")]
     fy, mz = (np.empty((slip_rad.size, load_n.size)) for _ in range(2))
-    _steady(x, s, p, t, table_at, slip_rad, load_n, rim, step, fy, mz)
+    _steady(p, t, table_at, lanes, slip_rad, load_n, fy, mz)
     return TireMap(slip_rad, load_n, fy, -mz)
 
 
 @core
-def _steady(x: Floats, s: int, p: Floats, t: int, table_at: int, slips: Floats, loads: Floats,
-            rim: float, step: int, fy: Floats, mz: Floats) -> None:
+def _steady(p: Floats, t: int, table_at: int, lanes: Floats, slips: Floats, loads: Floats,
+            fy: Floats, mz: Floats) -> None:
     """Roll until the lag is over, at every slip angle and load."""
     for i in range(slips.size):
         for j in range(loads.size):
-            x[s + TIRE_S.slip] = x[s + TIRE_S.slip_tan] = 0.0
-            across = -_SPEED_MPS * np.tan(slips[i])
+            lanes[LANE.fz_n] = loads[j]
+            lanes[LANE.vy_mps] = -_SPEED_MPS * np.tan(slips[i])
+            lanes[LANE.slip] = lanes[LANE.slip_tan] = 0.0
             for _ in range(_STEPS):
-                _, fy[i, j], mz[i, j] = tire_forces(
-                    x, s, p, t, table_at, loads[j], rim, step, _SPEED_MPS, across, _SPEED_MPS,
-                    0.0, 1.0, 1.0, _STEP_S)
+                tire_at_load(p, t, table_at, lanes, 0, _STEP_S)
+            fy[i, j], mz[i, j] = lanes[LANE.fy_n], lanes[LANE.mz_nm]

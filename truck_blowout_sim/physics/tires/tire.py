@@ -49,6 +49,16 @@ def tire_pass(p: Floats, tires_at: int, table_at: int, lanes: Floats, n_tires: i
 
 
 @core
+def tire_at_load(p: Floats, t: int, table_at: int, lanes: Floats, w: int, dt: float) -> None:
+    """As `tire_pass`, for one tire whose load, rolling radius and rim contact stand in its lane."""
+    stretch(p, t, lanes, w, dt)
+    magic_formula_forces(p, t, lanes, w)
+    if p[t + TIRE.model] != MAGIC_FORMULA:
+        other_forces(p, t, table_at, lanes, w)
+    soften(p, t, lanes, w)
+
+
+@core
 def carry(p: Floats, t: int, lanes: Floats, w: int) -> None:
     """Rim contact, vertical load, radius and rolling resistance of the tire in lane ``w``."""
     stepped = lanes[w + LANE.stepped] > 0.0
