@@ -19,7 +19,7 @@ export ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST FASTDDS_BUILTIN_TRANSPORTS=UDPv4
 export ROS_DOMAIN_ID="${ROS_DOMAIN_ID:-$(($$ % 100 + 1))}" ROS_LOG_DIR="$folder/log"
 
 # The player keeps to the simulation's clock: on a busy machine both are late together.
-"$bin/python" -m truck_blowout_sim.nodes.simulator --start-paused &
+"$bin/python" -m truck_blowout_sim.nodes.simulator --start-paused --record-folder "$folder" &
 simulator=$!
 trap 'kill -INT $simulator 2>/dev/null || true' EXIT INT TERM
 

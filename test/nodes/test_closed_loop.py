@@ -7,6 +7,7 @@ from typing import Any
 
 import pytest
 from nav_msgs.msg import Odometry
+from std_msgs.msg import Float64
 from std_srvs.srv import Trigger
 
 from truck_blowout_sim import InitialState, Inputs, Truck, load_vehicle
@@ -90,5 +91,15 @@ def test_the_node_keeps_the_lane_over_dds(start: Any, client: Any) -> None:
     assert max(offsets_m) < 1.5
     assert offsets_m[-1] < LANE_HALF_M - TRUCK_HALF_M
     keeper.wait_for("steer_left has blown")
+    _is_put_back(client, keeper)
     assert keeper.stop() == 0
     assert simulator.stop() == 0
+
+
+def _is_put_back(client: Any, keeper: Any) -> None:
+    """After a reset the driver keeps the speed again: no tire is blown any more."""
+    throttle = client.listen(Float64, "/truck/throttle")
+    client.until(lambda: throttle and throttle[-1].data == 0.0, what="the foot off the throttle")
+    client.call(Trigger, "/truck/reset")
+    keeper.wait_for("beginning again", 20.0)
+    client.until(lambda: throttle[-1].data > 0.0, 20.0, "the foot on the throttle")

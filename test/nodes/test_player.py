@@ -144,7 +144,7 @@ def test_a_foreign_bag_plays_by_remapping(start: Any, client: Any, tmp_path: Pat
             writer.write(connection, stamp_ns, data)
     odometry = client.listen(Odometry, "/truck/measured/tractor/odometry")
     topic = "/truck/measured/tractor/odometry"
-    player = play(start, client, topic, bag, "--remap", "/ins/odometry=tractor/odometry")
+    player = play(start, client, topic, bag, "--remap", "/ins/odometry:=tractor/odometry")
     assert player.wait() == 0, player.output
     client.until(lambda: len(odometry) >= 50, what="all of it")
     assert [m.twist.twist.linear.x for m in odometry[-10:]] == [50.0 + i for i in range(10)]

@@ -1,6 +1,6 @@
 """An example of a controller: keeps the truck in its lane through a blowout, by topics alone.
 
-`ros2 run truck_blowout_sim lane_keeper`. Reads `tractor/odometry` and `blowout`, writes
+`ros2 run truck_blowout_sim lane_keeper`. Reads `tractor/odometry` and `blown_tires`, writes
 `steering_wheel_angle` and `throttle`, one message each for every odometry message, in simulated
 time.
 """
@@ -19,10 +19,13 @@ from std_msgs.msg import Float64, String
 from truck_blowout_sim.nodes import runtime
 from truck_blowout_sim.nodes.lane_control import CruiseControl, Lane, LaneKeeper
 from truck_blowout_sim.nodes.parameters import Spec
-from truck_blowout_sim.nodes.qos import event, publisher, reliable, subscription
+from truck_blowout_sim.nodes.qos import publisher, reliable, state, subscription
 from truck_blowout_sim.nodes.signals import StopFlag
 
 ABOUT = "Keeps a straight lane, also when a tire blows, using the simulator's topics alone."
+
+_FASTEST_MPS = 60.0
+_NOISE_M = 1.0
 
 SPECS = (
     Spec("speed_mps", 20.0, "Speed to hold.", "m/s", 1, 40),
@@ -49,11 +52,13 @@ class LaneKeeperNode:
         self.log = node.get_logger()
         self.released = False
         self.release = bool(values["release_on_blowout"])
+        self.speed_mps = float(values["speed_mps"])
         self._last_s: float | None = None
+        self._last_m: tuple[float, float] | None = None
         self._wheel = publisher(node, Float64, "steering_wheel_angle", reliable())
         self._throttle = publisher(node, Float64, "throttle", reliable())
         subscription(node, Odometry, "tractor/odometry", self._drive, reliable(1))
-        subscription(node, String, "blowout", self._blowout, event())
+        subscription(node, String, "blown_tires", self._blown, state())
 
     def run(self, executor: Executor, stop: StopFlag) -> int:
         """Answer every odometry message until asked to end."""
@@ -69,9 +74,10 @@ class LaneKeeperNode:
         now_s = message.header.stamp.sec + message.header.stamp.nanosec * 1e-9
         elapsed_s = now_s - self._last_s if self._last_s is not None else 0.0
         self._last_s = now_s
-        if elapsed_s < 0.0:  # simulated time was put back
-            self.keeper.integral_rad, self.released, elapsed_s = 0.0, False, 0.0
         place, turn = message.pose.pose.position, message.pose.pose.orientation
+        if elapsed_s < 0.0 or self._was_moved(place.x, place.y, elapsed_s):
+            self._begin_again()
+            elapsed_s = 0.0
         yaw_rad = math.atan2(
             2 * (turn.w * turn.z + turn.x * turn.y), 1 - 2 * (turn.y**2 + turn.z**2)
         )
@@ -84,9 +90,24 @@ class LaneKeeperNode:
         self._wheel.publish(Float64(data=wheel_rad))
         self._throttle.publish(Float64(data=throttle))
 
-    def _blowout(self, message: String) -> None:
-        self.log.info(f"{message.data} has blown")
-        self.released = self.released or self.release
+    def _was_moved(self, x_m: float, y_m: float, elapsed_s: float) -> bool:
+        """Whether the truck is where it cannot have driven: somebody called `reset`."""
+        last_m, self._last_m = self._last_m, (x_m, y_m)
+        if last_m is None:
+            return False
+        return math.dist(last_m, (x_m, y_m)) > _FASTEST_MPS * elapsed_s + _NOISE_M
+
+    def _begin_again(self) -> None:
+        """Another run, or another simulator: nothing learned in the last one holds."""
+        self.log.info("the truck was put back: beginning again")
+        self.keeper.integral_rad, self.keeper.wheel_rad = 0.0, 0.0
+        self.cruise = CruiseControl(self.speed_mps)
+
+    def _blown(self, message: String) -> None:
+        """The state, not the event: a reset makes tires whole, a restarted simulator too."""
+        if message.data:
+            self.log.info(f"{message.data.replace('+', ' and ')} has blown")
+        self.released = self.release and bool(message.data)
 
 
 def main(arguments: Sequence[str] | None, stop: StopFlag) -> int:

@@ -56,6 +56,7 @@ class OutputTopics:
         self._publishers |= self._make_scene_publishers(node, tf=values["publish_tf"])
         for made in self._publishers.values():
             recorder.offered(made.topic_name, in_force(made))
+        self._blowouts_shared = bool(values["blowout_input"])
         self._blowouts = BlowoutAnnouncer(node, recorder, lambda: plant.now_ns)
         self._types = {**self._table.types, **TYPES, CLOCK: CLOCK_TYPE}
         self._names = {topic: node.resolve_topic_name(topic) for topic in self._types}
@@ -71,7 +72,8 @@ class OutputTopics:
     @property
     def topics(self) -> tuple[str, ...]:
         """Absolute names of what this node alone should publish."""
-        return (*(self._names[topic] for topic in self._table.types), self._blowouts.topic)
+        events = () if self._blowouts_shared else (self._blowouts.topic,)
+        return (*(self._names[topic] for topic in self._table.types), *events)
 
     def publish(self, *, everything: bool = False) -> None:
         """One tick has passed: publish what is due.

@@ -51,7 +51,12 @@ class Player:
         self.log = node.get_logger()
         self.paused: bool = values["start_paused"]
         remap = remappings(values["remap"])
-        recording = read_recording(values["recording"], remap=remap or None)
+        if remap and values["map"]:
+            raise InputError("remap and map are both given", file="parameter", where="remap",
+                             expected="the mapping file alone; it names topics, too")  # fmt: skip
+        recording = read_recording(
+            values["recording"], remap=remap or None, mapping=values["map"] or None
+        )
         self.playlist = Playlist(recording)
         self.start_s = recording.start_s + values["start_offset"]
         length_s = values["playback_duration"]
@@ -83,12 +88,17 @@ class Player:
         if not present and self.values["wait_for_simulator_s"]:
             self.log.warning("no simulator found; playing without it")
         self.simulator.until(executor, lambda: False, self.values["delay"])
-        while not stop:
-            self._begin(executor, present)
-            self._play(executor, stop)
-            self._finish(executor, stop, present)
-            if stop or not self.values["loop"]:
-                break
+        try:
+            while not stop:
+                self._begin(executor, present)
+                self._play(executor, stop)
+                if not stop:
+                    self._finish(executor)
+                if stop or not self.values["loop"]:
+                    break
+        finally:
+            # also when the recording cannot be played, or Ctrl-C has come
+            self.stage.leave(executor)
         self._summary(stop)
         return 0
 
@@ -128,20 +138,19 @@ class Player:
             self.stage.set(executor, recording.between(self.start_s, recording.end_s))
         if present:
             self.stage.record(executor)
-        self.time.begin(executor, self._stop, self.start_s)
+        self.time.begin(executor, self._stop, self.start_s, self.log.warning)
         if not self.paused:
             self._publish_until(self.start_s)
             self._deliver(COMMANDS & self.publishers.keys())
         if prepare:
-            self.simulator.call(executor, "resume")
+            self.stage.resume(executor)
         if not self.paused:
             self.time.go()
 
-    def _finish(self, executor: Executor, stop: StopFlag, present: bool) -> None:
+    def _finish(self, executor: Executor) -> None:
         self.simulator.settle(executor, 2.0)
         self._deliver(self.publishers)
-        if present and not stop:
-            self.stage.end_record(executor)
+        self.stage.end_record(executor)
 
     def _play(self, executor: Executor, stop: StopFlag) -> None:
         while not stop:

@@ -6,7 +6,10 @@ from truck_blowout_sim.errors import InputError, quoted
 from truck_blowout_sim.nodes.parameters import Spec
 
 SPECS: tuple[Spec, ...] = (
-    Spec("recording", "", "Recording to play: rosbag2 folder, .mcap, .csv or .mat."),
+    Spec("recording", "", "Recording to play: rosbag2 folder, .mcap, .csv, .mat, or any log with a"
+         " mapping file."),
+    Spec("map", "", "Mapping file: what in a foreign log becomes which channel"
+         " (docs/bring_your_own_log.md)."),
     Spec("rate", 1.0, "Recorded seconds a second; of simulated time under `use_sim_time`, else of"
          " wall time.", "", 0.01, 1000),
     Spec("loop", False, "Begin again at the end."),
@@ -15,8 +18,8 @@ SPECS: tuple[Spec, ...] = (
     Spec("delay", 0.0, "Wait this long before the first message, so that readers find it.", "s",
          0, 3600),
     Spec("start_paused", False, "Wait for `~/resume` or `~/play_next`."),
-    Spec("remap", [""], "Topics of a foreign bag as `from=to`, `to` a name of the simulator's"
-         " outputs or commands."),
+    Spec("remap", [""], "Topics of a foreign bag as `FROM:=TO`, `TO` a name of the simulator's"
+         " outputs or commands; for all but names and types there is `map`."),
     Spec("measured", "measured", "Prefix of the topics that carry what was measured."),
     Spec("publish_measured", True, "Publish what was measured, not the commands alone."),
     Spec("wait_for_simulator_s", 5.0, "Wait this long for the simulator, then play without it;"
@@ -32,18 +35,18 @@ SPECS: tuple[Spec, ...] = (
 
 
 def remappings(words: list[str]) -> dict[str, str]:
-    """Pairs from `from=to`; `from:=to` does where rcl does not take it for its own.
+    """Pairs from `FROM:=TO`, as in `ros2 bag play --remap`.
 
     Raises:
         InputError: a word that is no such pair.
     """
     pairs = {}
     for word in filter(None, words):
-        source, mark, target = word.replace(":=", "=").partition("=")
+        source, mark, target = word.partition(":=")
         if not (source and mark and target):
             raise InputError(
                 f"{quoted(word)} is no remapping", file="parameter", where="remap",
-                expected="from=to, as in /ins/odometry=tractor/odometry",
+                expected="FROM:=TO, as in /ins/odometry:=tractor/odometry",
             )  # fmt: skip
         pairs[source] = target
     return pairs

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from time import monotonic
 
 from rclpy.executors import Executor
@@ -12,6 +13,9 @@ from rosgraph_msgs.msg import Clock
 from truck_blowout_sim.nodes.clock import NS
 from truck_blowout_sim.nodes.qos import latest, subscription
 from truck_blowout_sim.nodes.signals import StopFlag
+
+_SILENCE_S = 2.0
+_WARN_EVERY_S = 10.0
 
 
 class WallTime:
@@ -38,9 +42,22 @@ class WallTime:
             return self._position_s
         return self._position_s + (self._now_s() - self._since_s) * self._rate
 
-    def begin(self, executor: Executor, stop: StopFlag | None, start_s: float) -> None:
-        """Playback is about to begin at an instant of the recording."""
-        self._origin_ns, self._origin_s = self._ros_ns(executor, stop), start_s
+    def begin(
+        self,
+        executor: Executor,
+        stop: StopFlag | None,
+        start_s: float,
+        warn: Callable[[str], object],
+    ) -> None:
+        """Playback is about to begin at an instant of the recording.
+
+        Args:
+            executor: spun while waiting for a clock.
+            stop: ends the wait.
+            start_s: the instant.
+            warn: takes a sentence about what is waited for.
+        """
+        self._origin_ns, self._origin_s = self._ros_ns(executor, stop, warn), start_s
 
     def stamp_ns(self, time_s: float) -> int:
         """Stamp for a message of an instant: the recording laid upon the node's clock."""
@@ -70,8 +87,10 @@ class WallTime:
     def _now_s(self) -> float:
         return monotonic()
 
-    def _ros_ns(self, executor: Executor, stop: StopFlag | None) -> int:
-        del executor, stop
+    def _ros_ns(
+        self, executor: Executor, stop: StopFlag | None, warn: Callable[[str], object]
+    ) -> int:
+        del executor, stop, warn
         return int(self._node.get_clock().now().nanoseconds)
 
 
@@ -95,9 +114,18 @@ class ClockTime(WallTime):
     def _take(self, message: Clock) -> None:
         self._clock_ns = message.clock.sec * NS + message.clock.nanosec
 
-    def _ros_ns(self, executor: Executor, stop: StopFlag | None) -> int:
+    def _ros_ns(
+        self, executor: Executor, stop: StopFlag | None, warn: Callable[[str], object]
+    ) -> int:
         # What was heard before a reset may be old: only a reading from now on counts.
         self._clock_ns = None
+        warn_s = monotonic() + _SILENCE_S
         while self._clock_ns is None and not stop:
             executor.spin_once(timeout_sec=0.1)
+            if monotonic() >= warn_s:
+                warn_s = monotonic() + _WARN_EVERY_S
+                warn(
+                    "use_sim_time is set and nobody publishes /clock: waiting; start the simulator,"
+                    " or play by wall time with use_sim_time false"
+                )
         return self._clock_ns or 0

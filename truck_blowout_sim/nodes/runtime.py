@@ -18,7 +18,6 @@ from rclpy.executors import Executor, SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 from rclpy.signals import SignalHandlerOptions
-from rclpy.utilities import remove_ros_args
 
 from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.nodes.parameters import Spec, declare
@@ -61,8 +60,9 @@ def run(
     words = list(sys.argv[1:] if arguments is None else arguments)
     try:
         stop.at_once = True
-        options = _parse(name, specs, about, remove_ros_args([name, *words])[1:], positional)
-        rclpy.init(args=[name, *words], signal_handler_options=SignalHandlerOptions.NO)
+        theirs, ours = _sorted_words(words)
+        options = _parse(name, specs, about, ours, positional)
+        rclpy.init(args=[name, *theirs], signal_handler_options=SignalHandlerOptions.NO)
         return _life(name, specs, make, options, stop)
     except InputError as error:
         print(f"{name}: {error}", file=sys.stderr)
@@ -77,6 +77,18 @@ def run(
         stop.at_once = False
         if rclpy.ok():
             rclpy.shutdown()
+
+
+def _sorted_words(words: Sequence[str]) -> tuple[list[str], list[str]]:
+    """ROS's words, from `--ros-args` to `--` or the end, and ours, in which `:=` may stand."""
+    theirs: list[str] = []
+    ours: list[str] = []
+    inside = False
+    for word in words:
+        inside = inside or word == "--ros-args"
+        (theirs if inside else ours).append(word)
+        inside = inside and word != "--"
+    return theirs, ours
 
 
 def new_executor(context: Context | None = None) -> Executor:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from time import monotonic
 from typing import Any
 
@@ -15,6 +16,8 @@ from rclpy.task import Future
 from std_srvs.srv import SetBool, Trigger
 
 from truck_blowout_sim.errors import InputError
+
+_ASK_AGAIN_S = 0.2
 
 
 class SimulatorClient:
@@ -36,10 +39,28 @@ class SimulatorClient:
         self._record: Client[Any, Any] = node.create_client(SetBool, "record")
         self.pending = 0
 
+    @contextmanager
+    def to_the_end(self) -> Iterator[None]:
+        """Inside, waits go on although the player was asked to end."""
+        stopped, self._stopped = self._stopped, lambda: False
+        try:
+            yield
+        finally:
+            self._stopped = stopped
+
     def wait(self, executor: Executor, timeout_s: float) -> bool:
-        """Wait until the simulator serves; false after the timeout."""
-        reset = self._trigger("reset")
-        return self.until(executor, lambda: bool(reset.service_is_ready()), timeout_s)
+        """Wait until the simulator is ready, its model compiled; false after the timeout."""
+        end_s = monotonic() + timeout_s
+        ready = self._trigger("ready")
+        while self._until(executor, lambda: bool(ready.service_is_ready()), end_s):
+            try:
+                reply = self._answer(executor, ready, Trigger.Request(), end_s)
+            except InputError:
+                return False
+            if reply.success:
+                return True
+            self.until(executor, lambda: False, _ASK_AGAIN_S)
+        return False
 
     def call(self, executor: Executor, service: str, *, timeout_s: float = 10.0) -> str:
         """Call a Trigger service of the simulator and return its sentence.

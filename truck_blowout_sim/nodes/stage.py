@@ -7,6 +7,7 @@ from pathlib import Path
 
 from rclpy.executors import Executor
 
+from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.nodes.simulator_client import SimulatorClient
 from truck_blowout_sim.recordings.recording import Recording
 from truck_blowout_sim.simulation.start import initial_state
@@ -38,6 +39,8 @@ class Stage:
         # The simulator may have been started in another folder.
         self._bag = str(Path(record_path).absolute()) if record_path else ""
         self._say = say
+        self._recording = False
+        self._paused = False
 
     def set(self, executor: Executor, recording: Recording) -> None:
         """Pause the simulator and put it where the recording begins.
@@ -46,6 +49,7 @@ class Stage:
             InputError: it does not answer, or refuses.
         """
         self._simulator.call(executor, "pause")
+        self._paused = True
         state = initial_state(recording)
         initial = {f"initial_{name}": float(getattr(state, name)) for name in _INITIAL}
         self._simulator.set_parameters(executor, initial)
@@ -61,6 +65,16 @@ class Stage:
         if self._bag:
             self._simulator.set_parameters(executor, {"record_path": self._bag})
             self._say(f"simulator: {self._simulator.record(executor, True)}")
+            self._recording = True
+
+    def resume(self, executor: Executor) -> None:
+        """Let the simulator run.
+
+        Raises:
+            InputError: it refuses.
+        """
+        self._simulator.call(executor, "resume")
+        self._paused = False
 
     def end_record(self, executor: Executor) -> None:
         """End the bag with the recording: what follows is nobody's experiment.
@@ -68,5 +82,16 @@ class Stage:
         Raises:
             InputError: the bag could not be written.
         """
-        if self._bag:
+        if self._recording:
+            self._recording = False
             self._say(f"simulator: {self._simulator.record(executor, False)}")
+
+    def leave(self, executor: Executor) -> None:
+        """Leave the simulator as it was found: running, and without the player's bag."""
+        with self._simulator.to_the_end():
+            try:
+                if self._paused:
+                    self.resume(executor)
+                self.end_record(executor)
+            except InputError as error:
+                self._say(f"simulator: {error}")

@@ -1,0 +1,117 @@
+"""The player with a simulator: how it leaves it, logs of others, what it says while it waits."""
+
+# ruff: noqa: ANN401 (fixtures and messages come from rclpy, which has no types for them)
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from nav_msgs.msg import Odometry
+from std_msgs.msg import String
+from std_srvs.srv import Trigger
+
+from truck_blowout_sim import Blowout, Recording, Series, read_recording, write_recording
+
+TIMES_S = np.arange(0.0, 6.0, 0.01)
+NORTHING_M, EASTING_M = 4_430_000.0, 327_000.0
+
+
+@pytest.fixture(scope="module")
+def bags(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return tmp_path_factory.mktemp("bags")
+
+
+@pytest.fixture(scope="module")
+def simulator(start: Any, bags: Path) -> Any:
+    node = start("simulator", "--record-folder", bags, "--blowout-input")
+    node.wait_for("ready")
+    return node
+
+
+def channels(**more: float) -> dict[str, Series]:
+    values = {"steering_wheel_angle_rad": 0.0, "tractor_vx_mps": 15.0, **more}
+    return {name: Series(TIMES_S, np.full(TIMES_S.size, value)) for name, value in values.items()}
+
+
+def log(path: Path, **more: float) -> Path:
+    write_recording(Recording("log", channels(**more), (Blowout(0.5, ("steer_left",)),)), path)
+    return path
+
+
+def runs(client: Any) -> bool:
+    """Whether the simulator's time goes on."""
+    return not client.call(Trigger, "/truck/step").success
+
+
+def test_a_log_in_utm_coordinates_plays(
+    simulator: Any, start: Any, client: Any, bags: Path
+) -> None:
+    path = log(bags / "utm.csv", tractor_x_m=EASTING_M, tractor_y_m=NORTHING_M)
+    odometry = client.listen(Odometry, "/truck/tractor/odometry")
+    player = start("player", path, "--playback-duration", 0.5)
+    assert player.wait() == 0, player.output
+    assert "refused" not in player.output
+    client.until(lambda: odometry, what="odometry")
+    assert abs(odometry[-1].pose.pose.position.y) < 1000.0
+    assert runs(client)
+
+
+def test_ctrl_c_ends_the_bag_that_the_player_began(
+    simulator: Any, start: Any, client: Any, bags: Path
+) -> None:
+    path = log(bags / "long.csv")
+    player = start("player", path, "--record-path", bags / "stopped")
+    player.wait_for("steer_left blown")
+    assert player.stop() == 0
+    assert f"messages to {bags / 'stopped'}" in simulator.output
+    assert read_recording(bags / "stopped").blowouts[0].tires == ("steer_left",)
+    assert runs(client)
+
+
+def test_a_bag_elsewhere_is_refused_and_the_simulator_left_running(
+    simulator: Any, start: Any, client: Any, bags: Path, tmp_path: Path
+) -> None:
+    player = start("player", log(bags / "other.csv"), "--record-path", tmp_path / "outside")
+    assert player.wait() == 2
+    assert "record_folder" in player.output
+    assert runs(client)
+
+
+def test_a_mapping_file_says_what_is_what(
+    simulator: Any, start: Any, client: Any, bags: Path
+) -> None:
+    rows = "\n".join(f"{t:.2f},{10.0 * t:.3f},54.0" for t in TIMES_S[:100])
+    (bags / "theirs.csv").write_text(f"Time,SteerAngle,Speed\n{rows}\n")
+    (bags / "map.yaml").write_text(
+        "time: {from: Time, unit: s}\nchannels:\n"
+        "  steering_wheel_angle_rad: {from: SteerAngle, unit: deg, sign: -1}\n"
+        "  tractor_vx_mps: {from: Speed, unit: km/h}\n"
+    )
+    player = start("player", bags / "theirs.csv", "--map", bags / "map.yaml")
+    assert player.wait() == 0, player.output
+    assert "simulator at 15.00 m/s" in player.output
+    refused = start("player", bags / "theirs.csv", "--map", bags / "map.yaml", "--remap", "/a:=b")
+    assert refused.wait() == 2
+    assert "remap and map are both given" in refused.output
+
+
+def test_a_tire_named_on_blowout_is_blown_once(simulator: Any, client: Any) -> None:
+    client.call(Trigger, "/truck/reset")
+    bag = client.node.create_publisher(String, "/truck/blowout", client.latched)
+    client.until(lambda: bag.get_subscription_count() > 0, what="the simulator's ear")
+    bag.publish(String(data="trailer_1_left_outer"))
+    simulator.wait_for("trailer_1_left_outer blown at")
+    client.call(Trigger, "/truck/reset")
+    client.spin(0.5)
+    assert client.first(String, "/truck/blown_tires", client.latched).data == ""
+    assert simulator.output.count("trailer_1_left_outer blown at") == 1
+
+
+def test_without_a_clock_the_player_says_what_it_waits_for(start: Any, bags: Path) -> None:
+    words = ("--wait-for-simulator-s", 0, "--ros-args", "-p", "use_sim_time:=true",
+             "-r", "/clock:=/nobodys_clock")  # fmt: skip
+    player = start("player", log(bags / "waits.csv"), *words)
+    player.wait_for("nobody publishes /clock", 20.0)
+    assert player.stop() == 0
