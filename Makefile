@@ -9,6 +9,7 @@ JOBS ?= 2
 SET ?= ci
 
 OUT := out
+RECORD := config/recordings/test_2013_steer_blowout.csv
 BIN := .venv/bin
 # The files in their order: the long ones with few tests would otherwise come last, one behind another.
 PYTEST := -m pytest -n $(JOBS) --dist loadfile --no-loadscope-reorder
@@ -21,7 +22,7 @@ unexport PYTHONPATH AMENT_PREFIX_PATH _ROS_WHEELS_BOOTSTRAP_COMPLETE
 .PHONY: help run test test-ros-all prove bench docs site clean distclean
 
 help:
-	@echo "make run           simulate the 2013 blowout test, compare the model with it: $(OUT)/"
+	@echo "make run           the 2013 blowout test: simulated, compared, diagnosed: $(OUT)/index.html"
 	@echo "make test          every check: tests, style, types, architecture"
 	@echo "make test-ros-all  the node tests with ROS 2 kilted, then with jazzy"
 	@echo "make prove         concealed effects, diagnosed and scored: $(OUT)/proof (SET=ci|dev|test)"
@@ -35,8 +36,16 @@ run: .venv/ready
 	$(BIN)/truck-blowout run steer_axle_blowout -o $(OUT)/steer_axle_blowout --force
 	@echo; echo "2. The test's record beside the model: a page in $(OUT)/comparison"
 	$(BIN)/truck-blowout compare test_2013_steer_blowout --force -o $(OUT)/comparison
-	@echo; echo "3. The same run over ROS 2, in real time: bag and page in $(OUT)/over_dds"
+	@echo; echo "3. What the model lacks, found from the record: $(OUT)/diagnosis"
+	$(BIN)/truck-blowout diagnose $(RECORD) --settings rebuilt_record --quick --force -o $(OUT)/diagnosis
+	@echo; echo "4. Model and record moving in 3-D: $(OUT)/view.html"
+	$(BIN)/truck-blowout view $(OUT)/steer_axle_blowout $(RECORD) --force -o $(OUT)/view.html
+	@echo; echo "5. The same run over ROS 2, in real time: bag and page in $(OUT)/over_dds"
 	scripts/run_over_dds.sh $(OUT)/over_dds
+	@echo; echo "The whole way on one page:"
+	$(BIN)/python scripts/tell_story.py $(RECORD) $(OUT)/diagnosis $(OUT)/index.html \
+		"the run=steer_axle_blowout.html" "the truck in 3-D=view.html" \
+		"the comparison=comparison/report.html" "the diagnosis=diagnosis/report.html"
 
 test: .venv/ready
 	$(BIN)/python $(PYTEST)
@@ -58,6 +67,7 @@ docs: .venv/ready
 	$(BIN)/python scripts/write_command_reference.py
 	$(BIN)/truck-blowout compare test_2013_steer_blowout --force -o $(OUT)/comparison
 	cp $(OUT)/comparison/figures/yaw_rate_tractor.png docs/steer_axle_blowout.png
+	$(BIN)/python scripts/draw_blowout_picture.py docs/truck_at_blowout.jpg
 
 site: .venv/ready-for-docs
 	$(BIN)/python scripts/write_command_reference.py
