@@ -112,6 +112,9 @@ setup(
         "prove": ["commonroad-vehicle-models>=3.0", "mujoco>=3.1", "pysindy>=2.0"],
         "dask": ["distributed>=2023.1"],
         "test": [
+            "asammdf>=7.4",
+            "h5py>=3.6",
+            "xarray>=2022.6",
             "distributed>=2023.1",
             "hypothesis",
             "import-linter",

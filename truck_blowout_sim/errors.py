@@ -85,7 +85,8 @@ def nearest(name: str, known: Iterable[str], otherwise: str = "") -> str:
     """
     names = list(known)
     lowered = {one.lower(): one for one in reversed(names)}
-    near = difflib.get_close_matches(name.lower(), list(lowered), 1, _SIMILAR)
+    holding = sorted((one for one in lowered if name and name.lower() in one), key=len)
+    near = holding or difflib.get_close_matches(name.lower(), list(lowered), 1, _SIMILAR)
     if near:
         return f"{lowered[near[0]]} (the nearest)"
     return otherwise or ", ".join(names[:_MOST_NAMES]) + (" …" if len(names) > _MOST_NAMES else "")

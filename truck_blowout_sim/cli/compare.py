@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -20,6 +21,7 @@ if TYPE_CHECKING:
     from truck_blowout_sim.recordings import Recording
     from truck_blowout_sim.vehicle import Vehicle
 
+HVE = "hve"  # folder of the second page
 _NUMBERS = (
     ("rms error", 11), ("peak error", 11), ("at", 8), ("noise σ", 7), ("lag", 8), ("ISO 18571", 14)
 )  # fmt: skip
@@ -52,6 +54,10 @@ def command(
     no_model: bool = typer.Option(
         False, "--no-model", help="Hold two recordings against each other, without a model."
     ),
+    hve: bool = typer.Option(
+        False, "--hve", help="Of a .mat with the thesis's variables: hold HVE's run (_h) against"
+        " the test's too; a second page in the folder hve/."
+    ),
     mapping: Path | None = MAP,
     blow: list[str] = BLOW,
     force: bool = FORCE,
@@ -70,7 +76,7 @@ def command(
         raise InputError(f"--no-model with {len(recordings)} recordings", expected="two of them")
     folders = _folders(recordings[:1] if no_model else recordings, output)
     for folder in folders:
-        claim(folder, inputs=recordings, force=force, writes=(PAGE, DATA))
+        claim(folder, inputs=recordings, force=force, writes=(PAGE, DATA, *([HVE] if hve else [])))
     for name, folder in zip(recordings, folders, strict=False):
         with _progress() as progress:
             task = progress.add_task("", total=1.0)
@@ -87,6 +93,26 @@ def command(
             progress.update(task, description="drawing", completed=0.8)
             page = write_comparison_report(compared, folder)
         _tell(console, compared, page, as_json)
+        if hve:
+            _hold_hve(console, compared, name, folder / HVE, as_json)
+
+
+def _hold_hve(console: Console, compared: Comparison, name: str, folder: Path, as_json: bool
+              ) -> None:
+    """HVE's run against the test's, with the same figures as the model's."""
+    from truck_blowout_sim.comparison import compare_recordings
+    from truck_blowout_sim.comparison.sources import find_recording
+    from truck_blowout_sim.report.comparison_page import write_comparison_report
+
+    path = find_recording(name)
+    if path.suffix.lower() != ".mat":
+        raise InputError("--hve", file=path, expected="a .mat with the thesis's variables (vx_h …)")
+    theirs = read(path, mapping=None, blow=(), source="hve")
+    held = compare_recordings(compared.recording, replace(theirs, name=f"{theirs.name} (HVE)"),
+                              vehicle=compared.vehicle)  # fmt: skip
+    page = write_comparison_report(held, folder)
+    if not as_json:
+        _print(console, held, page)
 
 
 def _tell(console: Console, compared: Comparison, page: Path, as_json: bool) -> None:

@@ -96,6 +96,9 @@ class _Reader:
         clock = clocks.find_clock([*self.series.values(), *self._clock_topic()])
         if clock.translates:
             self.notes.append("log times are on another clock than the stamps: translated")
+        late = clocks.lateness_note(self.series.values())
+        if late:
+            self.notes.append(late)
         stamps = {name: clock.stamps(series) for name, series in self.series.items()}
         stated = self._stated_origin()
         first = [int(times[0]) for times in stamps.values() if len(times)]

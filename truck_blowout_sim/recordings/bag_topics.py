@@ -76,8 +76,8 @@ class TopicSeries:
         )
 
     def _of_block(self, block: Block, path: str) -> tuple[IndexArray, FloatArray]:
-        if path.endswith("]"):
-            values = _joint_column(block, path)
+        if path.endswith("]") or (":" not in path and path not in block.layout.numbers):
+            values = _entry_column(block, path)
             there = np.isfinite(values)
         else:
             there = measured(block, self.ros_type, path)
@@ -143,9 +143,12 @@ def _joint_names(block: Block) -> list[str]:
     return [block.layout.texts[f"name[{i}]"] for i in range(block.layout.lengths["name"])]
 
 
-def _joint_column(block: Block, path: str) -> FloatArray:
-    array, joint = path[:-1].split("[")
-    names = _joint_names(block)
-    if joint in names and names.index(joint) < block.layout.lengths[array]:
+def _entry_column(block: Block, path: str) -> FloatArray:
+    """An entry of an array, by number or by joint name; NaN where these messages lack it."""
+    if path in block.layout.numbers:
+        return block.number(path)
+    array, _, joint = path.rstrip("]").partition("[")
+    names = _joint_names(block) if "name" in block.layout.lengths else []
+    if joint in names and names.index(joint) < block.layout.lengths.get(array, 0):
         return block.number(f"{array}[{names.index(joint)}]")
     return np.full(len(block.index), np.nan)

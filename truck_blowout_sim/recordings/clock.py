@@ -16,6 +16,7 @@ from truck_blowout_sim.recordings.bag_topics import TimeArray, TopicSeries
 
 _NS = 1_000_000_000
 _SAME_CLOCK_NS = _NS // 2
+_TOLD_S = 0.002
 _EPOCH_NS = 100_000_000 * _NS
 CLOCK_TOPIC = "/clock"
 CLOCK_TYPE = "rosgraph_msgs/msg/Clock"
@@ -59,6 +60,20 @@ def find_clock(series: Iterable[TopicSeries]) -> Clock:
     if abs(int(np.median(best.log_ns - header_ns))) < _SAME_CLOCK_NS:
         return Clock(nothing, nothing)
     return Clock(best.log_ns, np.maximum.accumulate(header_ns))
+
+
+def lateness_note(series: Iterable[TopicSeries]) -> str:
+    """Words on how late stamped messages were logged, empty if within two milliseconds.
+
+    Messages without a stamp stay on their log times, which are late by as much.
+    """
+    late = [np.median(s.log_ns - s.header_ns) / _NS for s in series
+            if s.header_ns is not None and len(s.log_ns)]  # fmt: skip
+    middle = float(np.median(late)) if late else 0.0
+    if not _TOLD_S < abs(middle) < _SAME_CLOCK_NS / _NS:
+        return ""
+    return (f"stamped messages were logged {middle:.3f} s after their stamps (median): the stamps"
+            " are taken; topics without a stamp keep their log times, probably late by as much")
 
 
 def origin_ns(stated_s: float | None, first_stamps_ns: Sequence[int]) -> int:

@@ -11,11 +11,17 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from types import MappingProxyType
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from truck_blowout_sim.errors import nearest
 from truck_blowout_sim.recordings.channels import INPUT_NAMES
+
+if TYPE_CHECKING:
+    import pandas as pd
+    import xarray as xr
 
 FloatArray = NDArray[np.float64]
 
@@ -26,7 +32,7 @@ INPUTS_KEY = "inputs"
 _SAME_INSTANT_S = 1e-7
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Series:
     """Samples of one channel: strictly increasing times and finite values, same length.
 
@@ -55,6 +61,10 @@ class Series:
         return np.array_equal(self.time_s, other.time_s) and np.array_equal(self.value, other.value)
 
     __hash__ = None  # type: ignore[assignment]
+
+    def __repr__(self) -> str:
+        span = f", {self.time_s[0]:g} to {self.time_s[-1]:g} s" if len(self) else ""
+        return f"<Series: {len(self)} samples{span}>"
 
     @property
     def period_s(self) -> float:
@@ -104,7 +114,7 @@ class Blowout:
     tires: tuple[str, ...]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Recording:
     """What was measured (or simulated): channels, events, metadata.
 
@@ -132,7 +142,15 @@ class Recording:
         return name in self.channels
 
     def __getitem__(self, name: str) -> Series:
+        if name not in self.channels:
+            near = nearest(str(name), self.channels, "no channel is like it")
+            raise KeyError(f"{name!r} was not recorded; {near}")
         return self.channels[name]
+
+    def __repr__(self) -> str:
+        span = f", {self.start_s:g} to {self.end_s:g} s" if self.channels else ""
+        blown = "".join(f", {'+'.join(b.tires)} blown at {b.time_s:g} s" for b in self.blowouts)
+        return f"<Recording {self.name!r}: {len(self.channels)} channels{span}{blown}>"
 
     def __reduce__(self) -> tuple[object, ...]:
         # mapping proxies do not pickle; batches send recordings to other processes
@@ -161,7 +179,7 @@ class Recording:
 
     def at(self, name: str, times_s: ArrayLike, *, max_gap_s: float | None = None) -> FloatArray:
         """Channel at given instants, see :meth:`Series.at`; KeyError if it was not recorded."""
-        return self.channels[name].at(times_s, max_gap_s=max_gap_s)
+        return self[name].at(times_s, max_gap_s=max_gap_s)
 
     def inputs_at(self, times_s: ArrayLike) -> FloatArray:
         """The five inputs at given instants.
@@ -186,7 +204,7 @@ class Recording:
         self, name: str, longer_than_s: float | None = None
     ) -> tuple[tuple[float, float], ...]:
         """Silences of a channel, see :meth:`Series.gaps`."""
-        return self.channels[name].gaps(longer_than_s)
+        return self[name].gaps(longer_than_s)
 
     def between(self, start_s: float, end_s: float) -> Recording:
         """The part with start_s <= time <= end_s; channels left without samples are dropped."""
@@ -200,6 +218,32 @@ class Recording:
         moved = {n: Series(s.time_s + by_s, s.value) for n, s in self.channels.items()}
         events = tuple(Blowout(b.time_s + by_s, b.tires) for b in self.blowouts)
         return replace(self, channels=moved, blowouts=events)
+
+    def to_pandas(self) -> pd.DataFrame:
+        """A frame with one column a channel, see :func:`frames.to_pandas`."""
+        from truck_blowout_sim.recordings.frames import to_pandas
+
+        return to_pandas(self)
+
+    def to_xarray(self) -> xr.Dataset:
+        """A dataset with one variable a channel, see :func:`frames.to_xarray`."""
+        from truck_blowout_sim.recordings.frames import to_xarray
+
+        return to_xarray(self)
+
+    @staticmethod
+    def from_pandas(frame: pd.DataFrame) -> Recording:
+        """The recording that a frame holds, see :func:`frames.from_pandas`."""
+        from truck_blowout_sim.recordings.frames import from_pandas
+
+        return from_pandas(frame)
+
+    @staticmethod
+    def from_xarray(dataset: xr.Dataset) -> Recording:
+        """The recording that a dataset holds, see :func:`frames.from_xarray`."""
+        from truck_blowout_sim.recordings.frames import from_xarray
+
+        return from_xarray(dataset)
 
     def with_channels(self, channels: Mapping[str, Series]) -> Recording:
         """A copy in which the given channels are added or replaced."""

@@ -85,10 +85,10 @@ _TABLE: dict[str, dict[str, tuple[float, float, str]]] = {
         "MPa": (1e6, 0.0, ""),
         "bar": (1e5, 0.0, "barg bar(g)"),
         "psi": (_PSI_PA, 0.0, "psig lb/in2 lbf/in2"),
-        "Pa absolute": (1.0, -ATMOSPHERE_PA, "pa(a) pa abs paa"),
-        "kPa absolute": (1e3, -ATMOSPHERE_PA, "kpa(a) kpa abs kpaa"),
-        "bar absolute": (1e5, -ATMOSPHERE_PA, "bara bar(a) bar abs"),
-        "psi absolute": (_PSI_PA, -ATMOSPHERE_PA, "psia psi(a) psi abs"),
+        "Pa absolute": (1.0, -ATMOSPHERE_PA, "pa(a) paa"),
+        "kPa absolute": (1e3, -ATMOSPHERE_PA, "kpa(a) kpaa"),
+        "bar absolute": (1e5, -ATMOSPHERE_PA, "bara bar(a)"),
+        "psi absolute": (_PSI_PA, -ATMOSPHERE_PA, "psia psi(a)"),
     },
     "ratio": {
         "1": (1.0, 0.0, "- none ratio fraction 0..1"),
@@ -122,16 +122,16 @@ _UNITS = {
     for name, (factor, offset, others) in names.items()
     for spelling in (name, *others.split())
 }
-# What the splitting at blanks above would take apart, and the two that differ by case alone.
+# What the splitting at blanks above would take apart.
 _UNITS |= {
     _key(f"{name} abs"): _UNITS[_key(f"{name} absolute")] for name in ("Pa", "kPa", "bar", "psi")
 }
-_MILLI_G, _MEGA_PASCAL = "mg", "mPa"
+_MILLI_PASCAL = "mPa"
 
 
 def find_unit(text: str) -> Unit | None:
     """The unit that a text stands for, None if it is none: ``km/h``, ``[deg/s]``, ``(psi)``."""
-    if text.strip("[]() ") == _MEGA_PASCAL:
+    if text.strip("[]() ") == _MILLI_PASCAL:
         return None  # millipascal: nobody logs it, and MPa would be wrong by 1e9
     return _UNITS.get(_key(text)) if text.strip() else None
 

@@ -8,9 +8,12 @@ Validated with: test/recordings/test_logs_binary.py.
 
 from __future__ import annotations
 
+import contextlib
+import gc
 import logging
+import sys
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -81,13 +84,29 @@ def open_mdf(path: Path) -> MdfLog:
     with path.open("rb") as head:
         if head.read(3) not in (b"MDF", b"UnF"):
             raise InputError("begins with other bytes than MDF", file=path, expected=_EXPECTED)
-    try:
-        file = MDF(path)
-        places = _places(file)
-        metadata = {"log_start": str(file.header.start_time)}
-    except Exception as error:  # noqa: BLE001 -- the library names damage in many ways
-        raise _damaged(path, error) from None
+    problem = None
+    with _quiet_destructors():
+        try:
+            file = MDF(path)
+            places = _places(file)
+            metadata = {"log_start": str(file.header.start_time)}
+        except Exception as error:  # noqa: BLE001 -- the library names damage in many ways
+            problem = _damaged(path, error)
+    if problem:
+        raise problem
     return MdfLog(path, f"MDF {file.version}", file, places, metadata=metadata)
+
+
+@contextlib.contextmanager
+def _quiet_destructors() -> Iterator[None]:
+    """A file that asammdf could not open fails once more, on stderr, when it is deleted."""
+    before = sys.unraisablehook
+    sys.unraisablehook = lambda _: None
+    try:
+        yield
+        gc.collect()
+    finally:
+        sys.unraisablehook = before
 
 
 def _places(file: Any) -> dict[str, tuple[int, int]]:  # noqa: ANN401 -- asammdf is untyped

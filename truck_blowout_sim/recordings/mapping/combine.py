@@ -29,6 +29,7 @@ from truck_blowout_sim.recordings.units import SI_QUANTITIES, Unit, find_unit, u
 FloatArray = NDArray[np.float64]
 _TOLD_LATENESS_S = 0.002
 _MOST_UNUSED = 40
+_EPOCH_S = 1e8
 
 
 @dataclass
@@ -175,7 +176,9 @@ def _times(opened: Opened, rules: Rules, name: str, column: Column, made: Mapped
     elif HEADER not in column.times and RECEIVE in column.times:
         base = base - opened.other_clock_s
     _tell_lateness(topic, column, made)
-    return base + opened.origin_s + shift_s
+    moved = base + opened.origin_s
+    # seconds since 1970 as float64 carry a quarter of a microsecond of noise
+    return (np.round(moved, 6) if abs(opened.origin_s) > _EPOCH_S else moved) + shift_s
 
 
 def _tell_lateness(topic: str, column: Column, made: Mapped) -> None:

@@ -7,6 +7,7 @@ Validated with: test/recordings/test_inspect.py.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 
@@ -115,19 +116,21 @@ def _of_column(name: str, column: Column, channel: Channel) -> Proposal | None:
         return None
     unit = ""
     if stated is None:
-        in_name = _unit_in_name(name, quantity)
+        in_name = _unit_in_name(name)
+        if in_name is not None and in_name.quantity != quantity:
+            return None
         unit = in_name.name if in_name else unit_by_size(told, channel.name, quantity)
         why.append(f"unit from {'the name' if in_name else 'the size of the numbers'}")
     return Proposal(name, channel.name, unit, why=tuple(why))
 
 
-def _unit_in_name(name: str, quantity: str) -> Unit | None:
-    """A unit at the end of a name: ``speed_kmh``, ``SWA_deg``."""
-    words = name.replace(":", "_").replace(".", "_").replace(" ", "_").split("_")
+def _unit_in_name(name: str) -> Unit | None:
+    """A unit at the end of a name: ``speed_kmh``, ``SWA_deg``, ``wheel_rpm[0]``."""
+    words = re.split(r"[:. _]", name.partition("[")[0])
     for text in (words[-1], "/".join(words[-2:])):
-        unit = find_unit(text)
-        if len(words) > 1 and unit is not None and unit.quantity == quantity and text != "1":
-            return unit
+        # one letter may be an axis or an index
+        if len(words) > 1 and len(text) > 1 and find_unit(text) is not None:
+            return find_unit(text)
     return None
 
 

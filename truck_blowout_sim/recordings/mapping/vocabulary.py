@@ -28,7 +28,7 @@ EXACT = {
 PATTERNS = tuple(
     (re.compile(pattern), stem)
     for pattern, stem in (
-        (r"(road|front) ?wheel (angle|steer)|tire angle", ""),
+        (r"(road|front) ?wheel (angle|steer)|tire angle|steer\w* axle", ""),
         (r"(steer\w*|hand ?wheel|lenkrad\w*|swa|sas)( wheel)?.*(rate|vel|speed|torque|moment)", ""),
         (r"(steer\w*|str ?whl|hand ?wheel|lenkrad\w*|swa)( wheel)?.*(ang\w*|winkel|position|pos)?",
          "steering_wheel_angle_rad"),

@@ -1,0 +1,90 @@
+"""The shipped example logs: read by their mappings, they are the run they were made from."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from truck_blowout_sim.cli.main import main
+from truck_blowout_sim.recordings import Blowout, Recording, read_recording
+from truck_blowout_sim.recordings.mapping.inventory import inspect_log
+from truck_blowout_sim.recordings.mapping.writing import mapping_text
+from truck_blowout_sim.resources import config_dir
+
+LOGS = config_dir() / "logs"
+VBOX, STACK = "vbox_steer_blowout.csv", "stack_steer_blowout"
+
+
+@pytest.fixture(scope="module")
+def read() -> dict[str, Recording]:
+    return {name: read_recording(LOGS / name, mapping=LOGS / f"{name.split('.')[0]}.map.yaml")
+            for name in (VBOX, STACK)}  # fmt: skip
+
+
+def test_both_logs_are_one_run(read: dict[str, Recording]) -> None:
+    vbox, stack = read[VBOX], read[STACK]
+    times = np.arange(0.2, 14.5, 0.05)
+    for name, close in (("tractor_vx_mps", 0.1), ("tractor_yaw_rate_radps", 0.004),
+                        ("tractor_ay_mps2", 0.25), ("tractor_az_mps2", 0.25),
+                        ("steering_wheel_angle_rad", 0.01), ("throttle", 0.01),
+                        ("brake_pressure_trailer_pa", 2000.0)):
+        np.testing.assert_allclose(vbox.at(name, times), stack.at(name, times), atol=close,
+                                   err_msg=name)  # fmt: skip
+    for one in read.values():
+        assert one.blowouts == (Blowout(4.92, ("steer_left",)),)
+        assert one.start_s == pytest.approx(0.0, abs=0.01)
+
+
+def test_what_the_logs_hold_is_a_truck_that_goes_left_after_the_blowout(
+    read: dict[str, Recording],
+) -> None:
+    stack = read[STACK]
+    assert stack["tractor_vx_mps"].value[0] == pytest.approx(23.4, abs=0.2)
+    assert stack.at("tractor_yaw_rate_radps", 4.92 + 0.6) > 0.02
+    assert abs(stack["tractor_x_m"].value[0]) < 1.0
+    assert "tractor_roll_rad" not in stack
+    assert stack.at("hub_speed_steer_left_radps", 1.0) == pytest.approx(46.0, rel=0.1)
+
+
+@pytest.mark.parametrize("name", [VBOX, STACK])
+def test_a_mapping_is_begun_from_names_units_and_sizes(
+    name: str, read: dict[str, Recording], tmp_path: Path
+) -> None:
+    found = inspect_log(LOGS / name)
+    begun = tmp_path / "begun.yaml"
+    begun.write_text(mapping_text(found), encoding="utf-8")
+    again = read_recording(LOGS / name, mapping=begun)
+    same = {"tractor_vx_mps", "tractor_yaw_rate_radps", "tractor_ay_mps2", "tractor_az_mps2",
+            "steering_wheel_angle_rad", "throttle"}  # fmt: skip
+    assert same <= set(again.channels)
+    for channel in same:
+        times = np.arange(0.2, 14.5, 0.1)
+        np.testing.assert_allclose(again.at(channel, times), read[name].at(channel, times),
+                                   atol=0.05, err_msg=channel)  # fmt: skip
+    lines = begun.read_text(encoding="utf-8").splitlines()
+    guessed = [line for line in lines if re.match(r"  \w+: \{from", line)]
+    assert guessed
+    assert all("# GUESS: " in line for line in guessed)
+
+
+def test_inspect_says_it_in_a_table_and_in_json(capsys: pytest.CaptureFixture[str]) -> None:
+    mapping = str(LOGS / "vbox_steer_blowout.map.yaml")
+    assert main(["inspect", str(LOGS / VBOX), "--map", mapping]) == 0
+    shown = capsys.readouterr().out
+    assert re.search(r"Speed +km/h +20 .* tractor_vx_mps", shown)
+    assert "1 of 9 columns become nothing" in shown
+    assert main(["inspect", str(LOGS / VBOX), "--json"]) == 0
+    assert '"unused"' in capsys.readouterr().out
+
+
+def test_inspect_refuses_a_wrong_mapping_in_one_line(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    wrong = tmp_path / "wrong.yaml"
+    wrong.write_text("channels: {tractor_vx_mps: {from: Speeed}}")
+    assert main(["inspect", str(LOGS / VBOX), "--map", str(wrong)]) == 2
+    (line,) = capsys.readouterr().err.splitlines()
+    assert "no column 'Speeed' in the log; expected Speed (the nearest)" in line

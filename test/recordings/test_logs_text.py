@@ -1,0 +1,124 @@
+"""Text logs as loggers write them: CarSim, VBOX, MATLAB, European spreadsheets."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from truck_blowout_sim.errors import InputError
+from truck_blowout_sim.recordings.logs import open_log
+from truck_blowout_sim.recordings.mapping.rules import TimeRule
+from truck_blowout_sim.recordings.mapping.times import times_of
+
+IN_TMP = settings(suppress_health_check=[HealthCheck.function_scoped_fixture], max_examples=40)
+ROWS = range(30)
+
+CARSIM = "Time,Vx,AVz,Steer_SW\ns,km/h,deg/s,deg\n" + "".join(
+    f"{0.01 * i:.2f},{80 + 0.1 * i:.1f},{0.2 * i:.1f},{-i}\n" for i in ROWS)  # fmt: skip
+EUROPEAN = (
+    '"Messung 7";;\nDatum: 01.02.2024;;\n"Zeit [ms]";"Geschwindigkeit [km/h]";"LWI [°]"\n'
+) + "".join(f"{10 * i};{80 + 0.1 * i:.1f};{-i}\n".replace(".", ",") for i in ROWS)
+MATLAB = "Time\tSpeed\tSWA\n" + "".join(
+    f"00:00:{0.01 * i:06.3f}\t{22.2 + 0.1 * i}\t{-i}\n" for i in ROWS)  # fmt: skip
+DATED = "timestamp,speed (mph),swa (deg),note\n" + "".join(
+    f"2024-02-01 12:00:{0.01 * i:06.3f},{50 + 0.1 * i:.1f},{-i},ok\n" for i in ROWS)  # fmt: skip
+BLANKS = "  Time   Speed   SWA\n" + "".join(
+    f"  {0.01 * i:.2f}   {80 + i}   {-i}\n" for i in ROWS)  # fmt: skip
+VBO = """File created on 01/02/2024 at 12:00:00
+
+[header]
+satellites
+time
+velocity kmh
+LWS_Angle
+
+[column names]
+sats time velocity LWS_Angle
+
+[data]
+""" + "".join(f"009 1200{0.01 * i:05.2f} {80 + 0.1 * i:07.3f} {-i}\n" for i in ROWS)
+
+
+def log(tmp_path: Path, text: str, name: str = "log.csv", coding: str = "utf-8") -> Path:
+    path = tmp_path / name
+    path.write_bytes(text.encode(coding))
+    return path
+
+
+@pytest.mark.parametrize(("text", "name", "columns"), [
+    (CARSIM, "log.csv", {"Vx": "km/h", "AVz": "deg/s", "Steer_SW": "deg"}),
+    (EUROPEAN, "log.csv", {"Geschwindigkeit": "km/h", "LWI": "°"}),
+    (MATLAB, "log.txt", {"Speed": "", "SWA": ""}),
+    (DATED, "log.csv", {"speed": "mph", "swa": "deg"}),
+    (BLANKS, "log.dat", {"Speed": "", "SWA": ""}),
+    (VBO, "log.vbo", {"velocity": "kmh", "LWS_Angle": ""}),
+])  # fmt: skip
+def test_columns_units_and_time_are_found(
+    tmp_path: Path, text: str, name: str, columns: dict[str, str]
+) -> None:
+    opened = open_log(log(tmp_path, text, name))
+    times = times_of(opened, TimeRule())
+    np.testing.assert_allclose(times.time_s - times.time_s[0], 0.01 * np.arange(30), atol=1e-6)
+    assert {n: opened.column(n).unit for n in columns} == columns
+    last = list(columns)[-1]
+    np.testing.assert_array_equal(opened.column(last).values, -np.arange(30.0))
+
+
+@pytest.mark.parametrize("coding", ["utf-16", "utf-8-sig", "cp1252"])
+def test_encodings(tmp_path: Path, coding: str) -> None:
+    assert "LWI" in open_log(log(tmp_path, EUROPEAN, coding=coding)).names
+
+
+def test_the_head_is_kept_and_text_columns_are_told(tmp_path: Path) -> None:
+    opened = open_log(log(tmp_path, EUROPEAN))
+    assert opened.metadata["Datum"] == "01.02.2024"
+    assert any("'note' holds text" in note for note in open_log(log(tmp_path, DATED)).notes)
+
+
+def test_a_last_line_that_is_cut_short_is_told(tmp_path: Path) -> None:
+    opened = open_log(log(tmp_path, CARSIM + "0.30,8"))
+    assert len(opened.column("Vx").values) == 30
+    assert any("line 33" in note for note in opened.notes)
+
+
+def test_a_cell_that_is_no_number_keeps_its_line(tmp_path: Path) -> None:
+    opened = open_log(log(tmp_path, CARSIM.replace("80.5,", "8o.5,")))
+    assert opened.column("Vx").bad == "line 8: '8o.5'"
+
+
+@pytest.mark.parametrize("text", ["", "\n\n", "only words\nand more\n", "a,b\nc,d\n", "1\n2\n"])
+def test_what_is_no_table_is_one_line(tmp_path: Path, text: str) -> None:
+    with pytest.raises(InputError, match=r"log\.csv"):
+        open_log(log(tmp_path, text))
+
+
+@IN_TMP
+@given(st.text(alphabet="0123456789,;.\t\"\n :-ab[]#", max_size=200), st.sampled_from(
+    ["log.csv", "log.txt", "log.vbo"]))
+def test_any_text_is_a_table_or_one_line(tmp_path: Path, text: str, name: str) -> None:
+    path = log(tmp_path, text, name)
+    line = ""
+    try:
+        opened = open_log(path)
+        for column in opened.names:
+            opened.column(column)
+        times_of(opened, TimeRule())
+    except InputError as error:
+        line = str(error)
+    assert "\n" not in line
+
+
+@IN_TMP
+@given(st.binary(max_size=200), st.sampled_from(["log.csv", "log.vbo", "log.dat"]))
+def test_any_bytes_are_a_table_or_one_line(tmp_path: Path, data: bytes, name: str) -> None:
+    (tmp_path / name).write_bytes(data)
+    line = ""
+    try:
+        open_log(tmp_path / name)
+    except InputError as error:
+        line = str(error)
+    assert "\n" not in line

@@ -1,0 +1,191 @@
+"""A mapping file turns somebody's log into a recording, or says in one line why not."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import scipy.io
+import yaml
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from truck_blowout_sim.errors import InputError
+from truck_blowout_sim.recordings import Blowout, Recording, Series, read_recording, write_recording
+from truck_blowout_sim.recordings.mapping import load_mapping
+from truck_blowout_sim.recordings.mapping.finish import at_base_link, with_local_origin
+from truck_blowout_sim.recordings.mapping.rules import Mount
+
+IN_TMP = settings(suppress_health_check=[HealthCheck.function_scoped_fixture], max_examples=60)
+N = 101
+HEAD = "Time [ms],Speed [km/h],Steer,YawRate [deg/s],Roll [deg]\n"
+
+
+@pytest.fixture
+def log(tmp_path: Path) -> Path:
+    path = tmp_path / "log.csv"
+    rows = (f"{10 * i},{80 + 0.1 * i},{-i},{0.1 * i},1.5\n" for i in range(N))
+    path.write_text(HEAD + "".join(rows))
+    return path
+
+
+def rules(log: Path, tree: dict[str, Any]) -> Path:
+    path = log.parent / "map.yaml"
+    path.write_text(yaml.safe_dump(tree))
+    return path
+
+
+def channels(**changed: object) -> dict[str, Any]:
+    made = {"steering_wheel_angle_rad": {"from": "Steer", "unit": "deg", "sign": -1, "offset": 2},
+            "tractor_vx_mps": {"from": "Speed"}}  # fmt: skip
+    return {"channels": {**made, **changed}}
+
+
+def refusal(log: Path, tree: dict[str, Any]) -> str:
+    with pytest.raises(InputError) as caught:
+        read_recording(log, mapping=rules(log, tree))
+    assert "\n" not in str(caught.value)
+    return str(caught.value)
+
+
+def test_unit_sign_and_offset(log: Path) -> None:
+    read = read_recording(log, mapping=rules(log, channels()))
+    np.testing.assert_allclose(read["tractor_vx_mps"].value, (80 + 0.1 * np.arange(N)) / 3.6)
+    steer = read["steering_wheel_angle_rad"]
+    np.testing.assert_allclose(steer.value, np.radians(np.arange(N) - 2.0))
+    np.testing.assert_allclose(steer.time_s, 0.01 * np.arange(N))
+    assert any("2 columns are not used: YawRate, Roll" in note for note in read.notes)
+
+
+def test_shifts_blowouts_exclusions_and_metadata(log: Path) -> None:
+    tree = channels(tractor_roll_rad={"from": "Roll"}) | {
+        "shift_s": {"Steer": -0.2}, "exclude": ["tractor_roll_rad"],
+        "blowouts": [{"tire": "steer_left", "at_s": 0.5}], "metadata": {"test": "mine"},
+    }  # fmt: skip
+    read = read_recording(log, mapping=rules(log, tree), blow=[Blowout(0.7, ("steer_right",))])
+    assert read["steering_wheel_angle_rad"].time_s[0] == pytest.approx(-0.2)
+    assert read["tractor_vx_mps"].time_s[0] == 0.0
+    assert read.blowouts == (Blowout(0.5, ("steer_left",)), Blowout(0.7, ("steer_right",)))
+    assert "tractor_roll_rad" not in read
+    assert read.metadata["test"] == "mine"
+    moved = read_recording(log, mapping=rules(log, tree), blow=[Blowout(0.6, ("steer_left",))])
+    assert moved.blowouts == (Blowout(0.6, ("steer_left",)),)
+
+
+@pytest.mark.parametrize(("tree", "words"), [
+    (channels(tractor_vx_mps={"from": "Sped"}), "no column 'Sped' in the log; expected Speed"),
+    (channels(tractor_vx={"from": "Speed"}), "no channel 'tractor_vx'; expected tractor_vx_mps"),
+    (channels(tractor_vx_mps={"from": "Speed", "unit": "deg"}), "is one of angle"),
+    (channels(tractor_vx_mps={"from": "Speed", "unit": "kmm/h"}), "unknown unit 'kmm/h'"),
+    (channels(tractor_vx_mps={"from": "Speed", "unit": "m/s"}), "reads like km/h"),
+    (channels(tractor_yaw_rate_radps={"from": "YawRate", "unit": "rad/s"}), "reads like deg/s"),
+    (channels(throttle={"from": "Steer", "unit": "%", "sgn": 1}), "unknown key; expected sign"),
+    (channels(steering_wheel_angle_rad={"from": "Steer"}), "no unit is stated"),
+    (channels(steering_wheel_angle_rad={"from": "Steer", "unit": "deg", "sign": 2}), "1 or -1"),
+    (channels(hub_speed_frnt_left_radps={"from": "Steer", "unit": "rpm"}), "unknown hub"),
+    (channels() | {"exclude": ["tractor_rol_rad"]}, "is not recorded"),
+    (channels() | {"blowouts": [{"tire": "steer_lft", "at_s": 0.5}]}, "expected steer_left"),
+    (channels() | {"blowouts": [{"tire": "steer_left", "at_s": 50}]}, "expected an instant"),
+    (channels() | {"time": {"from": "Tme"}}, "no column 'Tme'"),
+    (channels() | {"time": {"from": "Steer", "unit": "s"}}, "do not run backwards"),
+    (channels() | {"also": ["gone.csv"]}, "gone.csv: no such file"),
+    (channels() | {"sensors": {"cab": {}}}, "expected tractor, trailer"),
+    ({"chanels": {}}, "unknown key; expected channels"),
+    ({}, "no column becomes a channel"),
+])  # fmt: skip
+def test_what_is_wrong_is_named_with_what_is_near(
+    log: Path, tree: dict[str, Any], words: str
+) -> None:
+    assert words in refusal(log, tree)
+
+
+def test_a_bad_cell_of_a_used_column_is_named_with_its_line(log: Path) -> None:
+    log.write_text(log.read_text().replace("80.5,", "8o.5,"))
+    assert "line 7: '8o.5'" in refusal(log, channels())
+
+
+def test_a_second_file_brings_the_steering_to_the_thesis_s_mat(tmp_path: Path) -> None:
+    time_s = np.round(-4.92 + 0.01 * np.arange(1499), 9)[:, None]
+    scipy.io.savemat(tmp_path / "exp.mat", {
+        "time_e": time_s, "vx_e": np.full((1499, 1), 55.0), "yaw_e": np.full((1499, 1), -2.5),
+        "vx_h": np.full((1499, 1), 54.0)})  # fmt: skip
+    (tmp_path / "steer.csv").write_text(
+        "t [s];wheel [deg]\n" + "".join(f"{-4.9 + 0.02 * i:.2f};{i / 10}\n" for i in range(700)))
+    tree = {"also": ["steer.csv"],
+            "channels": {"steering_wheel_angle_rad": {"from": "wheel", "unit": "deg"}}}
+    mapping = rules(tmp_path / "exp.mat", tree)
+    read = read_recording(tmp_path / "exp.mat", mapping=mapping)
+    assert set(read.channels) == {
+        "steering_wheel_angle_rad", "tractor_vx_mps", "tractor_yaw_rate_radps"}
+    assert read.at("steering_wheel_angle_rad", [0.1]) == pytest.approx(math.radians(25.0))
+    assert read.blowouts == (Blowout(0.0, ("steer_left",)),)
+    hve = read_recording(tmp_path / "exp.mat", mapping=mapping, source="hve")
+    assert hve["tractor_vx_mps"].value[0] == pytest.approx(54.0 * 0.44704)
+
+
+def test_files_on_absolute_clocks_are_laid_on_the_first_ones(log: Path) -> None:
+    rows = "".join(f"2024-02-01 12:00:{0.01 * i:06.3f},{80 + 0.1 * i}\n" for i in range(N))
+    log.write_text("time,Speed [km/h]\n" + rows)
+    rows = "".join(f"2024-02-01 12:00:{0.5 + 0.01 * i:06.3f},{i}\n" for i in range(N))
+    (log.parent / "steer.csv").write_text("time,Steer [deg]\n" + rows)
+    read = read_recording(log, mapping=rules(log, channels() | {"also": ["steer.csv"]}))
+    assert read["tractor_vx_mps"].time_s[0] == 0.0
+    assert read["steering_wheel_angle_rad"].time_s[0] == pytest.approx(0.5)
+    assert float(read.metadata["clock_start_s"]) == pytest.approx(1706788800.0)
+
+
+def test_an_instrument_off_base_link_is_moved_there() -> None:
+    time_s = np.arange(200) / 100
+    turn = np.full(200, 0.2)
+    at_sensor = {"tractor_yaw_rate_radps": turn, "tractor_vx_mps": np.full(200, 20.0),
+                 "tractor_vy_mps": 0.2 * np.full(200, -1.2), "tractor_ax_mps2": 1.2 * turn**2}
+    made = Recording("turn", {n: Series(time_s, v) for n, v in at_sensor.items()})
+    moved = at_base_link(made, {"tractor": Mount(x_m=-1.2)})
+    np.testing.assert_allclose(moved["tractor_vy_mps"].value, 0.0, atol=1e-12)
+    np.testing.assert_allclose(moved["tractor_ax_mps2"].value, 0.0, atol=1e-12)
+    assert "moved" in moved.notes[0]
+
+
+def test_coordinates_of_the_earth_get_a_local_origin(tmp_path: Path) -> None:
+    time_s = np.arange(20) / 10
+    made = Recording("utm", {"tractor_x_m": Series(time_s, 5e5 + time_s),
+                             "tractor_y_m": Series(time_s, 4.2e6 - time_s)})  # fmt: skip
+    local = with_local_origin(made)
+    np.testing.assert_allclose(local["tractor_x_m"].value, time_s, atol=1e-6)
+    assert local.metadata["map_origin_m"] == "500000 4200000"
+    assert read_recording(write_recording(made, tmp_path / "utm.csv")).metadata["map_origin_m"]
+
+
+@IN_TMP
+@given(st.recursive(
+    st.one_of(st.none(), st.booleans(), st.floats(), st.integers(), st.text(max_size=8),
+              st.sampled_from(["Speed", "deg", "Steer", "steer_left"])),
+    lambda inner: st.one_of(st.lists(inner, max_size=3), st.dictionaries(st.sampled_from(
+        ["time", "channels", "from", "unit", "also", "blowouts", "tire", "at_s", "shift_s", "file",
+         "tractor_vx_mps", "sensors", "tractor", "x_m", "exclude", "sign", "offset"]),
+        inner, max_size=4)), max_leaves=12))
+def test_any_tree_is_a_mapping_or_one_line(log: Path, tree: object) -> None:
+    path = log.parent / "any.yaml"
+    path.write_text(yaml.safe_dump(tree))
+    line = ""
+    try:
+        read_recording(log, mapping=path)
+    except InputError as error:
+        line = str(error)
+    assert "\n" not in line
+
+
+@IN_TMP
+@given(st.one_of(st.text(max_size=60).map(str.encode), st.binary(max_size=60)))
+def test_any_bytes_are_a_mapping_or_one_line(log: Path, data: bytes) -> None:
+    path = log.parent / "any.yaml"
+    path.write_bytes(data)
+    line = ""
+    try:
+        load_mapping(path)
+    except InputError as error:
+        line = str(error)
+    assert "\n" not in line
