@@ -12,7 +12,9 @@ import pytest
 import yaml
 
 from truck_blowout_sim.cli.main import main
+from truck_blowout_sim.comparison import compare
 from truck_blowout_sim.diagnosis import diagnose, write_diagnosis
+from truck_blowout_sim.diagnosis.sensors import channel_noise
 from truck_blowout_sim.recordings import Recording, read_recording, write_recording
 from truck_blowout_sim.resources import config_file
 from truck_blowout_sim.simulation import simulate_inputs
@@ -67,7 +69,7 @@ def test_the_weak_brake_is_the_answer(case: Case) -> None:
 def test_the_file_has_the_promised_keys(case: Case) -> None:
     answer = case.answer
     assert list(answer) == ["verdict", "effects", "alias_sets", "location", "fit", "null_p_value",
-                            "next_test"]
+                            "next_test", "summary", "pulled"]
     assert set(answer["effects"][0]) == {"name", "kind", "where", "onset_s", "onset_ci90_s",
                                          "parameters", "equation", "sentence"}
     assert set(answer["location"]) == {"channels", "interval_s", "body", "line_of_action_x_m",
@@ -98,6 +100,25 @@ def test_the_vehicle_file_drives_and_fits_a_run_never_fitted(case: Case) -> None
     before, after = (np.sqrt(np.mean((measured.at(name, times) - simulate_inputs(
         v, measured, step_s=0.0025).at(name, times)) ** 2)) for v in (given, found))
     assert after < 0.6 * before
+
+
+def test_compare_gives_the_figures_of_the_answer_on_unseen_runs(case: Case) -> None:
+    vehicle = load_vehicle(str(case.folder / "vehicle.yaml"))
+    compared = compare(case.holdout, vehicle)
+    noise = channel_noise(compared.recording)
+    told = case.answer["fit"]["holdout"]["after"]
+    assert len(told) > 5
+    for channel, figure in told.items():
+        found = compared[channel].rms / noise[channel].sigma
+        assert found == pytest.approx(figure, rel=1e-3), channel
+
+
+def test_each_value_has_a_source_of_its_own_and_none_is_of_the_place(case: Case) -> None:
+    effects = load_vehicle(str(case.folder / "vehicle.yaml")).effects
+    text = " ".join((case.folder / "vehicle.yaml").read_text(encoding="utf-8").split())
+    assert "diagnosed: brake_imbalance trailer_2_left" in text
+    assert "sheet number" in text
+    assert not [name for name in effects if name.startswith("world.")]
 
 
 def test_the_page_is_written_and_says_the_verdict(case: Case) -> None:

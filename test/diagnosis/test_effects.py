@@ -37,7 +37,8 @@ def test_names_are_the_canonical_ones() -> None:
     names = [effect.name for effect in OF_TRUCKS]
     assert len(names) == len(set(names))
     assert {e.name for e in LIBRARY if e.kind == "physics"} == PHYSICS
-    assert {e.name for e in LIBRARY if e.kind == "sensor"} == {"steering_angle_offset"}
+    assert {e.name for e in LIBRARY if e.kind == "sensor"} == {
+        "steering_angle_offset", "yaw_rate_scale"}
 
 
 @pytest.mark.parametrize("effect", EVERY)

@@ -11,6 +11,7 @@ from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 
 from truck_blowout_sim.cli.outputs import FORCE, JSON, claim, say
+from truck_blowout_sim.cli.reading import MAP, read
 
 if TYPE_CHECKING:
     from truck_blowout_sim.diagnosis.calibrate import Calibration
@@ -39,6 +40,7 @@ def command(
         None, "--impose-speed/--no-impose-speed",
         help="Follow the recorded speed. By default only where throttle or brakes are missing."
     ),
+    mapping: Path | None = MAP,
     force: bool = FORCE,
     as_json: bool = JSON,
 ) -> None:
@@ -54,7 +56,7 @@ def command(
     if output.suffix not in (".yaml", ".yml"):
         raise InputError("is no name of a vehicle file", file=output, expected="a name in .yaml")
     loaded = load_vehicle(vehicle)
-    runs, unseen = (_read(paths, loaded) for paths in (recordings, holdout))
+    runs, unseen = (_read(paths, loaded, mapping) for paths in (recordings, holdout))
     if not as_json:
         say_roles({"fits": runs, "only predicts": unseen})
     with _progress() as bar:
@@ -67,15 +69,13 @@ def command(
     say(as_json, as_plain(found, output), lines(found, output))
 
 
-def _read(paths: Sequence[Path], vehicle: Vehicle) -> list[Recording]:
+def _read(paths: Sequence[Path], vehicle: Vehicle, mapping: Path | None) -> list[Recording]:
     """Read recordings; the same name twice is told apart by a number."""
     from dataclasses import replace
 
-    from truck_blowout_sim.recordings import read_recording
-
     found: list[Recording] = []
     for path in paths:
-        one = read_recording(path, hubs=vehicle.hubs, tires=vehicle.tires)
+        one = read(path, mapping=mapping, blow=(), hubs=vehicle.hubs, tires=vehicle.tires)
         same = sum(r.name.split(" #")[0] == one.name for r in found)
         found.append(replace(one, name=f"{one.name} #{same + 1}") if same else one)
     return found

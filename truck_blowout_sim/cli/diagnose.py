@@ -12,7 +12,7 @@ from rich.console import Console
 from rich.progress import BarColumn, Progress, TaskID, TextColumn, TimeElapsedColumn
 
 from truck_blowout_sim.cli.failures import interruptible
-from truck_blowout_sim.cli.outputs import FORCE, claim
+from truck_blowout_sim.cli.outputs import FORCE, JSON, claim, say
 from truck_blowout_sim.cli.reading import BLOW, MAP, read
 
 if TYPE_CHECKING:
@@ -26,6 +26,7 @@ _KEPT = ".resume"  # in the output folder, until the answer is written
 _CONTINUES = "the same command continues from here"
 _QUICK_STEP_S, _QUICK_REFITS, _QUICK_PANELS = 0.0025, (3, 1), 3
 _THOROUGH_STEP_S = 0.001
+_FAR = 3.0  # prior sigmas from the sheet, beyond which a number is told
 _OF_SENSITIVITIES = 25.0  # as many times as long take four effects
 
 
@@ -60,9 +61,14 @@ def command(
     thorough: bool = typer.Option(
         False, "--thorough", help="1 ms step, up to four effects, intervals by profile likelihood."
     ),
+    corrected: Path | None = typer.Option(
+        None, "--write-corrected", metavar="DIR",
+        help="Folder for the recordings with the found faults of instruments taken out, as CSV."
+    ),
     mapping: Path | None = MAP,
     blow: list[str] = BLOW,
     force: bool = FORCE,
+    as_json: bool = JSON,
 ) -> None:
     """Locate, name and fit what the model lacks to explain recordings."""
     from truck_blowout_sim.diagnosis import diagnose, keeping
@@ -71,10 +77,14 @@ def command(
     from truck_blowout_sim.vehicle import load_vehicle
 
     claim(output, inputs=[*recordings, *baseline, *holdout], force=force, writes=_FILES)
+    if corrected is not None:
+        claim(corrected, inputs=[*recordings, *baseline, *holdout], force=force,
+              writes=("corrected",))
     loaded = load_vehicle(vehicle)
     train = _read(recordings, loaded, mapping, blow)
     base, hold = (_read(paths, loaded, mapping, ()) for paths in (baseline, holdout))
-    _say_roles(train, base, hold)
+    if not as_json:
+        _say_roles(train, base, hold)
     output.mkdir(parents=True, exist_ok=True)
     step_s = _QUICK_STEP_S if quick else _THOROUGH_STEP_S if thorough else STEP_S
     with (_progress() as progress, keeping(output / _KEPT, _teller(progress)) as kept,
@@ -89,7 +99,27 @@ def command(
             progress=_reporter(progress, task, thorough))
         progress.update(task, description="drawing", completed=1.0)
         _write(answer, loaded, vehicle, values, output, _QUICK_PANELS if quick else None)
-    _print(Console(), answer, output)
+    if corrected is not None:
+        _write_corrected(answer, {"train": train, "baseline": base, "holdout": hold}, corrected)
+    if as_json:
+        say(True, dict(answer.as_json()), ())
+    else:
+        _print(Console(), answer, output)
+
+
+def _write_corrected(answer: Diagnosis, runs: Mapping[str, Sequence[Recording]], folder: Path
+                     ) -> None:
+    """Every recording without the faults of its instruments, under its own name."""
+    from truck_blowout_sim.diagnosis.sensors import correct
+    from truck_blowout_sim.recordings import write_recording
+
+    for role, group in runs.items():
+        faults = [f for f in answer.evidence.findings if f.in_baseline or role != "baseline"]
+        for run in group:
+            place = folder / "corrected"
+            place.mkdir(parents=True, exist_ok=True)
+            name = run.name.replace("/", "_").replace(" #", "_")
+            write_recording(correct(run, faults), place / f"{name}.csv")
 
 
 def _write(answer: Diagnosis, vehicle: Vehicle, base: str, values: Mapping[str, float],
@@ -152,10 +182,27 @@ def _teller(progress: Progress) -> Callable[[str], None]:
 
 def _print(console: Console, answer: Diagnosis, folder: Path) -> None:
     """The verdict, each effect, and where the rest is."""
-    console.print(f"[bold]{answer.verdict}[/]: {answer.sentence}", highlight=False)
+    from truck_blowout_sim.diagnosis.result import amount_text, label_of, summarize
+
+    def line(text: str) -> None:
+        console.print(text, highlight=False, markup=False)
+
+    summary = summarize(answer)
+    console.print(f"[bold]{answer.verdict}[/]:", end=" ", highlight=False)
+    line(summary.wrong)
+    line(f"how sure: {summary.sure}")
+    line(f"what changed: {summary.changed}")
     for effect, aliases in zip(answer.effects, answer.alias_sets, strict=True):
-        console.print(f"  {effect.name} {effect.where}  {effect.equation}", highlight=False)
+        what = f" of the {effect.instrument}" if effect.instrument else ""
+        amounts = ", ".join(f"{name} {amount_text(name, p)}"
+                            for name, p in effect.parameters.items())
+        line(f"  {label_of(effect, answer.effects)}{what}: {amounts or 'no amount'}; "
+             f"{effect.equation}")
         if len(aliases.names) > 1:
-            console.print(f"  cannot be told from: {', '.join(aliases.names[1:])}", highlight=False)
+            line(f"  cannot be told from: {', '.join(aliases.names[1:])}")
+    far = [n for n in answer.evidence.calibrated if abs(n.pull) > _FAR]
+    if far:
+        line("numbers pulled far from the sheet: "
+             + ", ".join(f"{n.name.replace('_', ' ')} ({n.pull:+.1f} prior sigmas)" for n in far))
     console.print(f"next test: {answer.next_test}", highlight=False)
     console.print(str(folder / "report.html"), highlight=False, soft_wrap=True)

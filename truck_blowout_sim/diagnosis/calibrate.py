@@ -28,6 +28,7 @@ from truck_blowout_sim.diagnosis.case.nuisance import Nuisance
 from truck_blowout_sim.diagnosis.case.runs import prepare_run
 from truck_blowout_sim.diagnosis.case.sources import number_sources
 from truck_blowout_sim.diagnosis.case.study import FURTHEST, Study
+from truck_blowout_sim.diagnosis.case.usable import determined
 from truck_blowout_sim.diagnosis.fit.linear import Projector
 from truck_blowout_sim.diagnosis.fit.quantiles import NINETY
 from truck_blowout_sim.diagnosis.sensors import (
@@ -136,6 +137,7 @@ class Calibration:
         return float(np.exp(np.mean(np.log(ratios)))) if ratios else None
 
 
+@determined
 def calibrate(
     recordings: Sequence[Recording], *, holdout: Sequence[Recording] = (),
     vehicle: Vehicle | str = "international_9400i_trailmobile",
@@ -178,11 +180,11 @@ def calibrate(
                        number_sources(settings if isinstance(settings, str) else "default"))
     truck = apply_amounts(packed, rules.nuisances, np.where(place, 0.0, amounts))
     tell("runs before and after", 0.5)
-    sheet = _errors(packed, runs, unseen, step_s, impose_speed)
+    sheet = _errors(packed, runs, unseen, impose_speed)
     share, changes = 0.0, _paired(sheet, sheet)
     for one in _SHARES:
         tried = apply_amounts(packed, rules.nuisances, np.where(place, 0.0, one * amounts))
-        after = _paired(sheet, _errors(tried, runs, unseen, step_s, impose_speed))
+        after = _paired(sheet, _errors(tried, runs, unseen, impose_speed))
         if _mean_log(c for c in after if not c.unseen) < 0.0:
             truck, share, changes = tried, one, after
             break
@@ -306,14 +308,14 @@ def _of_the_place(number: Nuisance) -> bool:
 
 
 def _errors(
-    truck: Packed, runs: Sequence[Recording], unseen: Sequence[Recording], step_s: float,
+    truck: Packed, runs: Sequence[Recording], unseen: Sequence[Recording],
     impose_speed: bool | None,
 ) -> dict[tuple[str, str, bool], float]:  # fmt: skip
     """Rms error of every measured channel of every run, as ``compare`` finds it."""
     found = {}
     for group, is_unseen in ((runs, False), (unseen, True)):
         for run in group:
-            compared = compare(run, truck, step_s=step_s, impose_speed=impose_speed)
+            compared = compare(run, truck, impose_speed=impose_speed)
             for channel in compared.channels:
                 if not channel.imposed and channel.name in run:
                     found[run.name, channel.name, is_unseen] = channel.rms

@@ -10,12 +10,13 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from truck_blowout_sim.diagnosis.answer.outcome import Material, answer, joint_amounts, unexplained
+from truck_blowout_sim.diagnosis.answer.outcome import Material, answer, unexplained
 from truck_blowout_sim.diagnosis.case.calibration import calibrate
 from truck_blowout_sim.diagnosis.case.fingerprints import case_parts
 from truck_blowout_sim.diagnosis.case.resume import Keeps
 from truck_blowout_sim.diagnosis.case.runs import Run, prepare_run
-from truck_blowout_sim.diagnosis.case.study import FURTHEST, REFITS, Progress, Study, row_ranges
+from truck_blowout_sim.diagnosis.case.study import REFITS, Progress, Study, row_ranges
+from truck_blowout_sim.diagnosis.case.usable import determined
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.locate.lagging import lagging_wheel
 from truck_blowout_sim.diagnosis.locate.periodic import find_beat
@@ -24,13 +25,18 @@ from truck_blowout_sim.diagnosis.locate.restless import restless
 from truck_blowout_sim.diagnosis.locate.wrench import Wrenches, missing_wrench
 from truck_blowout_sim.diagnosis.model.law import plainest_law
 from truck_blowout_sim.diagnosis.model.law_check import checked
+from truck_blowout_sim.diagnosis.model.vehicle import (
+    DiagnosedTruck,
+    diagnosed_truck,
+    driven_fit,
+)
 from truck_blowout_sim.diagnosis.name.candidates import known_names
 from truck_blowout_sim.diagnosis.name.judging import Found, not_taken_back
 from truck_blowout_sim.diagnosis.name.search import search
 from truck_blowout_sim.diagnosis.prove.intervals import Timing, time_intervals
 from truck_blowout_sim.diagnosis.prove.next_test import Separation, best_test
 from truck_blowout_sim.diagnosis.prove.profile import Arms, arms_of
-from truck_blowout_sim.diagnosis.result import Diagnosis, Role, Verdict
+from truck_blowout_sim.diagnosis.result import Diagnosis, Role
 from truck_blowout_sim.diagnosis.sensors import GateResult, correct, sensor_gate, vehicle_geometry
 from truck_blowout_sim.diagnosis.settings import Settings, load_settings
 from truck_blowout_sim.errors import InputError
@@ -41,6 +47,7 @@ Floats = NDArray[np.float64]
 STEP_S = 0.002  # residuals on 0.1 s bins do not change beyond a tenth of a sigma against 1 ms
 
 
+@determined
 def diagnose(recordings: Sequence[Recording], *, baseline: Sequence[Recording] = (),
              holdout: Sequence[Recording] = (),
              vehicle: Vehicle | str = "international_9400i_trailmobile", settings: str = "default",
@@ -99,10 +106,11 @@ def diagnose(recordings: Sequence[Recording], *, baseline: Sequence[Recording] =
         study, found = searched(gate)
     material = _material(study, found, gate, loaded.name, (profile, next_run), progress)
     told = answer(material)
-    told = replace(told, evidence=replace(told.evidence, blowouts=tuple(
+    told = replace(told, evidence=replace(told.evidence, findings=gate.findings, blowouts=tuple(
         (r.name, event.time_s, " + ".join(event.tires))
         for r in (*recordings, *baseline, *holdout) for event in r.blowouts)))
-    return told, diagnosed_values(material, packed, told.verdict)
+    told, truck = _with_truck(told, material, case)
+    return told, truck.values
 
 
 @dataclass(frozen=True, eq=False)
@@ -194,28 +202,39 @@ def _separation(study: Study, found: Found, progress: Progress | None) -> Separa
     return next((best for best in tried if best is not None), None)
 
 
-def diagnosed_values(material: Material, given: Packed, verdict: Verdict) -> Mapping[str, float]:
-    """Packed parameters of the diagnosed truck that differ from the given one's."""
-    study, named = material.study, [r.hypothesis for r in material.found.named]
-    truck, joint = study.packed, joint_amounts(material)
-    for nuisance in study.settings.nuisances:
-        here, usual = study.amounts.get(nuisance.name, 0.0), study.expected(nuisance.name)
-        total = float(np.clip(joint.get(nuisance.name, here), usual - FURTHEST, usual + FURTHEST))
-        truck = truck.unchecked(nuisance.values(truck, nuisance.between(here, total)))
-    if unexplained(material) and material.law.helps:
-        truck = truck.unchecked(material.law.values)
-    for effect in named:
-        truck = effect.apply(truck, next(iter(effect.times), ""))
-    return {name: float(truck.params[i]) for name, i in given.index.items()
-            if truck.params[i] != given.params[i]}
+def _diagnosed(material: Material, given: Packed) -> tuple[DiagnosedTruck, DiagnosedTruck]:
+    """The calibrated truck without what was named, and with it."""
+    study, found = material.study, material.found
+    law = material.law.values if unexplained(material) and material.law.helps else None
+    without = study.residual(dict(enumerate(found.models_null)))
+    return (diagnosed_truck(study, given, without, ()),
+            diagnosed_truck(study, given, study.residual(),
+                            [r.hypothesis for r in found.named], law))
+
+
+def _with_truck(told: Diagnosis, material: Material, case: _Case) -> tuple[Diagnosis,
+                                                                          DiagnosedTruck]:
+    """The answer with the truck that was judged: it is driven over the unseen runs.
+
+    The instant of an event differs from run to run and is no property of a vehicle: where one was
+    named, the figures stay those of the prediction, which locates it anew.
+    """
+    before, after = _diagnosed(material, case.packed)
+    evidence = replace(told.evidence, sources=tuple(after.sources.items()))
+    runs = [run.recording for run in material.study.holdout]
+    if runs and not any(r.hypothesis.effect.timed for r in material.found.named):
+        told = replace(told, holdout=driven_fit(
+            runs, before.packed, case.packed.with_values(after.values),
+            impose_speed=case.impose_speed))
+    return replace(told, evidence=evidence), after
 
 
 def write_diagnosed_vehicle(path: Path, base: str, values: Mapping[str, float],
                             diagnosis: Diagnosis) -> None:
     """Write ``vehicle.yaml``: the given vehicle, extended by what was found."""
     what = ", ".join(effect.name for effect in diagnosis.effects) or "calibration only"
-    sources = dict.fromkeys(values, f"diagnosed: {what}")
-    write_vehicle(path, base, values, sources, title=f"{base}, diagnosed: {what}")
+    write_vehicle(path, base, values, dict(diagnosis.evidence.sources),
+                  title=f"{base}, diagnosed: {what}")
 
 
 __all__ = ["Diagnosis", "diagnose", "write_diagnosed_vehicle"]

@@ -131,6 +131,7 @@ class UnitParams(NamedTuple):
     base_x_m: int  # base_link
     base_y_m: int
     base_z_m: int
+    yaw_rate_gain: int  # 1; what the gyro there reads over the true yaw rate
     hitch_x_m: int  # fifth wheel or kingpin
     hitch_y_m: int
     hitch_z_m: int

@@ -92,7 +92,7 @@ def _observe_unit(x: Floats, s: int, p: Floats, a: int, work: Floats, out: Float
     out[k + 2], out[k + 3], out[k + 4] = x[s + UNIT_S.yaw_rad], roll_rad, pitch_rad
     out[k + 5], out[k + 6] = v[0], v[1]
     wx, wy, wz = x[s + UNIT_S.p_radps], x[s + UNIT_S.q_radps], x[s + UNIT_S.r_radps]
-    out[k + 7], out[k + 8], out[k + 9] = wz, wx, wy
+    out[k + 7], out[k + 8], out[k + 9] = p[a + UNIT.yaw_rate_gain] * wz, wx, wy
     cx, cy, cz = wy * bz - wz * by, wz * bx - wx * bz, wx * by - wy * bx
     dx, dy, dz = x[s + UNIT_S.pdot_radps2], x[s + UNIT_S.qdot_radps2], x[s + UNIT_S.rdot_radps2]
     out[k + 10] = (x[s + UNIT_S.ax_mps2] + dy * bz - dz * by + wy * cz - wz * cy

@@ -70,12 +70,13 @@ def candidate_row(candidate: Candidate) -> Row:
 
 
 def calibrated_row(number: Calibrated) -> Row:
-    """A number of the spec sheet beside its estimate."""
+    """A number of the spec sheet beside its estimate; relative ones in percent of the sheet."""
+    factor, unit = (100.0, "%") if number.unit == "1" else (1.0, number.unit.replace("SI", ""))
     return {
         "name": number.name,
-        "prior": f"{shortened(number.prior)} ± {shortened(number.prior_sigma)}",
-        "estimate": f"{_exact(number.value)} ± {shortened(number.sigma)}",
-        "unit": "" if number.unit in ("1", "SI") else number.unit,
+        "prior": f"{shortened(factor * number.prior)} ± {shortened(factor * number.prior_sigma)}",
+        "estimate": f"{_exact(factor * number.value)} ± {shortened(factor * number.sigma)}",
+        "unit": unit,
         "far": abs(number.pull) > _NOTABLE,
         "pull": f"{number.pull:+.1f}",
         "style": "bad" if abs(number.pull) > _IMPLAUSIBLE else "",

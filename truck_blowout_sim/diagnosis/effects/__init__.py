@@ -28,6 +28,7 @@ from truck_blowout_sim.diagnosis.effects import (
     tire_relaxation,
     tire_saturation,
     tire_saturation_linear,
+    yaw_rate_scale,
 )
 from truck_blowout_sim.diagnosis.effects.base import Amount, Effect
 
@@ -57,6 +58,7 @@ _MODULES = (
     payload_shift,
     fifth_wheel_friction,
     steering_angle_offset,
+    yaw_rate_scale,
 )
 LIBRARY: tuple[Effect, ...] = (*(module.EFFECT for module in _MODULES),
                                driveline_drag.RETARDER, road_grade.FROM_AN_INSTANT,

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from truck_blowout_sim.diagnosis.result.parts import Place
+from truck_blowout_sim.diagnosis.sensors import SensorFinding
 
 FloatArray = NDArray[np.float64]
 Role = Literal["train", "holdout", "baseline"]
@@ -154,6 +155,8 @@ class Evidence:
         assumptions: everything that was taken for granted, one sentence each.
         missing_channels: (channel, what it would have told apart).
         notes: what happened on the way that a reader should know.
+        sources: (packed name, where its value comes from) of the diagnosed vehicle.
+        findings: faults of instruments, as the sensor gate found them; they can be taken out.
         blowouts: (recording, instant, tires) of each tire that was blown on command.
         facts: other figures by name, as text (version, run time, number of simulations).
     """
@@ -172,3 +175,5 @@ class Evidence:
     notes: tuple[str, ...] = ()
     facts: tuple[tuple[str, str], ...] = ()
     blowouts: tuple[tuple[str, float, str], ...] = ()
+    sources: tuple[tuple[str, str], ...] = ()
+    findings: tuple[SensorFinding, ...] = ()

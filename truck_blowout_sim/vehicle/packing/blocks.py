@@ -32,6 +32,7 @@ NEUTRAL: dict[type[Any], dict[str, float]] = {
     layout.AbsParams: {},
     layout.CircuitParams: {"delay_extra_s": 0.0, "lag_extra_s": 0.0},
     layout.UnitParams: {
+        "yaw_rate_gain": 1.0,
         "drag_area_extra_m2": 0.0,
         "gust_mps": 0.0,
         "gust_start_s": inf,
