@@ -45,7 +45,11 @@ class Driver:
     def _throttle(self, time_s: float, speed: float) -> float:
         if time_s >= self._manoeuvre.release_s:
             return 0.0
-        gap = self._manoeuvre.speed_mps - speed
+        pace = self._manoeuvre.pace
+        wanted = self._manoeuvre.speed_mps * (1.0 if pace is None else pace(time_s))
+        if any(b.start_s <= time_s < b.end_s + 1.0 for b in self._manoeuvre.brakings) and pace:
+            return 0.0
+        gap = wanted - speed
         resist = 1500.0 + 3.3 * speed * speed
         power = 300.0e3 / max(speed, 3.0)
         return min(1.0, max(0.0, (resist + 6000.0 * gap) / (power + 1500.0)))
@@ -54,6 +58,8 @@ class Driver:
                speed: float) -> float:
         """Hand-wheel angle, rad: wander, program, and lane keeping after thinking time."""
         task = self._manoeuvre
+        if task.lane is not None:
+            self._lane = task.lane(time_s + PREVIEW_S)
         wander = sum(size * math.sin(turn * time_s + at) for size, turn, at in self._waves)
         if task.open_loop[0] <= time_s < task.open_loop[1]:
             self._lane = task.lane_after_m

@@ -42,3 +42,5 @@ class Manoeuvre:
     blown: tuple[str, ...] = ()
     corrects: bool = True
     reaction_s: float = 0.7
+    lane: Program | None = None      # lateral place to hold over time, m
+    pace: Program | None = None      # speed over `speed_mps` to hold over time

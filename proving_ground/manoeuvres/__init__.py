@@ -9,11 +9,12 @@ from collections.abc import Callable
 
 import numpy as np
 
-from proving_ground.manoeuvres import blowouts, braking, lanes, straight, turns, wheel
+from proving_ground.manoeuvres import blowouts, braking, lanes, ordinary, straight, turns, wheel
 from proving_ground.task import Manoeuvre
 
 Maker = Callable[[np.random.Generator], Manoeuvre]
 MANOEUVRES: dict[str, Maker] = {maker.__name__: maker for maker in (
+    ordinary.ordinary_drive,
     straight.straight, straight.coast_down, straight.coast_slow, straight.speed_step,
     straight.late_release, straight.coast_then_brake, straight.roll_out, straight.dab_and_roll,
     straight.dragging_brake, straight.roll_and_dabs, lanes.lane_change,

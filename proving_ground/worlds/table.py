@@ -29,6 +29,7 @@ from proving_ground.worlds.draws import (
 from proving_ground.worlds.runs import choose_runs
 
 WORLDS = ("w1", "w2", "w3", "w4")
+ORDINARY = (10, 13)               # numbers in the cycle of w4 with ordinary driving
 FIRST_SEED = {"w1": 2_000_000, "w2": 3_000_000, "w3": 4_000_000, "w4": 5_000_000}
 
 
@@ -53,13 +54,19 @@ def _case(world: str, turn: Turn) -> CaseSpec:
     truth = ("w1", "w2", "w3")[turn.number % 3]
     if truth == "w3":
         return _roughened(car_case("w4", turn, seed), rng)
-    return _roughened(truck_case("w4", truth, turn, seed, rng), rng)
+    spec = _roughened(truck_case("w4", truth, turn, seed, rng), rng)
+    return _ordinary(spec) if turn.number % len(CYCLE) in ORDINARY else spec
 
 
 def _roughened(spec: CaseSpec, rng: Rng) -> CaseSpec:
     """The same case with rough instruments, half of them without baseline runs."""
     bare = bool(rng.random() < 0.5)
     return replace(spec, rough=True, baseline=() if bare else spec.baseline, dropouts=False)
+
+
+def _ordinary(spec: CaseSpec) -> CaseSpec:
+    """The same case with ten minutes of ordinary driving for training, and for the holdout."""
+    return replace(spec, baseline=(), train=("ordinary_drive",), holdout=("ordinary_drive",))
 
 
 def truck_case(world: str, truth: str, turn: Turn, seed: int, rng: Rng) -> CaseSpec:
