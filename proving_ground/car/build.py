@@ -20,6 +20,7 @@ from proving_ground.task import Manoeuvre
 
 HEADER = (
     "vehicle: BMW 320i, multi-body model of commonroad-vehicle-models, parameter set 2",
+    "hub_names: front_left front_right rear_left rear_right",
     "tractor_base_link: center of gravity, 1.156 m behind the front axle, 0.614 m above the road",
     "tilt: roll and pitch are against the true horizontal; pitch nose-down positive",
     "filters: rates, accelerations, velocities zero-phase 20 Hz; hub speeds zero-phase 10 Hz; "
