@@ -87,7 +87,8 @@ def answer(material: Material) -> Diagnosis:
     effects += [physics_effect(r, material.study, material.timings.get(r.hypothesis.key),
                                material.arms.get(r.hypothesis.key)) for r, _ in named]
     aliases = [AliasSet(f.aliases or (f.name,), splits=f.next_test) for f in gate.findings]
-    aliases += [alias_set(rivals) for _, rivals in named]
+    recorded = {c for run in material.study.runs for c in run.recording.channels}
+    aliases += [alias_set(rivals, recorded) for _, rivals in named]
     next_test = (words.next_look(material.law, material.signs) if verdict == "unknown"
                  else words.next_test(found, gate, material.separation))
     return Diagnosis(

@@ -5,11 +5,12 @@ Validated with: test/diagnosis/test_outcome.py.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 
 import numpy as np
 
 from truck_blowout_sim.diagnosis.answer import words
+from truck_blowout_sim.diagnosis.answer.limits import limit_sentence
 from truck_blowout_sim.diagnosis.case.study import Study
 from truck_blowout_sim.diagnosis.effects.base import Amount
 from truck_blowout_sim.diagnosis.fit.attribute import Ranked
@@ -21,6 +22,9 @@ from truck_blowout_sim.diagnosis.result.parts import Interval
 from truck_blowout_sim.diagnosis.sensors import SensorFinding
 
 _OPEN = (-np.inf, np.inf)
+# What only the angle of the road wheels could tell apart, whatever the evidence.
+_UNTOLD = {"steering_lag": (("channel_delay", "hand wheel"),),
+           "steering_angle_offset": (("axle_misalignment", "steered axle"),)}
 
 
 def physics_effect(ranked: Ranked, study: Study, timings: Mapping[str, Timing] | None = None,
@@ -48,7 +52,7 @@ def physics_effect(ranked: Ranked, study: Study, timings: Mapping[str, Timing] |
             known = timings[run].duration_s if run in timings else None
             parameters[f"duration_s in {run}"] = Parameter(end - start, "s", known or _OPEN)
     sentence, equation = words.fill(h, value, onset)
-    sentence += words.open_ends(ends)
+    sentence = limit_sentence(h, ends) or sentence + words.open_ends(ends)
     return Effect(name=h.effect.name, kind=h.effect.kind, where=h.place, parameters=parameters,
                   equation=equation, sentence=sentence, onset_s=onset, onset_ci90_s=interval)
 
@@ -74,10 +78,17 @@ def sensor_effect(finding: SensorFinding) -> Effect:
                   instrument=finding.instrument, channels=finding.channels)
 
 
-def alias_set(rivals: Sequence[Ranked]) -> AliasSet:
-    """Names that explain as much, best first, each once."""
-    first: dict[str, Ranked] = {}
+def alias_set(rivals: Sequence[Ranked], recorded: Collection[str] = ()) -> AliasSet:
+    """Names that explain as much, best first, each once; and what no such channels could tell.
+
+    Args:
+        rivals: hypotheses that fit alike, the named one first.
+        recorded: channels that any run has.
+    """
+    first: dict[str, str] = {}
     for r in rivals:
-        first.setdefault(r.hypothesis.effect.name, r)
-    return AliasSet(tuple(first), tuple(str(r.hypothesis.place) for r in first.values()),
-                    rivals[0].hypothesis.effect.splits)
+        first.setdefault(r.hypothesis.effect.name, str(r.hypothesis.place))
+    if not any(c.endswith("_steer_rad") for c in recorded):
+        for name, place in _UNTOLD.get(rivals[0].hypothesis.effect.name, ()):
+            first.setdefault(name, place)
+    return AliasSet(tuple(first), tuple(first.values()), rivals[0].hypothesis.effect.splits)
