@@ -10,7 +10,7 @@ from proving_ground.layout import FloatArray
 
 WHEELS = ("front_left", "front_right", "rear_left", "rear_right")
 COMMANDS = ("steering_wheel_angle_rad", "throttle", "brake_pressure_steer_pa",
-            "brake_pressure_drive_pa")
+            "brake_pressure_drive_pa", "brake_pressure_trailer_pa")
 
 
 def columns() -> list[str]:
@@ -38,6 +38,6 @@ def ideal(truth: CarTruth) -> dict[str, FloatArray]:
     motion = smooth(np.stack([vx, vy, rate, s[:, 7], -s[:, 9], ax, ay, az], axis=1), 20.0)
     parts = [s[:, 0], -s[:, 1], yaw, roll, pitch, *motion.T]
     hubs = [smooth(s[:, 23 + k], 10.0) for k in range(4)]
-    values = [*truth.commands[:, :4].T, *parts, *hubs]
+    values = [*truth.commands.T, *parts, *hubs]
     return {name: np.array(value) for name, value in zip(columns(), values, strict=True)}
 
