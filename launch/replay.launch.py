@@ -11,11 +11,16 @@ from launch.actions import (
     GroupAction,
     IncludeLaunchDescription,
     RegisterEventHandler,
+    SetEnvironmentVariable,
 )
 from launch.event_handlers import OnProcessExit
 from launch.events import Shutdown
 from launch.launch_description_sources import PythonLaunchDescriptionSource
-from launch.substitutions import LaunchConfiguration, PathJoinSubstitution
+from launch.substitutions import (
+    EnvironmentVariable,
+    LaunchConfiguration,
+    PathJoinSubstitution,
+)
 from launch_ros.actions import Node
 from launch_ros.parameter_descriptions import ParameterValue
 from launch_ros.substitutions import FindPackageShare
@@ -23,6 +28,7 @@ from launch_ros.substitutions import FindPackageShare
 from launch import LaunchDescription
 
 PACKAGE = "truck_blowout_sim"
+DISCOVERY = "ROS_AUTOMATIC_DISCOVERY_RANGE"
 
 
 def argument(name: str, default: object, description: str) -> DeclareLaunchArgument:
@@ -40,6 +46,7 @@ def generate_launch_description() -> LaunchDescription:
         output="screen",
         parameters=[{
             "recording": ParameterValue(LaunchConfiguration("recording"), value_type=str),
+            "map": ParameterValue(LaunchConfiguration("map"), value_type=str),
             "start_offset": ParameterValue(LaunchConfiguration("start_offset"), value_type=float),
             "loop": ParameterValue(LaunchConfiguration("loop"), value_type=bool),
             "record_path": ParameterValue(LaunchConfiguration("record_path"), value_type=str),
@@ -47,7 +54,8 @@ def generate_launch_description() -> LaunchDescription:
             "use_sim_time": True,
         }],
     )  # fmt: skip
-    shared = ("vehicle", "namespace", "real_time_factor", "rviz")
+    shared = ("vehicle", "namespace", "real_time_factor", "record_folder", "rviz",
+              "discovery_range")  # fmt: skip
     # The player has the bag begun and ended. A group of its own: what the included file is given
     # would otherwise hold for the player, too.
     simulator = GroupAction([
@@ -65,15 +73,21 @@ def generate_launch_description() -> LaunchDescription:
     )
     default = PathJoinSubstitution([share, "config", "recordings", "test_2013_steer_blowout.csv"])
     return LaunchDescription([
-        argument("recording", default, "Recording: rosbag2 folder, .mcap, .csv or .mat."),
+        argument("recording", default, "Recording: rosbag2 folder, .mcap, .csv, .mat, or any log"
+                 " with a mapping file."),
+        argument("map", "", "Mapping file of a foreign log; empty: none."),
         argument("vehicle", "international_9400i_trailmobile",
                  "Name of a shipped vehicle, or path of a vehicle file."),
         argument("namespace", "truck", "Namespace of every relative topic and service."),
         argument("real_time_factor", "1.0", "Simulated seconds a second of wall time."),
         argument("start_offset", "0.0", "Begin this far into the recording [s]."),
         argument("loop", "false", "Begin again at the end."),
-        argument("record_path", "", "Bag to write; empty: none."),
-        argument("rviz", "false", "Show the truck (needs rviz2 and robot_state_publisher)."),
+        argument("record_path", "", "Bag to write, under record_folder; empty: none."),
+        argument("record_folder", "", "Folder of the bag; empty: the folder of the launch."),
+        argument("rviz", "false", "Show the truck (needs rviz2)."),
+        argument("discovery_range", EnvironmentVariable(DISCOVERY, default_value="LOCALHOST"),
+                 "Who may take part: LOCALHOST, this machine; SUBNET, as ROS 2 by itself."),
+        SetEnvironmentVariable(DISCOVERY, LaunchConfiguration("discovery_range")),
         simulator,
         player,
         end,

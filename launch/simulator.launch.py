@@ -5,9 +5,15 @@ ros2 launch truck_blowout_sim simulator.launch.py --show-args
 
 from __future__ import annotations
 
-from launch.actions import DeclareLaunchArgument
+from launch.actions import DeclareLaunchArgument, SetEnvironmentVariable
 from launch.conditions import IfCondition
-from launch.substitutions import Command, LaunchConfiguration, PathJoinSubstitution
+from launch.substitutions import (
+    Command,
+    EnvironmentVariable,
+    LaunchConfiguration,
+    NotSubstitution,
+    PathJoinSubstitution,
+)
 from launch_ros.actions import Node
 from launch_ros.parameter_descriptions import ParameterValue
 from launch_ros.substitutions import FindPackageShare
@@ -15,6 +21,7 @@ from launch_ros.substitutions import FindPackageShare
 from launch import LaunchDescription
 
 PACKAGE = "truck_blowout_sim"
+DISCOVERY = "ROS_AUTOMATIC_DISCOVERY_RANGE"
 
 
 def argument(name: str, default: object, description: str) -> DeclareLaunchArgument:
@@ -48,6 +55,13 @@ def generate_launch_description() -> LaunchDescription:
                     LaunchConfiguration("real_time_factor"), value_type=float
                 ),
                 "record_path": ParameterValue(LaunchConfiguration("record_path"), value_type=str),
+                "record_folder": ParameterValue(
+                    LaunchConfiguration("record_folder"), value_type=str
+                ),
+                "blow": ParameterValue(LaunchConfiguration("blow"), value_type=str),
+                "tf_of_joints": ParameterValue(
+                    NotSubstitution(LaunchConfiguration("state_publisher")), value_type=bool
+                ),
                 "use_sim_time": ParameterValue(use_sim_time, value_type=bool),
             },
         ],
@@ -60,7 +74,9 @@ def generate_launch_description() -> LaunchDescription:
         executable="robot_state_publisher",
         namespace=namespace,
         parameters=[{"robot_description": description, "use_sim_time": True}],
-        condition=IfCondition(LaunchConfiguration("rviz")),
+        # the simulator says it already
+        remappings=[("robot_description", "~/robot_description")],
+        condition=IfCondition(LaunchConfiguration("state_publisher")),
     )
     rviz = Node(
         package="rviz2",
@@ -77,9 +93,18 @@ def generate_launch_description() -> LaunchDescription:
         argument("real_time_factor", "1.0",
                  "Simulated seconds a second of wall time; 0: as fast as it can."),
         argument("record_path", "", "Bag to write from the start; empty: none."),
+        argument("record_folder", "", "The only folder in which other nodes may have bags"
+                 " written; empty: the folder of the launch."),
+        argument("blow", "", "Blowouts at set instants, TIRE@SECONDS of simulated time after"
+                 " readiness, joined by commas."),
         argument("use_sim_time", "false", "Follow /clock instead of publishing it."),
         argument("params_file", shared("nodes", "simulator.yaml"), "All other parameters."),
-        argument("rviz", "false", "Show the truck (needs rviz2 and robot_state_publisher)."),
+        argument("rviz", "false", "Show the truck (needs rviz2)."),
+        argument("state_publisher", "false", "Have robot_state_publisher place wheels and trailer"
+                 " in /tf instead of the simulator."),
+        argument("discovery_range", EnvironmentVariable(DISCOVERY, default_value="LOCALHOST"),
+                 "Who may take part: LOCALHOST, this machine; SUBNET, as ROS 2 by itself."),
+        SetEnvironmentVariable(DISCOVERY, LaunchConfiguration("discovery_range")),
         argument("rviz_config", shared("rviz", "truck.rviz"), "Layout of RViz."),
         simulator,
         state_publisher,

@@ -3,16 +3,19 @@
 # ruff: noqa: ANN401 (stand-ins have whatever fields the adapter asks for)
 from __future__ import annotations
 
+import asyncio
+import logging
 import sys
 from collections.abc import Callable
 from types import ModuleType, SimpleNamespace
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 import pytest
 
-from truck_blowout_sim import InitialState, load_vehicle
+from truck_blowout_sim import InitialState, Inputs, Truck, load_vehicle
 from truck_blowout_sim.nodes.adapters import ackermann, attach_all, autoware, interfaces
+from truck_blowout_sim.nodes.adapters.rear_axle import RearAxle
 from truck_blowout_sim.nodes.inputs import InputBank
 from truck_blowout_sim.nodes.plant import Plant
 from truck_blowout_sim.nodes.simulator_parameters import SPECS, inputs_of
@@ -38,6 +41,7 @@ class Simulator:
         vehicle = load_vehicle("international_9400i_trailmobile")
         bank = InputBank(inputs_of(DEFAULTS))
         self.plant = Plant(vehicle, 0.001, InitialState(speed_mps=20.0), bank)
+        self.plant.build()
         self.commands = [Topic(one) for one in bank.inputs]
         self.reports: list[Callable[[int], None]] = []
         self.outputs = SimpleNamespace(also=self.reports.append)
@@ -45,7 +49,7 @@ class Simulator:
         self.done: list[str] = []
 
     def __getattr__(self, name: str) -> Callable[[], tuple[bool, str]]:
-        if name not in ("step", "reset", "quit"):
+        if name not in ("reset", "quit"):
             raise AttributeError(name)
 
         def act() -> tuple[bool, str]:
@@ -53,6 +57,13 @@ class Simulator:
             return True, name
 
         return act
+
+    def ready(self) -> tuple[bool, str]:
+        return True, "ready"
+
+    def step_by(self, periods: int) -> tuple[bool, str]:
+        self.done += ["step"] * periods
+        return self.paused, "step works while paused"
 
     def pause(self) -> tuple[bool, str]:
         self.paused = True
@@ -71,6 +82,8 @@ class Simulator:
 class Node:
     """Keeps what is created, so that the test can play the other side."""
 
+    _parameter_overrides: ClassVar[dict[str, object]] = {}
+
     def __init__(self) -> None:
         self.taken: dict[str, Callable[[Any], None]] = {}
         self.sent: dict[str, list[Any]] = {}
@@ -78,6 +91,9 @@ class Node:
 
     def resolve_topic_name(self, topic: str) -> str:
         return topic
+
+    def get_logger(self) -> Any:
+        return logging.getLogger("stand-in")
 
     def create_subscription(self, _: type, topic: str, callback: Any, *__: Any, **___: Any) -> None:
         self.taken[topic] = callback
@@ -147,14 +163,22 @@ class Report(SimpleNamespace):
         )
 
 
+GEARS = {"NONE": 0, "NEUTRAL": 1, "DRIVE": 2, "REVERSE": 20, "PARK": 22, "LOW": 23, "LOW_2": 24,
+         **{f"DRIVE_{n}": n + 1 for n in range(2, 19)}}  # fmt: skip
+AUTOWARE = {
+    "SteeringReport": Report,
+    "VelocityReport": Report,
+    "GearReport": type("GearReport", (Report,), GEARS),
+    "GearCommand": type("GearCommand", (Report,), GEARS),
+    "ControlModeReport": type("ControlModeReport", (Report,), {"AUTONOMOUS": 1, "MANUAL": 4}),
+}
+
+
 def test_autoware_takes_control_and_gives_reports(
     monkeypatch: pytest.MonkeyPatch, node: Any, simulator: Any
 ) -> None:
     install(monkeypatch, "autoware_control_msgs", msg={"Control": object})
-    install(
-        monkeypatch, "autoware_vehicle_msgs",
-        msg={"SteeringReport": Report, "VelocityReport": Report},
-    )  # fmt: skip
+    install(monkeypatch, "autoware_vehicle_msgs", msg=AUTOWARE, srv={"ControlModeCommand": object})
     assert autoware.attach(node, simulator)
     along = SimpleNamespace(velocity=20.0, acceleration=5.0, is_defined_acceleration=False)
     node.taken["/control/command/control_cmd"](
@@ -171,6 +195,118 @@ def test_autoware_takes_control_and_gives_reports(
     (steer,) = node.sent["/vehicle/status/steering_status"]
     assert abs(steer.steering_tire_angle) < 0.01
     assert np.isfinite(speed.heading_rate)
+    (gear,), (mode,) = node.sent["/vehicle/status/gear_status"], node.sent[
+        "/vehicle/status/control_mode"
+    ]
+    assert (gear.report, mode.mode) == (2, 1)
+    (where,) = node.sent["/localization/kinematic_state"]
+    # the standing truck's base_link: between the drive axles, on the ground
+    assert (where.header.frame_id, where.child_frame_id) == ("map", "base_link")
+    assert where.pose.pose.position.z == pytest.approx(0.0, abs=0.06)
+    assert where.pose.pose.position.x < -2.0
+    (acceleration,) = node.sent["/localization/acceleration"]
+    assert acceleration.accel.accel.linear.z == pytest.approx(0.0, abs=0.2)
+
+
+def test_autoware_changes_mode_and_gear(
+    monkeypatch: pytest.MonkeyPatch, node: Any, simulator: Any
+) -> None:
+    install(monkeypatch, "autoware_control_msgs", msg={"Control": object})
+    install(monkeypatch, "autoware_vehicle_msgs", msg=AUTOWARE, srv={"ControlModeCommand": object})
+    assert autoware.attach(node, simulator)
+    take = node.taken["/control/command/control_cmd"]
+    along = SimpleNamespace(velocity=25.0, acceleration=0.0, is_defined_acceleration=False)
+    command = SimpleNamespace(
+        lateral=SimpleNamespace(steering_tire_angle=0.01), longitudinal=along
+    )
+    request = SimpleNamespace(AUTONOMOUS=1, MANUAL=4, mode=4)
+    answer = node.served["/control/control_mode_request"](request, SimpleNamespace(success=None))
+    assert answer.success
+    take(command)
+    assert simulator.applied["throttle"] == 0.0  # a person drives
+    request.mode = 2
+    assert not node.served["/control/control_mode_request"](request, answer).success
+    request.mode = 1
+    node.served["/control/control_mode_request"](request, answer)
+    take(command)
+    assert simulator.applied["throttle"] > 0.2
+    node.taken["/control/command/gear_cmd"](SimpleNamespace(command=20))  # reverse
+    simulator.reports[0](10_000_000)
+    assert node.sent["/vehicle/status/gear_status"][-1].report == 2
+    node.taken["/control/command/gear_cmd"](SimpleNamespace(command=22))  # park
+    take(command)
+    assert simulator.applied["throttle"] == 0.0
+    assert simulator.applied["brake_pressure_drive_pa"] > 0.0
+
+
+def test_motion_at_the_rear_axle_is_that_of_a_rigid_body() -> None:
+    vehicle = load_vehicle("international_9400i_trailmobile")
+    truck = Truck(vehicle, initial=InitialState(speed_mps=15.0))
+    axle = RearAxle(vehicle, truck.output_names)
+    before = None
+    for tick in range(300):
+        truck.advance(Inputs(2.0, 0.3), 10)
+        now = axle.motion((tick + 1) * 10_000_000, truck.output_vector())
+        if before is not None and tick > 250:
+            moved = (now.place_m - before.place_m) / 0.01
+            yaw = 2 * np.arctan2(now.turn[2], now.turn[3])
+            along = np.cos(yaw) * moved[0] + np.sin(yaw) * moved[1]
+            across = np.cos(yaw) * moved[1] - np.sin(yaw) * moved[0]
+            assert along == pytest.approx(now.velocity_mps[0], abs=0.05)
+            assert across == pytest.approx(now.velocity_mps[1], abs=0.05)
+        before = now
+    # in a steady turn the rear axle is drawn toward the center by v times yaw rate
+    centripetal = now.velocity_mps[0] * now.rate_radps[2]
+    assert now.acceleration_mps2[1] == pytest.approx(centripetal, rel=0.1)
+
+
+class Goal:
+    """A goal of the action, as rclpy hands it over."""
+
+    def __init__(self, steps: int, cancel_after: int = 10**9) -> None:
+        self.request = SimpleNamespace(steps=steps)
+        self.told: list[tuple[int, int]] = []
+        self.end = ""
+        self._cancel_after = cancel_after
+
+    @property
+    def is_cancel_requested(self) -> bool:
+        return len(self.told) >= self._cancel_after
+
+    def publish_feedback(self, feedback: Any) -> None:
+        self.told.append((feedback.completed_steps, feedback.remaining_steps))
+
+    def __getattr__(self, name: str) -> Callable[[], None]:
+        if name not in ("succeed", "abort", "canceled"):
+            raise AttributeError(name)
+        return lambda: setattr(self, "end", name)
+
+
+@pytest.mark.parametrize(
+    ("paused", "goal", "end", "steps"),
+    [
+        (True, Goal(3), "succeed", 3),
+        (True, Goal(9, 2), "canceled", 2),
+        (False, Goal(3), "abort", 0),
+    ],
+    ids=["done", "canceled", "not paused"],
+)
+def test_the_action_steps_with_feedback(
+    simulator: Any, paused: bool, goal: Goal, end: str, steps: int
+) -> None:
+    simulator.paused = paused
+    made = SimpleNamespace(
+        Result=lambda: SimpleNamespace(result=SimpleNamespace(result=-1, error_message="")),
+        Feedback=SimpleNamespace,
+    )
+    action = interfaces.StepsAction(
+        simulator, SimpleNamespace(Result=Result), SimpleNamespace(SimulateSteps=made)
+    )
+    result = asyncio.run(action.execute(goal))
+    assert goal.end == end
+    wanted = goal.request.steps
+    assert goal.told == [(n, wanted - n) for n in range(1, steps + 1)]
+    assert (result.result.result == Result.RESULT_OK) == (end == "succeed")
 
 
 class Result:
@@ -185,7 +321,7 @@ class State:
 class Features:
     SIMULATION_RESET, SIMULATION_RESET_STATE = 20, 22
     SIMULATION_STATE_GETTING, SIMULATION_STATE_SETTING, SIMULATION_STATE_PAUSE = 24, 25, 26
-    STEP_SIMULATION_SINGLE, STEP_SIMULATION_MULTIPLE = 31, 32
+    STEP_SIMULATION_SINGLE, STEP_SIMULATION_MULTIPLE, STEP_SIMULATION_ACTION = 31, 32, 33
 
 
 def service(**members: dict[str, int]) -> Any:
@@ -204,7 +340,9 @@ def served(monkeypatch: pytest.MonkeyPatch, node: Any, simulator: Any) -> Any:
             "SetSimulationState": service(Response=answers),
             "StepSimulation": service(), "ResetSimulation": service(Request=scopes),
         },
+        action={"SimulateSteps": object},
     )  # fmt: skip
+    monkeypatch.setattr(interfaces, "ActionServer", lambda *_, **__: None)
     assert interfaces.attach(node, simulator)
 
     def call(name: str, **request: Any) -> Any:
@@ -238,6 +376,9 @@ def test_interfaces_play_pause_and_stop(served: Any, simulator: Any) -> None:
 
 
 def test_interfaces_step_and_reset(served: Any, simulator: Any) -> None:
+    assert served("step_simulation", steps=1).result.result == Result.RESULT_OPERATION_FAILED
+    simulator.pause()
+    simulator.done.clear()
     assert served("step_simulation", steps=3).result.result == Result.RESULT_OK
     assert simulator.done == ["step"] * 3
     assert served("reset_simulation", scope=0).result.result == Result.RESULT_OK

@@ -102,7 +102,8 @@ def in_force(end: Publisher[Any] | Subscription[Any]) -> dict[str, Any]:
 def _options(node: Node, prefix: str) -> QoSOverridingOptions | None:
     # Declared only where somebody overrides something: `ros2 param list` would otherwise show
     # three parameters a topic.
-    asked = any(name.startswith(f"{prefix}.") for name in node._parameter_overrides)
+    given = getattr(node, "_parameter_overrides", {})  # rclpy has no public name for them
+    asked = any(name.startswith(f"{prefix}.") for name in given)
     if not asked:
         return None
     return QoSOverridingOptions.with_default_policies(callback=_judge)

@@ -54,7 +54,12 @@ def serve(node: Node, served: Served, parts: Iterable[str]) -> None:
     node.create_service(SetBool, "record", record)
 
 
-def once_ready(served: Served, act: Callable[[], Reply]) -> Callable[[], Reply]:
+class _Startable(Protocol):
+    def ready(self) -> Reply:
+        """Whether the truck is there, or why not yet."""
+
+
+def once_ready(served: _Startable, act: Callable[[], Reply]) -> Callable[[], Reply]:
     """What `act` does, but refused as long as the simulator is not ready."""
 
     def guarded() -> Reply:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from truck_blowout_sim.nodes.adapters.longitudinal import speed_controller
+from truck_blowout_sim.nodes.steering_gear import hand_wheel_rad
 
 if TYPE_CHECKING:
     from truck_blowout_sim.nodes.simulator_node import Simulator
@@ -24,8 +25,6 @@ class ForeignCommands:
         self._simulator = simulator
         self._inputs = {topic.guarded.name: topic for topic in simulator.commands}
         self._controller = speed_controller(vehicle)
-        steering = vehicle.spec.steering
-        self._ratio = steering.ratio if steering else 1.0
         names = list(simulator.plant.output_names)
         self._speed = names.index("tractor_vx_mps")
         steered = [name for name in names if name.endswith("_steer_rad")]
@@ -42,6 +41,12 @@ class ForeignCommands:
         outputs = self._simulator.plant.outputs()
         return float(outputs[self._steer].mean()) if self._steer else 0.0
 
+    def steer(self, steer_rad: float) -> None:
+        """Apply a mean road-wheel angle alone."""
+        self._inputs["steering_wheel_angle_rad"].take(
+            hand_wheel_rad(self._simulator.plant.vehicle, steer_rad)
+        )
+
     def take(self, steer_rad: float, speed_mps: float, acceleration_mps2: float = 0.0) -> None:
         """Apply a command.
 
@@ -50,8 +55,10 @@ class ForeignCommands:
             speed_mps: wanted speed.
             acceleration_mps2: wanted acceleration, 0 if none was given.
         """
+        if not self._simulator.plant.ready:
+            return  # the truck is not there yet: nothing to control
         throttle, brake_pa = self._controller.pedals(self.speed_mps, speed_mps, acceleration_mps2)
-        self._inputs["steering_wheel_angle_rad"].take(steer_rad * self._ratio)
+        self.steer(steer_rad)
         self._inputs["throttle"].take(throttle)
         for name in _BRAKES:
             self._inputs[name].take(brake_pa)

@@ -5,15 +5,19 @@
 | get_simulator_features | lists what follows |
 | get_simulation_state, set_simulation_state | playing, paused, stopped (paused in the initial state), quitting |
 | step_simulation | as many publishing periods as asked, while paused |
+| simulate_steps (action) | the same, with feedback after each period; can be canceled |
 | reset_simulation | scope default, all, or state; time goes on, so scope time alone is not supported |
 """  # noqa: E501  # a table
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Generator
 from typing import TYPE_CHECKING, Any
 
+from rclpy.action.server import ActionServer, CancelResponse
 from rclpy.node import Node
+
+from truck_blowout_sim.nodes.services import once_ready
 
 if TYPE_CHECKING:
     from truck_blowout_sim.nodes.simulator_node import Simulator
@@ -26,13 +30,14 @@ _FEATURES = (
     "SIMULATION_STATE_PAUSE",
     "STEP_SIMULATION_SINGLE",
     "STEP_SIMULATION_MULTIPLE",
+    "STEP_SIMULATION_ACTION",
 )
 
 
 def attach(node: Node, simulator: Simulator) -> bool:
     """Serve, if simulation_interfaces is installed; returns whether it is."""
     try:
-        from simulation_interfaces import msg, srv
+        from simulation_interfaces import action, msg, srv
     except ImportError:
         return False
     served = InterfaceServices(simulator, msg, srv)
@@ -44,6 +49,10 @@ def attach(node: Node, simulator: Simulator) -> bool:
         ("reset_simulation", srv.ResetSimulation, served.reset),
     ):
         node.create_service(kind, name, act)
+    ActionServer(
+        node, action.SimulateSteps, "simulate_steps", StepsAction(simulator, msg, action).execute,
+        cancel_callback=lambda _: CancelResponse.ACCEPT,
+    )  # fmt: skip
     return True
 
 
@@ -96,17 +105,15 @@ class InterfaceServices:
         if wanted not in acts:
             response.result.result = self._result.RESULT_FEATURE_UNSUPPORTED
             return response
-        self._answer(response, acts[wanted](), self._result.RESULT_OPERATION_FAILED)
+        act = acts[wanted]
+        reply = (act if wanted == state.STATE_QUITTING else once_ready(self._simulator, act))()
+        self._answer(response, reply, self._result.RESULT_OPERATION_FAILED)
         self._stopped = wanted == state.STATE_STOPPED
         return response
 
     def step(self, request: Any, response: Any) -> Any:  # noqa: ANN401
         """As many publishing periods as asked."""
-        reply = (True, "no step asked for")
-        for _ in range(request.steps):
-            reply = self._simulator.step()
-            if not reply[0]:
-                break
+        reply = once_ready(self._simulator, lambda: self._simulator.step_by(request.steps))()
         return self._answer(response, reply, self._result.RESULT_OPERATION_FAILED)
 
     def reset(self, request: Any, response: Any) -> Any:  # noqa: ANN401
@@ -116,7 +123,8 @@ class InterfaceServices:
             response.result.result = self._result.RESULT_FEATURE_UNSUPPORTED
             response.result.error_message = "simulated time goes on, nothing is spawned"
             return response
-        return self._answer(response, self._simulator.reset(), self._result.RESULT_OPERATION_FAILED)
+        reply = once_ready(self._simulator, self._simulator.reset)()
+        return self._answer(response, reply, self._result.RESULT_OPERATION_FAILED)
 
     def _stop(self) -> tuple[bool, str]:
         self._simulator.pause()
@@ -131,3 +139,47 @@ class InterfaceServices:
         response.result.result = self._result.RESULT_OK if reply[0] else failure
         response.result.error_message = "" if reply[0] else reply[1]
         return response
+
+
+class _NextTurn:
+    """Awaited, it lets the executor handle what else waits."""
+
+    def __await__(self) -> Generator[None, None, None]:
+        yield
+
+
+class StepsAction:
+    """Executes the action `simulate_steps`.
+
+    Args:
+        simulator: what is stepped.
+        msg, action: the modules of simulation_interfaces.
+    """
+
+    def __init__(self, simulator: Simulator, msg: Any, action: Any) -> None:  # noqa: ANN401
+        self._simulator = simulator
+        self._result = msg.Result
+        self._action = action.SimulateSteps
+
+    async def execute(self, goal: Any) -> Any:  # noqa: ANN401
+        """Step, report, and look for a cancellation after each period."""
+        wanted, result = goal.request.steps, self._action.Result()
+        feedback = self._action.Feedback()
+        for done in range(1, wanted + 1):
+            if goal.is_cancel_requested:
+                goal.canceled()
+                result.result.result = self._result.RESULT_OPERATION_FAILED
+                result.result.error_message = f"canceled after {done - 1} of {wanted} steps"
+                return result
+            there, words = once_ready(self._simulator, lambda: self._simulator.step_by(1))()
+            if not there:
+                goal.abort()
+                result.result.result = self._result.RESULT_OPERATION_FAILED
+                result.result.error_message = words
+                return result
+            feedback.completed_steps, feedback.remaining_steps = done, wanted - done
+            goal.publish_feedback(feedback)
+            await _NextTurn()
+        goal.succeed()
+        result.result.result = self._result.RESULT_OK
+        return result
