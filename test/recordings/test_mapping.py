@@ -16,6 +16,7 @@ from hypothesis import strategies as st
 from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.recordings import Blowout, Recording, Series, read_recording, write_recording
 from truck_blowout_sim.recordings.mapping import load_mapping
+from truck_blowout_sim.recordings.mapping.consistency import contradictions
 from truck_blowout_sim.recordings.mapping.finish import at_base_link, with_local_origin
 from truck_blowout_sim.recordings.mapping.rules import Mount
 
@@ -157,6 +158,31 @@ def test_coordinates_of_the_earth_get_a_local_origin(tmp_path: Path) -> None:
     np.testing.assert_allclose(local["tractor_x_m"].value, time_s, atol=1e-6)
     assert local.metadata["map_origin_m"] == "500000 4200000"
     assert read_recording(write_recording(made, tmp_path / "utm.csv")).metadata["map_origin_m"]
+
+
+@pytest.mark.parametrize(("factors", "words"), [
+    ({}, ()),
+    ({"tractor_yaw_rate_radps": math.pi / 180}, ("yaw_rate_radps is 0.0175 times", "for deg")),
+    ({"tractor_vx_mps": 1 / 3.6}, ("m/s taken for km/h",)),
+    ({"tractor_ay_mps2": 1 / 9.80665}, ("g taken for m/s2",)),
+    ({"tractor_az_mps2": -1.0}, ("tractor_az_mps2 is -1 times what gravity says",)),
+])  # fmt: skip
+def test_a_wrong_unit_shows_against_the_other_channels(
+    factors: dict[str, float], words: tuple[str, ...]
+) -> None:
+    time_s = np.arange(0, 20, 0.02)
+    rate, speed = 0.1 * np.cos(0.5 * time_s), 20.0
+    yaw = 0.2 * np.sin(0.5 * time_s)
+    made = {"tractor_yaw_rad": yaw, "tractor_yaw_rate_radps": rate,
+            "tractor_vx_mps": np.full(time_s.size, speed), "tractor_ay_mps2": speed * rate,
+            "tractor_az_mps2": np.full(time_s.size, 9.81),
+            "tractor_x_m": np.cumsum(speed * np.cos(yaw)) * 0.02,
+            "tractor_y_m": np.cumsum(speed * np.sin(yaw)) * 0.02}  # fmt: skip
+    drive = Recording("drive", {n: Series(time_s, factors.get(n, 1.0) * v)
+                                for n, v in made.items()})  # fmt: skip
+    said = " | ".join(contradictions(drive))
+    assert all(word in said for word in words)
+    assert bool(said) == bool(words)
 
 
 @IN_TMP

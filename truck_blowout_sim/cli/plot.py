@@ -13,6 +13,7 @@ from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn
 
 from truck_blowout_sim.cli.outputs import FORCE, JSON, claim, say
+from truck_blowout_sim.cli.reading import MAP
 from truck_blowout_sim.cli.shown_runs import read_runs
 from truck_blowout_sim.comparison.units import AXES, SYSTEMS
 from truck_blowout_sim.errors import InputError, nearest, quoted
@@ -49,6 +50,7 @@ def command(
     end_s: float | None = typer.Option(None, "--end", help="End, s on the run's clock."),
     dark: bool = typer.Option(False, "--dark", help="Light lines on dark paper."),
     listed: bool = typer.Option(False, "--list", help="List the channels of the runs and end."),
+    mapping: Path | None = MAP,
     force: bool = FORCE,
     as_json: bool = JSON,
 ) -> None:
@@ -68,7 +70,7 @@ def command(
         return
     if not runs:
         raise InputError("no run given", expected="a run, or --thesis")
-    recordings = read_runs(runs)
+    recordings = read_runs(runs, mapping)
     if listed:
         _list(recordings, as_json)
         return

@@ -13,6 +13,7 @@ from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 
 from truck_blowout_sim.cli.outputs import FORCE, JSON, claim, say
+from truck_blowout_sim.cli.reading import MAP
 from truck_blowout_sim.cli.shown_runs import read_runs, vehicle_of
 from truck_blowout_sim.errors import InputError, nearest, quoted
 from truck_blowout_sim.recordings import Recording
@@ -44,6 +45,7 @@ def command(
                                 help="Seconds of the run per second of the film."),
     dark: bool = typer.Option(False, "--dark", help="Film in dark colors."),
     open_page: bool = typer.Option(False, "--open", help="Open the page in the browser."),
+    mapping: Path | None = MAP,
     force: bool = FORCE,
     as_json: bool = JSON,
 ) -> None:
@@ -54,7 +56,7 @@ def command(
     from truck_blowout_sim.report.viewer import write_viewer
 
     _check_view(camera)
-    recordings = read_runs(runs)
+    recordings = read_runs(runs, mapping)
     target = claim(output or Path(f"{Path(runs[0].rstrip('/')).stem}.html"), force=force,
                    inputs=runs)
     if video is not None:

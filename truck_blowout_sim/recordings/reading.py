@@ -7,11 +7,13 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable, Mapping
+from dataclasses import replace
 from pathlib import Path
 
 from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.recordings.formats import BEGIN_MAPPING, read_native
 from truck_blowout_sim.recordings.mapping import Rules, combine, load_mapping, open_test
+from truck_blowout_sim.recordings.mapping.consistency import contradictions
 from truck_blowout_sim.recordings.mapping.finish import (
     at_base_link,
     with_blowouts,
@@ -71,5 +73,6 @@ def read_recording(
     if files[0].native is None:
         read = without_planar_zeros(read)
     read = with_local_origin(at_base_link(without_excluded(read, rules), rules.sensors))
+    read = replace(read, notes=(*read.notes, *contradictions(read)))
     stated = with_blowouts(read, rules.blowouts, tires=tires, hubs=hubs, file=rules.file or path)
     return with_blowouts(stated, blow, tires=tires, hubs=hubs)
