@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import os
+from difflib import get_close_matches
 from pathlib import Path
 
 from truck_blowout_sim.errors import InputError
 
 PACKAGE = "truck_blowout_sim"
+_SIMILAR = 0.5
 
 
 def config_dir() -> Path:
@@ -44,9 +46,12 @@ def config_file(kind: str, name: str | os.PathLike[str]) -> Path:
     for candidate in (folder / text, folder / f"{text}.yaml", Path(text)):
         if candidate.is_file():
             return candidate
+    names = config_names(kind)
+    near = get_close_matches(text.lower(), names, n=1, cutoff=_SIMILAR)
     raise InputError(
-        f"no {kind.removesuffix('s')} of the name {text!r} and no such file",
-        expected=f"a path or one of: {', '.join(config_names(kind)) or 'none shipped'}",
+        f"no {kind.removesuffix('s')} of the name {text!r} and no such file"
+        + (f" (did you mean {near[0]!r}?)" if near else ""),
+        expected=f"a path or one of: {', '.join(names) or 'none shipped'}",
     )
 
 

@@ -43,7 +43,7 @@ def command(
         " one folder each inside it.",
     ),
     step_s: float = typer.Option(
-        0.001, "--step", min=1e-5, max=0.005, help="Step of the simulation, s."
+        0.001, "--step-s", "--step", min=1e-5, max=0.005, help="Step of the simulation, s."
     ),
     impose_speed: bool | None = typer.Option(
         None,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import sys
 from collections.abc import Callable, Sequence
 from importlib import import_module
@@ -77,10 +78,10 @@ def build(words: Sequence[str] = ()) -> Callable[..., Any]:
     """Typer application for one command line; imports the module of the verb named there only."""
     # Markdown, or Rich would take "[Hz]" in a help text for a color and leave it out.
     app = typer.Typer(
-        add_completion=False, pretty_exceptions_enable=False, rich_markup_mode="markdown"
+        add_completion=True, pretty_exceptions_enable=False, rich_markup_mode="markdown"
     )
     app.callback()(_program)
-    wanted = next((word for word in words if not word.startswith("-")), None)
+    wanted = next((word for word in words or _words_completed() if not word.startswith("-")), None)
     for verb, (module, summary) in VERBS.items():
         full_name = f"truck_blowout_sim.cli.{module}"
         if find_spec(full_name) is None:
@@ -100,6 +101,12 @@ def _several_valued(words: Sequence[str]) -> tuple[str, ...]:
     name, _ = VERBS.get(wanted, ("", ""))
     module = sys.modules.get(f"truck_blowout_sim.cli.{name}")
     return tuple(getattr(module, "SEVERAL", ()))
+
+
+def _words_completed() -> list[str]:
+    """What a shell that asks for completions has on its line, behind the program's name."""
+    line = os.environ.get("COMP_WORDS", "") or os.environ.get("_TYPER_COMPLETE_ARGS", "")
+    return line.split()[1:]
 
 
 def ros2_verb() -> int:

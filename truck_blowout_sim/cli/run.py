@@ -11,6 +11,7 @@ import typer
 from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 
+from truck_blowout_sim.cli.listing import list_option, names_of
 from truck_blowout_sim.cli.outputs import FORCE, JSON, YES, ask_about, claim, say
 from truck_blowout_sim.cli.settings import parse_blowouts, set_values
 from truck_blowout_sim.errors import InputError, quoted
@@ -27,12 +28,15 @@ _SUFFIX = {"bag": "", "csv": ".csv"}
 
 
 def command(
-    scenario: str = typer.Argument(help="Name of a shipped scenario, or a YAML file."),
+    scenario: str = typer.Argument(
+        help="Name of a shipped scenario, or a YAML file.", autocompletion=names_of("scenarios")
+    ),
     output: Path | None = typer.Option(
         None, "-o", "--output", help="Bag to write (a folder); the scenario's name by default."
     ),
     vehicle: str = typer.Option(
-        "international_9400i_trailmobile", help="Name of a shipped vehicle, or a YAML file."
+        "international_9400i_trailmobile", help="Name of a shipped vehicle, or a YAML file.",
+        autocompletion=names_of("vehicles"),
     ),
     values: list[str] = typer.Option(
         [], "--set", help="NAME=VALUE of a parameter, SI or a word, e.g. "
@@ -47,6 +51,7 @@ def command(
     rate_hz: float = typer.Option(100.0, help="Rate of the recording [Hz]."),
     page: bool = typer.Option(True, help="Write a page with figures beside the output, .html."),
     open_page: bool = typer.Option(False, "--open", help="Open the page in the browser."),
+    listed: bool = list_option("scenarios", "vehicles"),
     yes: bool = YES,
     force: bool = FORCE,
     as_json: bool = JSON,

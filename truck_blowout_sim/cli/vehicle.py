@@ -6,11 +6,14 @@ from pathlib import Path
 
 import typer
 
+from truck_blowout_sim.cli.listing import list_option, names_of
 from truck_blowout_sim.cli.outputs import FORCE, JSON, claim, say
 
 
 def command(
-    vehicle: str = typer.Argument(help="Name of a shipped vehicle, or a YAML file."),
+    vehicle: str = typer.Argument(
+        help="Name of a shipped vehicle, or a YAML file.", autocompletion=names_of("vehicles")
+    ),
     speed_mps: float = typer.Option(
         20.0, "--speed", min=3.0, max=60.0, help="Speed of the gentle turns, m/s."
     ),
@@ -21,6 +24,7 @@ def command(
     output: Path = typer.Option(
         Path("rig"), "-o", "--output", help="Folder for the rig plots (PNG)."
     ),
+    listed: bool = list_option("vehicles"),
     force: bool = FORCE,
     as_json: bool = JSON,
 ) -> None:

@@ -1,0 +1,49 @@
+"""`--list`: the shipped files that a verb takes by name, and names for shell completion."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import typer
+import yaml
+
+from truck_blowout_sim.resources import config_dir, config_names
+
+
+def list_option(*kinds: str) -> Any:  # noqa: ANN401 (what Typer takes as a default)
+    """An option `--list` that prints the shipped files of some kinds and ends the program."""
+
+    def show(wanted: bool) -> None:
+        if wanted:
+            for line in listing(*kinds):
+                typer.echo(line)
+            raise typer.Exit
+
+    return typer.Option(False, "--list", callback=show, is_eager=True,
+                        help=f"List the shipped {' and '.join(kinds)}, and exit.")  # fmt: skip
+
+
+def listing(*kinds: str) -> Iterator[str]:
+    """Names with titles, kind by kind."""
+    for kind in kinds:
+        names = config_names(kind)
+        width = max(map(len, names), default=0)
+        yield f"{kind}:"
+        for name in names:
+            yield f"  {name:{width}}  {_title(kind, name)}".rstrip()
+
+
+def names_of(kind: str) -> Callable[[str], list[str]]:
+    """Shipped names of a kind that begin with what was typed, for shell completion."""
+
+    def complete(incomplete: str) -> list[str]:
+        return [name for name in config_names(kind) if name.startswith(incomplete)]
+
+    return complete
+
+
+def _title(kind: str, name: str) -> str:
+    """The title of a file, without reading what it extends."""
+    content = yaml.safe_load((config_dir() / kind / f"{name}.yaml").read_text(encoding="utf-8"))
+    return str(content.get("title", "")) if isinstance(content, dict) else ""
