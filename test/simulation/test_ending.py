@@ -124,3 +124,13 @@ def test_the_error_survives_another_process() -> None:
 
     again = pickle.loads(pickle.dumps(DivergedError("left", file="run")))
     assert isinstance(again, InputError)
+
+
+def test_compare_asks_about_an_implausible_recording(tmp_path: Path,
+                                                     capsys: pytest.CaptureFixture[str]) -> None:
+    log = tmp_path / "fast.csv"
+    rows = [f"{0.05 * k:.2f},{0.3 * k},88.0,0.0" for k in range(20)]
+    log.write_text("time_s,steering_wheel_angle_rad,tractor_vx_mps,tractor_yaw_rate_radps\n"
+                   + "\n".join(rows) + "\n")
+    assert main(["compare", str(log), "-o", str(tmp_path / "out")]) == 2
+    assert "no truck does this: a start speed of 88 m/s" in capsys.readouterr().err

@@ -12,7 +12,7 @@ from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 from rich.table import Table
 
-from truck_blowout_sim.cli.outputs import FORCE, JSON, claim, say
+from truck_blowout_sim.cli.outputs import FORCE, JSON, YES, ask_about, claim, say
 from truck_blowout_sim.cli.reading import BLOW, MAP, read
 from truck_blowout_sim.errors import InputError
 
@@ -60,6 +60,7 @@ def command(
     ),
     mapping: Path | None = MAP,
     blow: list[str] = BLOW,
+    yes: bool = YES,
     force: bool = FORCE,
     as_json: bool = JSON,
 ) -> None:
@@ -88,7 +89,8 @@ def command(
                 compare_recordings(*_both(recordings, mapping, blow, loaded), vehicle=loaded,
                                    progress=tell) if no_model
                 else compare(_read(name, mapping, blow, loaded), loaded, step_s=step_s,
-                             impose_speed=impose_speed, contrasted=True, progress=tell)
+                             impose_speed=impose_speed, contrasted=True, progress=tell,
+                             ask=lambda problems: ask_about(problems, yes))
             )  # fmt: skip
             progress.update(task, description="drawing", completed=0.8)
             page = write_comparison_report(compared, folder)

@@ -10,7 +10,7 @@ Validated with: test/comparison/test_comparing.py.
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -26,6 +26,7 @@ from truck_blowout_sim.comparison.words import labels_for
 from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.recordings import Recording, read_recording
 from truck_blowout_sim.simulation.drive import execute
+from truck_blowout_sim.simulation.plausible import implausible
 from truck_blowout_sim.simulation.replay import as_recording, drive_from
 from truck_blowout_sim.vehicle import Packed, Vehicle, load_vehicle, pack
 
@@ -86,6 +87,7 @@ class Comparison:
 def compare(recording: Recording | str | os.PathLike[str],
             vehicle: Vehicle | Packed | str | os.PathLike[str] = DEFAULT_VEHICLE, *,
             step_s: float = 0.001, impose_speed: bool | None = None, contrasted: bool = False,
+            ask: Callable[[Sequence[str]], None] | None = None,
             progress: Progress | None = None) -> Comparison:  # fmt: skip
     """Drive a vehicle's model with a recording's inputs and report the differences.
 
@@ -96,6 +98,7 @@ def compare(recording: Recording | str | os.PathLike[str],
         impose_speed: make the model follow the recorded speed; ``None``: only where throttle or a
             brake pressure was not recorded.
         contrasted: also drive other vehicles, to see whether the rating tells vehicles apart.
+        ask: told before the run what in the input no truck does (nothing, mostly); may raise.
         progress: called with what is being done and the share that is done, 0 to 1.
 
     Raises:
@@ -108,6 +111,8 @@ def compare(recording: Recording | str | os.PathLike[str],
     recording = longest_run(recording)
     tell("simulating", 0.1)
     drive = drive_from(recording, packed.vehicle, step_s=step_s, impose_speed=impose_speed)
+    if ask:
+        ask(implausible(packed, drive))
     model = as_recording(f"{recording.name} (simulated)", packed, drive, execute(packed, drive),
                          recording.blowouts)  # fmt: skip
     imposed = bool(drive.speed.size)
