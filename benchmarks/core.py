@@ -32,7 +32,7 @@ from truck_blowout_sim.vehicle import load_vehicle, pack
 VEHICLE = "international_9400i_trailmobile"
 STEP_S = 0.001
 ROUNDS, STEPS = 10, 2000
-REQUIRED, SOUGHT = 200.0, 400.0
+REQUIRED, SOUGHT = 500.0, 650.0
 FIRST_CALL = f"""
 from time import perf_counter
 start = perf_counter()
@@ -108,6 +108,7 @@ def batch_speed() -> None:
     """Trucks side by side, against one after the other."""
     packed, drive, _ = prepare(pack(load_vehicle(VEHICLE)), load_scenario("fishhook"))
     trucks = [packed.with_values({"steering.ratio": 20.0 + k}) for k in range(16)]
+    run_drive(trucks[0], drive)  # compiled and loaded
     start = perf_counter()
     alone = [run_drive(truck, drive) for truck in trucks]
     one_by_one = perf_counter() - start

@@ -35,8 +35,8 @@ def build(checkout: Path, folder: Path) -> list[str]:
     places = [f"-I{models / place}" for place in ("24dof", "utils", "third_party")]
     subprocess.run(["g++", *FLAGS, *places, *map(str, sources), "-o", str(program)], check=True)
     car = models / "24dof/data/json/HMMWV"
-    return [str(program), *(str(car / f"{name}.json") for name in ("vehicle", "tmeasy", "suspension")),
-            str(models / "24dof/data/input/acc10.txt")]
+    parts = (str(car / f"{name}.json") for name in ("vehicle", "tmeasy", "suspension"))
+    return [str(program), *parts, str(models / "24dof/data/input/acc10.txt")]
 
 
 def our_seconds(truck: Truck) -> float:
