@@ -109,6 +109,7 @@ setup(
         "mat73": ["h5py>=3.6"],
         "frames": ["pandas>=1.5", "xarray>=2022.6"],
         "logs": ["asammdf>=7.4", "h5py>=3.6", "pandas>=1.5", "xarray>=2022.6"],
+        "fmu": ["pythonfmu3>=0.3"],
         "prove": ["commonroad-vehicle-models>=3.0", "mujoco>=3.1", "pysindy>=2.0"],
         "dask": ["distributed>=2023.1"],
         "test": [
