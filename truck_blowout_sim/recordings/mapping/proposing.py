@@ -60,7 +60,7 @@ def propose(log: Log, taken: Mapping[str, object] | None = None) -> list[Proposa
         log: the columns.
         taken: channels that are there already.
     """
-    table = by_name(channels_for((), ()))
+    table = by_name(channels_for())
     best: dict[str, tuple[tuple[float, int], Proposal, Column]] = {}
     for at, name in enumerate(log.names):
         channel = table.get(channel_hinted(name))
@@ -127,7 +127,7 @@ def _of_column(name: str, column: Column, channel: Channel) -> Proposal | None:
 def _unit_in_name(name: str) -> Unit | None:
     """A unit at the end of a name: ``speed_kmh``, ``SWA_deg``, ``wheel_rpm[0]``."""
     words = re.split(r"[:. _]", name.partition("[")[0])
-    for text in (words[-1], "/".join(words[-2:])):
+    for text in (words[-1], "/".join(words[-2:]), " ".join(words[-2:])):
         # one letter may be an axis or an index
         if len(words) > 1 and len(text) > 1 and find_unit(text) is not None:
             return find_unit(text)

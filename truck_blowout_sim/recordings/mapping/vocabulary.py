@@ -24,6 +24,14 @@ EXACT = {
     "x": "x_m", "y": "y_m", "easting": "x_m", "northing": "y_m",
 }  # fmt: skip
 
+_CARSIM_AXLES = ("steer", "drive_1", "drive_2", "trailer_1", "trailer_2")
+WHEELS = {
+    f"avy {side[0]}{axle + 1}": f"hub_speed_{name}_{side}_radps"
+    for axle, name in enumerate(_CARSIM_AXLES)
+    for side in ("left", "right")
+}
+"""CarSim's wheel speeds, axles counted from the front."""
+
 # words of a name, the most telling first; a name of several words is tried as a whole
 PATTERNS = tuple(
     (re.compile(pattern), stem)
@@ -56,13 +64,16 @@ PATTERNS = tuple(
         (r"pitch( ?angle)?$", "pitch_rad"),
         (r"(position x|pos ?x|utm ?e\w*|easting|x ?pos\w*)$", "x_m"),
         (r"(position y|pos ?y|utm ?n\w*|northing|y ?pos\w*)$", "y_m"),
-        (r"brake? ?.*(pres\w*|druck).*(trl|trailer)", "brake_pressure_trailer_pa"),
+        (r"art h\b|articulation|hitch ang\w*|knickwinkel", "articulation_rad"),
+        (r"brake? ?.*(pres\w*|druck).*(trl|trailer)|(trl|trailer) ?brake?",
+         "brake_pressure_trailer_pa"),
         (r"brake? ?.*(pres\w*|druck).*(front|steer)", "brake_pressure_steer_pa"),
         (r"brake? ?.*(pres\w*|druck)", "brake_pressure_drive_pa"),
     )
 )
 _CAMEL = re.compile(r"(?<=[a-z])(?=[A-Z])|(?<=[A-Z])(?=[A-Z][a-z])")
-_INPUTS = ("steering_wheel_angle_rad", "throttle", "brake_pressure")
+# channels that belong to no unit
+_WHOLE = ("steering_wheel_angle_rad", "throttle", "brake_pressure", "articulation")
 
 
 def words_of(name: str) -> str:
@@ -74,12 +85,17 @@ def words_of(name: str) -> str:
 def channel_hinted(name: str) -> str:
     """Channel that a column's name hints at, empty if it hints at none."""
     words = words_of(name)
+    as_is = " ".join(re.sub(r"[^0-9A-Za-z]+", " ", name).lower().split())
+    if as_is in WHEELS:
+        return WHEELS[as_is]
     trailer = bool(TRAILER.search(words.replace("_", " ")) or TRAILER.search(name.lower()))
     bare = TRAILER.sub("", words).strip()
-    stem = EXACT.get(bare) or EXACT.get(words_of(name.rpartition(":")[2]))
+    short = TRAILER.sub("", as_is).strip()
+    last = words_of(name.rpartition(":")[2])
+    stem = EXACT.get(short) or EXACT.get(bare) or EXACT.get(last)
     if stem is None:
-        field = words_of(name.partition(":")[2]) or bare
-        stem = next((s for text in (field, bare) for p, s in PATTERNS if p.search(text)), "")
-    if not stem or stem.startswith(_INPUTS):
+        field = words_of(name.partition(":")[2]) or words
+        stem = next((s for text in (field, words) for p, s in PATTERNS if p.search(text)), "")
+    if not stem or stem.startswith(_WHOLE):
         return stem
     return f"{'trailer' if trailer else 'tractor'}_{stem}"

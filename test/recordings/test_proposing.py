@@ -1,0 +1,46 @@
+"""What a column's name hints at."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from truck_blowout_sim.recordings.mapping.proposing import unit_by_size
+from truck_blowout_sim.recordings.mapping.vocabulary import channel_hinted
+
+
+@pytest.mark.parametrize(("name", "channel"), [
+    ("SteerAngle", "steering_wheel_angle_rad"), ("Steer_SW", "steering_wheel_angle_rad"),
+    ("steering_wheel_angle", "steering_wheel_angle_rad"), ("StrWhlAng", "steering_wheel_angle_rad"),
+    ("Lenkradwinkel", "steering_wheel_angle_rad"), ("SteeringWheelSpeed", ""),
+    ("Speed", "tractor_vx_mps"), ("VehSpd", "tractor_vx_mps"), ("Vx", "tractor_vx_mps"),
+    ("/vehicle/speed_report:speed", "tractor_vx_mps"), ("velocity", "tractor_vx_mps"),
+    ("AVz", "tractor_yaw_rate_radps"), ("AVz_2", "trailer_yaw_rate_radps"),
+    ("YawRate", "tractor_yaw_rate_radps"), ("Yaw rate", "tractor_yaw_rate_radps"),
+    ("/ins/imu:angular_velocity.z", "tractor_yaw_rate_radps"),
+    ("/trailer/imu:angular_velocity.z", "trailer_yaw_rate_radps"),
+    ("Lat acc", "tractor_ay_mps2"), ("Ay", "tractor_ay_mps2"), ("LongAcc", "tractor_ax_mps2"),
+    ("Gierrate", "tractor_yaw_rate_radps"), ("Heading", "tractor_yaw_rad"),
+    ("Art_H", "articulation_rad"), ("AVy_L1", "hub_speed_steer_left_radps"),
+    ("AVy_R5", "hub_speed_trailer_2_right_radps"), ("throttle_percent", "throttle"),
+    ("trailer_brake_kpa_abs", "brake_pressure_trailer_pa"), ("Satellites", ""),
+    ("EngineSpeed", ""), ("steer_axle_rpm", ""), ("Note", ""),
+])  # fmt: skip
+def test_names(name: str, channel: str) -> None:
+    assert channel_hinted(name) == channel
+
+
+@pytest.mark.parametrize(("numbers", "channel", "quantity", "unit"), [
+    ([80.0, 90.0], "tractor_vx_mps", "speed", "km/h"), ([20.0], "tractor_vx_mps", "speed", "m/s"),
+    ([3.0], "tractor_yaw_rate_radps", "angular rate", "deg/s"),
+    ([0.05], "tractor_yaw_rate_radps", "angular rate", "rad/s"),
+    ([1.0, 0.98], "tractor_az_mps2", "acceleration", "g"),
+    ([9.8], "tractor_az_mps2", "acceleration", "m/s2"),
+    ([8.0], "tire_pressure_steer_left_pa", "pressure", "bar"),
+    ([110.0], "tire_pressure_steer_left_pa", "pressure", "psi"),
+    ([758.0], "tire_pressure_steer_left_pa", "pressure", "kPa"),
+    ([758e3], "tire_pressure_steer_left_pa", "pressure", "Pa"),
+    ([40.0], "steering_wheel_angle_rad", "angle", "deg"), ([33.0], "throttle", "ratio", "%"),
+])  # fmt: skip
+def test_units_by_size(numbers: list[float], channel: str, quantity: str, unit: str) -> None:
+    assert unit_by_size(np.array(numbers), channel, quantity) == unit
