@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import numpy as np
 import pytest
 
 from truck_blowout_sim.diagnosis.answer.limits import limit_sentence
@@ -9,6 +10,7 @@ from truck_blowout_sim.diagnosis.answer.told import alias_set
 from truck_blowout_sim.diagnosis.effects import LIBRARY
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.fit.attribute import Ranked
+from truck_blowout_sim.diagnosis.prove.next_test import drivable
 from truck_blowout_sim.vehicle import Packed
 
 
@@ -33,3 +35,12 @@ def test_a_late_hand_wheel_and_a_late_gear_are_told_apart_by_the_road_wheels_alo
 ) -> None:
     one = Ranked(hypothesis("steering_lag", truck, 0.2), 100.0, 0.01)
     assert alias_set([one], recorded).names == names
+
+
+def test_no_run_is_proposed_that_puts_a_truck_on_its_side() -> None:
+    channels = ("tractor_ay_mps2", "trailer_roll_rad")
+    gentle = np.array([[1.5, 0.05], [1.8, 0.08]])
+    assert drivable(channels, gentle, 2.0)
+    assert not drivable(channels, gentle + np.array([0.0, 0.4]), 2.0)
+    assert not drivable(channels, gentle + np.array([1.0, 0.0]), 2.0)
+    assert not drivable(channels, gentle * np.nan, 2.0)

@@ -32,6 +32,8 @@ Floats = NDArray[np.float64]
 Pair = tuple[Hypothesis, Hypothesis]
 _MOST_PROJECTED = 3  # manoeuvres in which nuisances are varied: nearly all of the time
 _CLEAR_SIGMA = 3.0
+_GENTLE_MPS2, _HARDER = 2.0, 1.2
+_ON_ITS_SIDE_RAD = 0.26  # 15 deg: no sprung body leans so far on its wheels
 
 
 @dataclass(frozen=True)
@@ -94,13 +96,44 @@ def pair_of(rivals: Sequence[Ranked]) -> Pair | None:
 
 
 def _difference(study: Study, run: Run, pair: Pair, others: Sequence[Hypothesis]) -> Floats | None:
-    """Whitened: second explanation less the first; None if a truck falls over."""
+    """Whitened: second explanation less the first; None if no driver could drive it."""
     name = run.recording.name
     truck = with_effects(study.packed, others, name)
     first, second = study.simulate([(run, h.apply(truck, name)) for h in pair])
-    if not (np.isfinite(first).all() and np.isfinite(second).all()):
+    if not all(drivable(run.channels, rows, hardest_mps2(study)) for rows in (first, second)):
         return None
     return run.change(second, first)
+
+
+def hardest_mps2(study: Study) -> float:
+    """Lateral acceleration that a test driver may be asked for.
+
+    A fifth more than these recordings already hold, and 2 m/s2 in any case, half of the rollover
+    threshold of a loaded truck (0.35 to 0.5 g: C. Winkler, Rollover of Heavy Commercial Vehicles,
+    UMTRI Research Review 31-4, 2000).
+    """
+    seen = [float(np.nanpercentile(np.abs(run.recording[name].value), 99.0))
+            for run in study.runs for name in ("tractor_ay_mps2",) if name in run.recording]
+    return max([_GENTLE_MPS2, *(_HARDER * one for one in seen)])
+
+
+def drivable(channels: Sequence[str], rows: Floats, hardest: float) -> bool:
+    """Whether a simulated run is one that a driver can be asked to drive.
+
+    Args:
+        channels: of the rows' columns.
+        rows: [n, m] bin means.
+        hardest: lateral acceleration [m/s2] that may be asked for.
+    """
+    if not np.isfinite(rows).all():
+        return False
+    for k, name in enumerate(channels):
+        largest = float(np.max(np.abs(rows[:, k]), initial=0.0))
+        if name.endswith("_roll_rad") and largest > _ON_ITS_SIDE_RAD:
+            return False
+        if name.endswith("_ay_mps2") and largest > hardest:
+            return False
+    return True
 
 
 def _asked(study: Study, pair: Pair, others: Sequence[Hypothesis]) -> Floats:
