@@ -21,7 +21,7 @@ from std_srvs.srv import Trigger
 from truck_blowout_sim.nodes import player_parameters
 from truck_blowout_sim.nodes.lane_keeper_node import SPECS as LANE_KEEPER_SPECS
 from truck_blowout_sim.nodes.parameters import Spec, markdown
-from truck_blowout_sim.nodes.simulator_parameters import SPECS
+from truck_blowout_sim.nodes.simulator_parameters import PLAIN_SPECS, SPECS, inputs_markdown
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -163,11 +163,13 @@ def test_rounded_rates_are_said(start: Any) -> None:
 
 @pytest.mark.parametrize(
     "specs",
-    [SPECS, player_parameters.SPECS, LANE_KEEPER_SPECS],
+    [PLAIN_SPECS, player_parameters.SPECS, LANE_KEEPER_SPECS],
     ids=["simulator", "player", "lane"],
 )
 def test_the_documentation_lists_the_parameters_as_they_are(specs: tuple[Spec, ...]) -> None:
-    assert markdown(specs) in (ROOT / "docs" / "ros.md").read_text()
+    page = (ROOT / "docs" / "ros.md").read_text()
+    assert markdown(specs) in page
+    assert inputs_markdown() in page
 
 
 def test_specs_have_defaults_of_their_own_type() -> None:

@@ -87,13 +87,23 @@ def _input_specs(name: str) -> tuple[Spec, ...]:
     )  # fmt: skip
 
 
+PLAIN_SPECS: tuple[Spec, ...] = (*_GENERAL, *_RATES)
+"""All but those of the inputs, of which every input has four."""
+
 SPECS: tuple[Spec, ...] = (
-    *_GENERAL,
-    *_RATES,
+    *PLAIN_SPECS,
     *(spec for name in _COMMANDS for spec in _input_specs(name)),
 )
 
 Values = Mapping[str, Any]
+
+
+def inputs_markdown() -> str:
+    """The parameters of the inputs as a table for the documentation, one row an input."""
+    rows = ["| `<input>` | topic | `min` | `max` | unit |", "|---|---|---|---|---|"]
+    for name, (topic, unit, low, high) in _COMMANDS.items():
+        rows.append(f"| `{name}` | `{topic}` | {low:g} | {high:g} | {unit} |")
+    return "\n".join(rows) + "\n"
 
 
 def initial_state(values: Values) -> InitialState:
