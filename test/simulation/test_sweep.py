@@ -128,6 +128,8 @@ def test_the_share_a_key_explains() -> None:
     labels, at = groups([f"tire_{w}" for w in words])
     assert labels == ["tire_0", "tire_1", "tire_2"]
     assert share_explained(at, outcome) > 0.98
+    assert groups(["0.5x", "2x", "0.5x"])[0] == ["0.5x", "2x"]
+    assert len(groups([f"{x}x" for x in numbers])[0]) == 8
     bins, in_bins = groups(numbers.tolist())
     assert len(bins) == 8
     assert share_explained(in_bins, outcome) < 0.05

@@ -15,12 +15,18 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
+from truck_blowout_sim.simulation.studies.keys import scale_of
+
 Floats = NDArray[np.float64]
 _BINS = 8
 
 
 def groups(values: Sequence[float | str]) -> tuple[list[str], NDArray[np.int64]]:
     """Labels of the values of a key, and which one each run has; many numbers go into bins."""
+    scales = [scale_of(v) for v in values]
+    if scales and None not in scales:
+        labels, at = groups([s for s in scales if s is not None])
+        return [f"{label}x" for label in labels], at
     if any(isinstance(v, str) for v in values):
         labels = list(dict.fromkeys(str(v) for v in values))
         return labels, np.array([labels.index(str(v)) for v in values])
