@@ -5,10 +5,14 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
+import numpy as np
 import pytest
+import scipy.io
 
 from truck_blowout_sim.cli.compare import _folders
 from truck_blowout_sim.cli.main import main
+from truck_blowout_sim.comparison.sources import find_recording
+from truck_blowout_sim.recordings import read_recording
 
 TEST_2013 = "test_2013_steer_blowout"
 
@@ -29,6 +33,30 @@ def test_a_shipped_record_is_compared_by_its_name(
     assert "report.html" in shown.out
     assert json.loads((tmp_path / "out" / "comparison.json").read_text())["recording"] == TEST_2013
     assert (tmp_path / "out" / "figures" / "yaw_rate_tractor.png").is_file()
+
+
+def test_the_thesis_s_analysis_runs_with_steering_from_a_second_file(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    record = read_recording(find_recording(TEST_2013)).between(-1.0, 2.0)
+    time_s = record["tractor_vx_mps"].time_s
+    speed, rate = record["tractor_vx_mps"].value, record["tractor_yaw_rate_radps"].value
+    scipy.io.savemat(tmp_path / "exp.mat", {
+        "time_e": time_s, "vx_e": speed / 0.44704, "yaw_e": -np.degrees(rate),
+        "vx_h": speed / 0.44704, "yaw_h": -0.5 * np.degrees(rate)})  # fmt: skip
+    turned = np.degrees(record.at("steering_wheel_angle_rad", time_s))
+    rows = (f"{t:.2f},{angle:.4f}\n" for t, angle in zip(time_s, turned, strict=True))
+    (tmp_path / "steering.csv").write_text("t [s],handwheel [deg]\n" + "".join(rows))
+    (tmp_path / "map.yaml").write_text(
+        "also: [steering.csv]\nchannels: {steering_wheel_angle_rad: {from: handwheel}}")
+    words = ["compare", str(tmp_path / "exp.mat"), "-m", str(tmp_path / "map.yaml"), "--hve",
+             "--step", "0.004", "-o", str(tmp_path / "out")]  # fmt: skip
+    assert main(words) == 0
+    assert "exp (HVE)" in capsys.readouterr().out
+    held = json.loads((tmp_path / "out/hve/comparison.json").read_text())
+    assert held["recording"] == "exp"
+    assert main(words) == 2
+    assert "--force" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize(

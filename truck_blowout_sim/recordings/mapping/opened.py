@@ -20,8 +20,8 @@ from truck_blowout_sim.recordings.logs.bag_log import HEADER, RECEIVE, BagLog, l
 from truck_blowout_sim.recordings.logs.mat_log import variables_of
 from truck_blowout_sim.recordings.mapping.rules import Rules, TimeRule
 from truck_blowout_sim.recordings.mapping.times import Times, times_of
-from truck_blowout_sim.recordings.mat_format import TIME, read_mat
-from truck_blowout_sim.recordings.mat_thesis import has_thesis_variables
+from truck_blowout_sim.recordings.mat_format import OWN_TIME, TIME, read_mat
+from truck_blowout_sim.recordings.mat_thesis import SOURCES, has_thesis_variables
 from truck_blowout_sim.recordings.names import parts_of
 from truck_blowout_sim.recordings.recording import Recording
 
@@ -176,9 +176,8 @@ def _native_columns(log: Log, native: Recording) -> set[str]:
     if isinstance(log, BagLog):
         return {name for name in log.names if name.startswith("/truck/")}
     own = {*native.channels, "blowout", "time_s"}
-    thesis = native.metadata.get("source") is not None
-    return {name for name in log.names if name in own or name.endswith("_time_s")
-            or (thesis and name.endswith(("_e", "_h")))}  # fmt: skip
+    suffix = SOURCES.get(native.metadata.get("source", ""), OWN_TIME)
+    return {name for name in log.names if name in own or name.endswith((OWN_TIME, suffix))}
 
 
 def _start_s(opened: Opened, rules: Rules) -> float | None:
