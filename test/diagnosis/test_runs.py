@@ -171,3 +171,12 @@ def test_where_the_coarse_step_is_no_use_the_fine_one_is_taken(
     stiff = truck.with_values({name: 3e7 for name in truck.index
                                if name.endswith("stiffness_npm") and name.startswith("tire.")})
     assert run.corrected(stiff).drive.step_s == 0.001
+
+
+def test_a_truck_that_leaves_the_range_of_the_model_is_an_error(
+    truck: Packed, few: Settings, drive_it: Drives
+) -> None:
+    run = prepare_run(drive_it(), "train", truck, few, step_s=0.001)
+    wild = truck.with_values({"tire.steer_left.stiffness_npm": 1e9})
+    with pytest.raises(InputError, match="left the range of the model"):
+        run.corrected(wild)

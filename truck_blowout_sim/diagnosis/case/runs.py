@@ -20,7 +20,8 @@ from truck_blowout_sim.diagnosis.sensors import Noise, channel_noise
 from truck_blowout_sim.diagnosis.settings import Settings
 from truck_blowout_sim.recordings import Recording
 from truck_blowout_sim.simulation.course import Course
-from truck_blowout_sim.simulation.drive import Drive, names_of, run_drive
+from truck_blowout_sim.simulation.drive import Drive, execute, names_of, run_drive
+from truck_blowout_sim.simulation.plausible import diverged
 from truck_blowout_sim.simulation.replay import drive_from
 from truck_blowout_sim.vehicle import Packed
 
@@ -91,11 +92,16 @@ class Run:
 
         Where that would have to correct much, the coarse step is no use for this truck (a stiff
         rim, datasets that are swapped): everything is then simulated on the fine one.
+
+        Raises:
+            DivergedError: the truck leaves the range of the model on the fine step, too.
         """
         if self.fine.step_s == self.drive.step_s:
             return self
-        change = self.bins_of(run_drive(truck, self.fine), self.fine) - self.bins_of(
-            run_drive(truck, self.drive))
+        fine = execute(truck, self.fine)
+        if fine.ending is not None and not fine.ending.rolled_over:
+            raise diverged(truck, self.fine, fine.ending, self.recording.name)
+        change = self.bins_of(fine.out, self.fine) - self.bins_of(run_drive(truck, self.drive))
         if not np.sqrt(np.nanmean((change / self.sigma) ** 2)) < _COARSE_ENOUGH:
             return replace(self, drive=self.fine)
         return replace(self, correction=np.where(np.isfinite(change), change, 0.0))
