@@ -30,7 +30,7 @@ def diagnose_case(case: Case, *, step_s: float, with_baselines: bool) -> dict[st
     try:
         answer, _ = diagnose(train, baseline=baseline, holdout=holdout, workers=1, step_s=step_s,
                              without=case.without(), kept=memory,
-                             vehicle=case.vehicle())
+                             vehicle=case.vehicle(), next_run=False)  # not scored
         line["answer"] = answer.as_json()
         line["cpu_s"] = round(time.process_time() - cpu, 1)
         if with_baselines and case.vehicle() == VEHICLE:
