@@ -23,7 +23,7 @@ from truck_blowout_sim.display.scene import (
 from truck_blowout_sim.nodes.blowout_topic import BlowoutAnnouncer
 from truck_blowout_sim.nodes.clock import NS
 from truck_blowout_sim.nodes.clock_topics import CLOCK, CLOCK_TYPE, clock_bytes
-from truck_blowout_sim.nodes.outputs import OutputTable
+from truck_blowout_sim.nodes.outputs import Batch, OutputTable
 from truck_blowout_sim.nodes.plant import Plant
 from truck_blowout_sim.nodes.publishing import make_publishers, message_class
 from truck_blowout_sim.nodes.qos import in_force, publisher, reliable, state
@@ -61,6 +61,7 @@ class OutputTopics:
         self._types = {**self._table.types, **TYPES, CLOCK: CLOCK_TYPE}
         self._names = {topic: node.resolve_topic_name(topic) for topic in self._types}
         self._read: dict[str, bool] = {}
+        self._read_batches: list[Batch] = []
         self._look_at_s = 0.0
         self._others: list[Callable[[int], None]] = []
         self._tick = 0
@@ -86,8 +87,8 @@ class OutputTopics:
             self._tick += 1
         self._look_for_readers()
         whole_period = everything or self._tick % self._timing.publish_every == 0
-        due = [b for b in self._table.batches if everything or self._tick % b.every == 0]
-        due = [b for b in due if any(self._wanted(slot.topic) for slot in b.encoder.slots)]
+        batches = self._table.batches if self._recorder.active else self._read_batches
+        due = [b for b in batches if everything or self._tick % b.every == 0]
         frames = whole_period and self._wanted(TF)
         arrows = self._arrows_due(everything) and self._wanted(TIRE_FORCES)
         now_ns = self._plant.now_ns
@@ -174,6 +175,10 @@ class OutputTopics:
                 topic: made.get_subscription_count() > 0
                 for topic, made in self._publishers.items()
             }  # fmt: skip
+            self._read_batches = [
+                batch for batch in self._table.batches
+                if any(self._read.get(slot.topic) for slot in batch.encoder.slots)
+            ]  # fmt: skip
 
     def _send(self, topic: str, now_ns: int, data: bytes) -> None:
         if self._read.get(topic):
