@@ -4,16 +4,29 @@ from __future__ import annotations
 
 import math
 import xml.etree.ElementTree as ElementTree
+from collections import Counter
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
+from mcap.reader import make_reader
 from numpy.typing import NDArray
 
-from truck_blowout_sim import InitialState, Inputs, Truck, load_vehicle
+from truck_blowout_sim import (
+    Blowout,
+    InitialState,
+    Inputs,
+    Recording,
+    Series,
+    Truck,
+    load_vehicle,
+    read_recording,
+    write_recording,
+)
 from truck_blowout_sim.display.arrows import MARKERS
 from truck_blowout_sim.display.frames import TF_MESSAGE, fixed_frames
-from truck_blowout_sim.display.scene import LATCHED, ROBOT_DESCRIPTION, TF_STATIC, Scene
+from truck_blowout_sim.display.scene import LATCHED, ROBOT_DESCRIPTION, TF_STATIC, Scene, beside
 from truck_blowout_sim.recordings.channels import STRING
 from truck_blowout_sim.recordings.message_types import typestore
 from truck_blowout_sim.vehicle.places import hub_places
@@ -158,3 +171,24 @@ def test_masses_of_all_links_are_the_trucks(scene: Scene) -> None:
         ixx, iyy, izz = (float(str(inertia.get(k))) for k in ("ixx", "iyy", "izz"))
         assert ixx + iyy > izz > 0  # a body can have these
         assert iyy + izz > ixx > 0
+
+
+def test_a_bag_of_a_run_shows_the_truck_by_itself(truck: Truck, tmp_path: Path) -> None:
+    times_s = np.array([-0.05, 0.0, 0.05, 0.10])
+    rows = np.repeat(truck.output_vector()[None, :], 4, axis=0)
+    channel = Series(times_s, np.full(4, 15.0))
+    recording = Recording("run", {"tractor_vx_mps": channel}, (Blowout(0.05, ("steer_left",)),))
+    extra = beside(VEHICLE, truck.output_names, times_s, rows, recording.blowouts)
+    write_recording(recording, tmp_path / "run.mcap", beside=extra)
+    with (tmp_path / "run.mcap").open("rb") as stream:
+        found = [(c.topic, m.log_time, m.data) for _, c, m in make_reader(stream).iter_messages()]
+    count = Counter(topic for topic, _, _ in found)
+    assert (count["/tf"], count["/clock"], count["/tf_static"]) == (4, 4, 1)
+    assert count["/truck/robot_description"] == 1
+    assert [stamp for topic, stamp, _ in found if topic == "/tf"] == [
+        0, 50_000_000, 100_000_000, 150_000_000,
+    ]  # fmt: skip
+    arrows = [read(data, MARKERS) for topic, _, data in found if topic == "/truck/tire_forces"]
+    red = [{m.text for m in one.markers if m.color.r > m.color.g} for one in arrows]
+    assert red == [set(), {"steer_left"}]
+    assert read_recording(tmp_path / "run.mcap").blowouts == recording.blowouts

@@ -14,9 +14,11 @@ from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 from truck_blowout_sim.cli.listing import list_option, names_of
 from truck_blowout_sim.cli.outputs import FORCE, JSON, YES, ask_about, claim, say
 from truck_blowout_sim.cli.settings import parse_blowouts, set_values
+from truck_blowout_sim.display.scene import beside
 from truck_blowout_sim.errors import InputError, quoted
-from truck_blowout_sim.recordings import Recording, write_recording
+from truck_blowout_sim.recordings import INPUT_NAMES, Recording, write_recording
 from truck_blowout_sim.simulation.drive import Drive, Ran, execute
+from truck_blowout_sim.simulation.drive import names_of as output_names_of
 from truck_blowout_sim.simulation.measures import measure
 from truck_blowout_sim.simulation.plausible import implausible
 from truck_blowout_sim.simulation.run import prepare, recorded
@@ -77,7 +79,10 @@ def command(
     ask_about(implausible(packed, drive), yes)
     ran, factor = _run(packed, drive, loaded.name)
     recording = recorded(packed, drive, ran, blowouts, loaded)
-    write_recording(recording, target)
+    n = len(recording[INPUT_NAMES[0]].time_s)  # up to a rollover
+    shown = beside(packed.vehicle, output_names_of(packed.vehicle), drive.times_s[:n], ran.out[:n],
+                   recording.blowouts)  # fmt: skip
+    write_recording(recording, target, beside=shown)
     if page or open_page:
         _write_page(recording, packed, html)
     for note in recording.notes:

@@ -5,7 +5,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -15,8 +15,10 @@ from truck_blowout_sim.display.arrows import MARKERS, ForceArrows
 from truck_blowout_sim.display.frames import TF_MESSAGE, MovingFrames, fixed_frames
 from truck_blowout_sim.display.joints import DisplayJoints
 from truck_blowout_sim.display.urdf import urdf_of
+from truck_blowout_sim.recordings.bag_export import Extra
 from truck_blowout_sim.recordings.cdr import template
 from truck_blowout_sim.recordings.channels import STRING, channels_for
+from truck_blowout_sim.recordings.recording import Blowout
 from truck_blowout_sim.vehicle import Vehicle
 
 TF, TF_STATIC = "/tf", "/tf_static"
@@ -26,6 +28,9 @@ TYPES: Mapping[str, str] = {
 }  # fmt: skip
 LATCHED = (ROBOT_DESCRIPTION, TF_STATIC)
 """Topics said once, which late joiners must hear, too."""
+
+CLOCK, CLOCK_TYPE = "/clock", "rosgraph_msgs/msg/Clock"
+_ARROWS_EVERY_S = 0.1
 
 FloatArray = NDArray[np.float64]
 
@@ -85,6 +90,38 @@ class Scene:
     def arrows(self, stamp_ns: int, outputs: FloatArray, blown: Collection[str]) -> bytes:
         """`tire_forces` of one instant; tires named in `blown` are red."""
         return self._arrows.fill(stamp_ns, outputs, blown)
+
+
+def beside(
+    vehicle: Vehicle,
+    output_names: Sequence[str],
+    times_s: FloatArray,
+    outputs: FloatArray,
+    blowouts: Sequence[Blowout],
+) -> Iterator[Extra]:
+    """What a bag of a run needs to show the truck by itself, in order of time.
+
+    Args:
+        vehicle: whose run.
+        output_names: names of the model's outputs.
+        times_s: instants, shape (n,); stamps count from 0 or from the first, if that is earlier.
+        outputs: shape (n, outputs).
+        blowouts: events of the run.
+    """
+    scene = Scene(vehicle, output_names)
+    origin_s = min(0.0, float(times_s[0])) if len(times_s) else 0.0
+    arrows_s = -np.inf
+    for number, (time_s, row) in enumerate(zip(times_s.tolist(), outputs, strict=True)):
+        if number == 0:
+            yield from (Extra(time_s, s.topic, s.ros_type, s.data) for s in scene.latched)
+        stamp_ns = round((time_s - origin_s) * 1e9)
+        clock = template(CLOCK_TYPE, clock__sec=stamp_ns // 10**9, clock__nanosec=stamp_ns % 10**9)
+        yield Extra(time_s, CLOCK, CLOCK_TYPE, clock)
+        yield Extra(time_s, TF, TF_MESSAGE, scene.frames(stamp_ns, row))
+        if time_s >= arrows_s - 1e-9:
+            arrows_s = time_s + _ARROWS_EVERY_S
+            blown = {tire for b in blowouts if b.time_s <= time_s for tire in b.tires}
+            yield Extra(time_s, TIRE_FORCES, MARKERS, scene.arrows(stamp_ns, row, blown))
 
 
 def _joint_columns(

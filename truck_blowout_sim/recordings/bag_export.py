@@ -7,7 +7,7 @@ message can only be filled in part, its other fields say that they were not meas
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from itertools import pairwise
 from pathlib import Path
@@ -23,6 +23,7 @@ from truck_blowout_sim.recordings.names import parts_of
 from truck_blowout_sim.recordings.recording import Blowout, Recording
 
 _WINDOW_NS = 2_000_000_000
+_WINDOW_BESIDE_NS = 100_000_000  # so far may messages of a bag be out of order
 TimeArray = NDArray[np.int64]
 
 
@@ -35,10 +36,25 @@ class _Group:
     values: NDArray[np.float64]
 
 
-def write_bag(recording: Recording, path: Path) -> None:
+@dataclass(frozen=True)
+class Extra:
+    """A serialised message beside the channels; a topic without leading slash is relative."""
+
+    time_s: float
+    topic: str
+    ros_type: str
+    data: bytes
+
+
+def write_bag(recording: Recording, path: Path, beside: Iterable[Extra] = ()) -> None:
     """Write a rosbag2 folder, or a bare file if the path ends in ``.mcap``.
 
     The same recording gives the same bytes. A bag that is there already is replaced.
+
+    Args:
+        recording: what is written.
+        path: of the bag.
+        beside: further messages, in order of time.
 
     Raises:
         InputError: the path is a file, or a folder with other things in it.
@@ -61,7 +77,7 @@ def write_bag(recording: Recording, path: Path) -> None:
             file_stem=path.name,
         ) as writer,
     ):
-        _interleave(recording, _groups(recording, table, writer), writer)
+        _interleave(recording, _groups(recording, table, writer), writer, iter(beside))
 
 
 def _groups(recording: Recording, table: tuple[Channel, ...], writer: BagWriter) -> list[_Group]:
@@ -98,15 +114,22 @@ def _values(
     return np.stack(columns, axis=1)
 
 
-def _interleave(recording: Recording, groups: list[_Group], writer: BagWriter) -> None:
+def _interleave(
+    recording: Recording, groups: list[_Group], writer: BagWriter, beside: Iterator[Extra]
+) -> None:
     streams = [writer.stream(group.names) for group in groups]
     events = [(writer.stamp_ns(b.time_s), b) for b in recording.blowouts]
     instants = np.concatenate([group.stamps_ns for group in groups] or [np.zeros(0, np.int64)])
     owner = np.repeat(np.arange(len(groups)), [len(group.stamps_ns) for group in groups])
     row = np.concatenate([np.arange(len(g.stamps_ns)) for g in groups] or [np.zeros(0, np.int64)])
     order = np.argsort(instants, kind="stable")
-    for run in _runs(instants[order], owner[order], [stamp for stamp, _ in events]):
+    extra = next(beside, None)
+    window_ns = _WINDOW_NS if extra is None else _WINDOW_BESIDE_NS
+    for run in _runs(instants[order], owner[order], [stamp for stamp, _ in events], window_ns):
         picked = order[run]
+        while extra is not None and writer.stamp_ns(extra.time_s) <= instants[picked[-1]]:
+            writer.message(extra.topic, extra.ros_type, extra.time_s, extra.data)
+            extra = next(beside, None)
         while events and events[0][0] <= instants[picked[0]]:
             _write_event(writer, events.pop(0)[1])
         group = groups[int(owner[picked[0]])]
@@ -116,11 +139,13 @@ def _interleave(recording: Recording, groups: list[_Group], writer: BagWriter) -
         _write_event(writer, blowout)
 
 
-def _runs(instants: TimeArray, owner: NDArray[np.int64], event_ns: list[int]) -> Iterator[slice]:
+def _runs(
+    instants: TimeArray, owner: NDArray[np.int64], event_ns: list[int], window_ns: int
+) -> Iterator[slice]:
     """Stretches that one group fills alone, cut at events and after a window of time."""
     if not len(instants):
         return
-    window = instants // _WINDOW_NS + np.searchsorted(np.array(event_ns), instants, side="right")
+    window = instants // window_ns + np.searchsorted(np.array(event_ns), instants, side="right")
     cut = np.flatnonzero((np.diff(owner) != 0) | (np.diff(window) != 0)) + 1
     edges = [0, *cut.tolist(), len(instants)]
     for start, end in pairwise(edges):

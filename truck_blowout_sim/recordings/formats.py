@@ -7,7 +7,7 @@ from collections.abc import Iterable, Mapping
 from pathlib import Path
 
 from truck_blowout_sim.errors import InputError, quoted
-from truck_blowout_sim.recordings.bag_export import write_bag
+from truck_blowout_sim.recordings.bag_export import Extra, write_bag
 from truck_blowout_sim.recordings.bag_metadata import FILE_NAME
 from truck_blowout_sim.recordings.bag_reader import read_bag
 from truck_blowout_sim.recordings.csv_reader import read_csv
@@ -53,7 +53,11 @@ def read_native(
 
 
 def write_recording(
-    recording: Recording, path: str | os.PathLike[str], *, thesis_variables: bool = False
+    recording: Recording,
+    path: str | os.PathLike[str],
+    *,
+    thesis_variables: bool = False,
+    beside: Iterable[Extra] = (),
 ) -> Path:
     """Write a recording in the format that the path's ending names; a folder is a rosbag2 bag.
 
@@ -63,6 +67,7 @@ def write_recording(
         recording: what is written; every channel, in every format.
         path: a folder, or a file ending in ``.mcap``, ``.csv`` or ``.mat``.
         thesis_variables: of a ``.mat``: only the variables of the thesis's appendix A.
+        beside: of a bag: further messages, in order of time.
 
     Returns:
         The path.
@@ -74,7 +79,7 @@ def write_recording(
     path = Path(path)
     suffix = path.suffix.lower()
     if suffix in ("", ".mcap"):
-        write_bag(recording, path)
+        write_bag(recording, path, beside)
     elif suffix == ".csv":
         write_csv(recording, path)
     elif suffix == ".mat":
