@@ -29,7 +29,7 @@ HEADER = (
     "tilt 0.02 deg, heading 0.04 deg, position 0.02 m",
     "noise_1sigma_other: hub speed 0.2 %",
     "throttle: force at the rear wheels = throttle x 110 kW / speed",
-    "brakes: 10 bar a m/s2, 66 % in front",
+    "brakes: 2 bar a m/s2, 66 % in front",
     "road: proving ground, taken as level and dry",
 )
 

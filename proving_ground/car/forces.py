@@ -15,7 +15,7 @@ from proving_ground.layout import FloatArray
 
 STEP_S = 1.0e-3
 AIR_DENSITY, SIDE_AREA_M2 = 1.18, 3.9
-PA_PER_MPS2 = 1.0e6                # brake pressure of a deceleration: 10 bar a m/s2
+PA_PER_MPS2 = 2.0e5                # brake pressure of a deceleration: 2 bar a m/s2
 LINE_LAG_S = 0.02
 GRAVITY_MPS2 = 9.81
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from typing import Any
 
+from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.proof.blindfold import blindfolded
 from truck_blowout_sim.proof.cases import ROLES, VEHICLE, Case
 
@@ -24,10 +25,10 @@ def diagnose_case(case: Case, *, step_s: float, with_baselines: bool) -> dict[st
     started, cpu = time.perf_counter(), time.process_time()
     line: dict[str, Any] = {"case": case.id, "recordings_sha256": folder_hash(case.folder),
                             "answer": None, "baselines": None, "error": None}
-    train, baseline, holdout = ([read_recording(path) for path in case.recordings(role)]
-                                for role in ROLES)
     memory = Memory()
     try:
+        train, baseline, holdout = ([read_recording(path) for path in case.recordings(role)]
+                                    for role in ROLES)
         answer, _ = diagnose(train, baseline=baseline, holdout=holdout, workers=1, step_s=step_s,
                              without=case.without(), kept=memory,
                              vehicle=case.vehicle(), next_run=False)  # not scored
@@ -36,7 +37,8 @@ def diagnose_case(case: Case, *, step_s: float, with_baselines: bool) -> dict[st
         if with_baselines and case.vehicle() == VEHICLE:
             line["baselines"] = baseline_errors(train, baseline, holdout, step_s,
                                                 answer.holdout.after, memory)
-    except (ArithmeticError, ValueError, LookupError, AssertionError, RuntimeError) as error:
+    except (ArithmeticError, ValueError, LookupError, AssertionError, RuntimeError,
+            InputError) as error:
         line["error"] = f"{type(error).__name__}: {error}"
     line.setdefault("cpu_s", round(time.process_time() - cpu, 1))
     line["wall_s"] = round(time.perf_counter() - started, 1)
