@@ -32,7 +32,7 @@ class App {
     this.eye = new Eye($('scene'));
     const [first] = Object.values(this.runs[0].vehicle.units);
     const length = Object.values(this.runs[0].vehicle.units).reduce((n, u) => n + u.front - u.rear, 0);
-    this.eye.size = Math.min(1.25, Math.max(0.34, length / 19));
+    this.eye.size = Math.min(1.25, 0.25 + 0.75 * length / 19);
     this.second = new THREE.PerspectiveCamera(38, 1, 0.3, 900);
     try {
       // a processor that draws alone is spared the four-fold work of smooth edges

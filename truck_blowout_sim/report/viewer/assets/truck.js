@@ -85,7 +85,8 @@ class Truck {
     }
     this._wheels(poses, at, show);
     const first = poses[Object.keys(poses)[0]], last = poses[Object.keys(poses).pop()];
-    this.anchor.set((2 * first.x + last.x) / 3, (2 * first.y + last.y) / 3, 1.3);
+    this.anchor.set((2 * first.x + last.x) / 3, (2 * first.y + last.y) / 3,
+      2.5 * Object.values(this.run.vehicle.units)[0].wheelRadius);
     this.heading = first.yaw;
     return poses;
   }
@@ -285,7 +286,7 @@ const DRAW = {
     for (const x of [u.axles[0], u.axles[u.axles.length - 1]])
       for (const y of [-1, 1])
         s.box(x - R - 0.06, x + R + 0.06, y > 0 ? 0.72 * w : -w, y > 0 ? w : -0.72 * w,
-          g + 2 * R + 0.02, g + 2 * R + 0.12, body);
+          g + 1.5 * R, g + 2 * R + 0.1, body);
   },
 };
 
