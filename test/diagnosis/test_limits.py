@@ -30,7 +30,7 @@ def test_a_dead_brake_is_called_dead(truck: Packed) -> None:
     ((), ("steering_lag", "channel_delay")),
     (("steer_left_steer_rad",), ("steering_lag",)),
 ])  # fmt: skip
-def test_a_late_hand_wheel_and_a_late_gear_are_told_apart_by_the_road_wheels_alone(
+def test_a_late_gear_and_instruments_that_are_late_together_need_the_road_wheels(
     truck: Packed, recorded: tuple[str, ...], names: tuple[str, ...]
 ) -> None:
     one = Ranked(hypothesis("steering_lag", truck, 0.2), 100.0, 0.01)

@@ -58,3 +58,17 @@ def test_a_zero_that_differs_from_run_to_run_is_not_the_sensor() -> None:
                  for d, run in zip((3.0, 9.0, 15.0), RUNS, strict=True)]
     findings = sensor_gate(wandering, BASELINE).findings
     assert "steering_angle_offset" not in [finding.name for finding in findings]
+
+
+def test_a_hand_wheel_that_reads_late_is_named_because_no_truck_leads_it() -> None:
+    drive = make_run(70, 90.0)
+    assert "channel_delay" not in [f.name for f in sensor_gate([drive]).findings]
+    late = faults.delayed([WHEEL], 0.2)(drive)
+    (finding,) = sensor_gate([late]).findings
+    assert (finding.name, finding.instrument) == ("channel_delay", "hand wheel")
+    assert finding.parameters["delay"].value == pytest.approx(0.2, abs=0.05)
+
+
+def test_a_truck_that_follows_late_is_not_the_instrument() -> None:
+    early = faults.delayed([WHEEL], -0.2)(make_run(70, 90.0))
+    assert sensor_gate([early]).clean

@@ -23,7 +23,7 @@ from truck_blowout_sim.diagnosis.sensors import SensorFinding
 
 _OPEN = (-np.inf, np.inf)
 # What only the angle of the road wheels could tell apart, whatever the evidence.
-_UNTOLD = {"steering_lag": (("channel_delay", "hand wheel"),),
+_UNTOLD = {"steering_lag": (("channel_delay", "all instruments but the hand wheel"),),
            "steering_angle_offset": (("axle_misalignment", "steered axle"),)}
 
 

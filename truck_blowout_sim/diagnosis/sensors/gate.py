@@ -23,7 +23,7 @@ from truck_blowout_sim.diagnosis.sensors.judgement import determined
 from truck_blowout_sim.diagnosis.sensors.residuals import broken_identities, identity_residuals
 from truck_blowout_sim.diagnosis.sensors.search import Found, SearchResult, applied, search
 from truck_blowout_sim.diagnosis.sensors.signals import read_signals
-from truck_blowout_sim.diagnosis.sensors.steering import steering_zero
+from truck_blowout_sim.diagnosis.sensors.steering import late_hand_wheel, steering_zero
 from truck_blowout_sim.diagnosis.sensors.words import equation, next_test, sentence
 from truck_blowout_sim.recordings import Recording
 
@@ -67,8 +67,8 @@ def sensor_gate(
     zero, wheel, notes = steering_zero(
         signals, case.is_baseline, [*recordings, *baseline], case.geometry.steering_ratio
     )
-    if wheel is not None:
-        findings.append(wheel)
+    late = late_hand_wheel(signals, case.is_baseline, [*recordings, *baseline])
+    findings += [one for one in (late, wheel) if one is not None]
     residuals = identity_residuals(result)
     return GateResult(
         findings=tuple(findings),

@@ -27,7 +27,8 @@ from truck_blowout_sim.diagnosis.fit.quantiles import NINETY
 from truck_blowout_sim.diagnosis.sensors.distortions import Bias
 from truck_blowout_sim.diagnosis.sensors.findings import Amount, SensorFinding, SteeringZero
 from truck_blowout_sim.diagnosis.sensors.identities import channel_names
-from truck_blowout_sim.diagnosis.sensors.signals import Signals, smoothed
+from truck_blowout_sim.diagnosis.sensors.signals import Signals, read_wheel, smoothed
+from truck_blowout_sim.diagnosis.sensors.wheel_delay import Steered, late_wheel
 from truck_blowout_sim.diagnosis.sensors.words import equation, next_test, sentence
 from truck_blowout_sim.recordings import Recording
 
@@ -35,6 +36,7 @@ FloatArray = NDArray[np.float64]
 
 _WHEEL = "steering_wheel_angle_rad"
 _SMOOTH_S = 0.2
+_SMOOTH_LITTLE_S = 0.1
 _STRIDE_S = 0.25
 _BRAKE_FREE_PA = 8000.0
 _SLOWEST_MPS = 4.0
@@ -166,6 +168,26 @@ def _run(signals: Signals, is_baseline: bool, recording: Recording) -> _Run | No
     bend = smoothed(signals[m["yaw"]] - signals[n["yaw"]], width) if both else np.zeros_like(vx)
     stance = np.column_stack([vy / vx, bend, smoothed(signals[n["roll"]], width)])[chosen]
     return _Run(signals.name, is_baseline, wheel[chosen], motion, np.nan_to_num(stance))
+
+
+def late_hand_wheel(
+    signals: Sequence[Signals], is_baseline: Sequence[bool], recordings: Sequence[Recording]
+) -> SensorFinding | None:
+    """The finding that the hand wheel reads late; arguments as in :func:`steering_zero`."""
+    n = channel_names("tractor")
+    runs = []
+    for s, baseline, recording in zip(signals, is_baseline, recordings, strict=True):
+        wheel = read_wheel(s, recording)
+        if baseline or wheel is None or any(n[key] not in s for key in ("vx", "vy", "r")):
+            continue
+        width = _SMOOTH_LITTLE_S / s.period_s
+        vx, vy, r = (smoothed(s[n[key]], width) for key in ("vx", "vy", "r"))
+        fast = vx > _SLOWEST_MPS
+        along = np.where(fast, vx, np.nan)
+        lateral = np.gradient(vy, s.period_s) + vx * r
+        motion = np.column_stack([r / along, lateral, np.gradient(r, s.period_s), vy / along])
+        runs.append(Steered(smoothed(wheel, width), motion, _quiet(s) & fast, s.period_s))
+    return late_wheel(runs)
 
 
 def _quiet(signals: Signals) -> NDArray[np.bool_]:
