@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -75,7 +77,9 @@ def test_recording_ends_below_three_metres_a_second(rig: Rig) -> None:
 
 @pytest.mark.parametrize("kind", sorted(MANOEUVRES))
 def test_every_manoeuvre_keeps_the_wheels_down(kind: str, rig: Rig) -> None:
-    samples = drive(rig, make(kind, 7), neutral(), 7).samples
+    task = make(kind, 7)
+    task = replace(task, duration_s=min(task.duration_s, 40.0))
+    samples = drive(rig, task, neutral(), 7).samples
     assert np.isfinite(samples).all()
     assert samples[:, 72:90].min() > 500.0
     assert np.abs(samples[:, 14]).max() < 5.0
