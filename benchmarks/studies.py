@@ -10,7 +10,7 @@ import os
 import sys
 import tempfile
 from pathlib import Path
-from time import perf_counter
+from time import perf_counter, process_time
 
 import psutil
 
@@ -30,7 +30,7 @@ def main(runs: int = RUNS) -> None:
     variants = sample([parse_axis(word) for word in AXES], runs, seed=1)
     simulate_batch(VEHICLE, SCENARIO, variants[:2])  # loads compiled code
     process, memory = psutil.Process(), {}
-    start = perf_counter()
+    start, busy = perf_counter(), process_time()
 
     def note(share: float) -> None:
         tenth = int(10.0 * share)
@@ -43,12 +43,14 @@ def main(runs: int = RUNS) -> None:
         path = Path(folder) / "runs.parquet"
         batch = simulate_batch(VEHICLE, SCENARIO, variants, channels=CHANNELS, rate_hz=RATE_HZ,
                                output=path, progress=note)
-        wall = perf_counter() - start
+        wall, busy = perf_counter() - start, process_time() - busy
         size = path.stat().st_size / 1e6
         status = batch.column("status")
     print(f"{runs} runs of 10 s on {os.cpu_count()} cores (load {os.getloadavg()[0]:.1f}): "
           f"{wall:.1f} s, {1e3 * wall / runs:.1f} ms a run, "
           f"{10.0 * runs / wall:.0f} simulated seconds a second")
+    print(f"processor time {1e3 * busy / runs:.1f} ms a run: {RUNS} runs take "
+          f"{RUNS * busy / runs / 2.0:.0f} s of two free cores")
     counts = {word: status.count(word) for word in dict.fromkeys(status)}
     print(f"table {size:.1f} MB; {', '.join(f'{n} {word}' for word, n in counts.items())}")
     late = [mb for tenth, mb in memory.items() if tenth >= 1]
