@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -21,6 +22,7 @@ if TYPE_CHECKING:
     from truck_blowout_sim.recordings import Recording
     from truck_blowout_sim.vehicle import Vehicle
 
+Tell = Callable[[str, float], None]
 HVE = "hve"  # folder of the second page
 _NUMBERS = (
     ("rms error", 11), ("peak error", 11), ("at", 8), ("noise σ", 7), ("lag", 8), ("ISO 18571", 14)
@@ -69,34 +71,53 @@ def command(
     Example: truck-blowout compare test.csv --vehicle my_truck.yaml -o comparison
     """
     from truck_blowout_sim.comparison import compare, compare_recordings
-    from truck_blowout_sim.report.comparison_page import DATA, PAGE, write_comparison_report
     from truck_blowout_sim.vehicle import load_vehicle
 
     console, loaded = _console(), load_vehicle(vehicle)
+    folders = _claimed(recordings, output, no_model=no_model, hve=hve, force=force)
+    for name, folder in zip(recordings, folders, strict=False):
+
+        def made(tell: Tell, name: str = name) -> Comparison:
+            if no_model:
+                both = _both(recordings, mapping, blow, loaded)
+                return compare_recordings(*both, vehicle=loaded, progress=tell)
+            return compare(_read(name, mapping, blow, loaded), loaded, step_s=step_s,
+                           impose_speed=impose_speed, contrasted=True, progress=tell,
+                           ask=lambda problems: ask_about(problems, yes))
+
+        compared, page = _drawn(made, folder)
+        _tell(console, compared, page, as_json)
+        if hve:
+            _hold_hve(console, compared, name, folder / HVE, as_json)
+
+
+def _claimed(
+    recordings: list[str], output: Path, *, no_model: bool, hve: bool, force: bool
+) -> list[Path]:
+    """The folder of each page, checked to be free."""
+    from truck_blowout_sim.report.comparison_page import DATA, PAGE
+
     if no_model and len(recordings) != 2:
         raise InputError(f"--no-model with {len(recordings)} recordings", expected="two of them")
     folders = _folders(recordings[:1] if no_model else recordings, output)
     for folder in folders:
         claim(folder, inputs=recordings, force=force, writes=(PAGE, DATA, *([HVE] if hve else [])))
-    for name, folder in zip(recordings, folders, strict=False):
-        with _progress() as progress:
-            task = progress.add_task("", total=1.0)
+    return folders
 
-            def tell(stage: str, share: float) -> None:
-                progress.update(task, description=stage, completed=0.8 * share)  # noqa: B023
 
-            compared = (
-                compare_recordings(*_both(recordings, mapping, blow, loaded), vehicle=loaded,
-                                   progress=tell) if no_model
-                else compare(_read(name, mapping, blow, loaded), loaded, step_s=step_s,
-                             impose_speed=impose_speed, contrasted=True, progress=tell,
-                             ask=lambda problems: ask_about(problems, yes))
-            )  # fmt: skip
-            progress.update(task, description="drawing", completed=0.8)
-            page = write_comparison_report(compared, folder)
-        _tell(console, compared, page, as_json)
-        if hve:
-            _hold_hve(console, compared, name, folder / HVE, as_json)
+def _drawn(made: Callable[[Tell], Comparison], folder: Path) -> tuple[Comparison, Path]:
+    """A comparison and its page, with progress on stderr."""
+    from truck_blowout_sim.report.comparison_page import write_comparison_report
+
+    with _progress() as progress:
+        task = progress.add_task("", total=1.0)
+
+        def tell(stage: str, share: float) -> None:
+            progress.update(task, description=stage, completed=0.8 * share)
+
+        compared = made(tell)
+        progress.update(task, description="drawing", completed=0.8)
+        return compared, write_comparison_report(compared, folder)
 
 
 def _hold_hve(console: Console, compared: Comparison, name: str, folder: Path, as_json: bool
