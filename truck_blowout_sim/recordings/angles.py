@@ -2,7 +2,7 @@
 
 References: Diebel, Representing Attitude (2006), sequence (3, 2, 1).
 Known limits: at pitch ±90 degrees roll and yaw are not distinct.
-Validated with: test/recordings/test_angles.py (round trip, rotation matrices).
+Validated with: test/recordings/test_quaternions.py (round trip, rotation matrices).
 """
 
 from __future__ import annotations

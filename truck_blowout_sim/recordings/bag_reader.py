@@ -2,7 +2,7 @@
 
 References: rosbag2 (MCAP storage); REP-103/105; sensor_msgs conventions for missing values.
 Known limits: one message type per topic, as in the table of channels.
-Validated with: test/recordings/test_bag_reader.py against CSVs of the same runs.
+Validated with: test/recordings/test_bag_format.py against CSVs of the same runs.
 """
 
 from __future__ import annotations

@@ -1,8 +1,8 @@
 """CSV to recording: one row an instant, header and metadata as in the interface description.
 
 References: interface description, "A recording", format 2; RFC 4180 for quoting.
-Known limits: comma separated, decimal point, UTF-8.
-Validated with: test/recordings/test_csv.py (round trip and fuzz by hypothesis).
+Known limits: comma separated, decimal point, UTF-8; other text logs are read through a mapping.
+Validated with: test/recordings/test_csv_format.py (round trip and fuzz by hypothesis).
 """
 
 from __future__ import annotations

@@ -9,7 +9,7 @@ nothing in it was measured.
 
 References: MCAP specification, message record; sensor_msgs/Imu, nav_msgs/Odometry.
 Known limits: MCAP sequence numbers stay 0, as in rosbag2.
-Validated with: test/recordings/test_encoder.py, against `rosbags` and `mcap-ros2-support`.
+Validated with: test/recordings/test_bag_writer.py, against `rosbags` and `mcap-ros2-support`.
 """
 
 from __future__ import annotations

@@ -8,7 +8,7 @@ to point left already.
 
 References: thesis, appendix A (plotting script).
 Known limits: MATLAB 7.3 (HDF5) files are refused; save with ``-v7``.
-Validated with: test/recordings/test_mat.py.
+Validated with: test/recordings/test_mat_format.py.
 """
 
 from __future__ import annotations

@@ -5,7 +5,7 @@ last whole chunk, a finished one needs no index. Damage inside the file is an er
 
 References: MCAP specification 0: records and chunks; zstd, lz4 and no compression.
 Known limits: the file is mapped, and its messages are held in memory.
-Validated with: test/recordings/test_mcap_scan.py (fuzzed), test_bag_writer.py.
+Validated with: test/recordings/test_bad_bags.py (fuzzed), test_bag_writer.py.
 """
 
 from __future__ import annotations

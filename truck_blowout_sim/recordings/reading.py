@@ -1,6 +1,6 @@
 """The one door to recordings: any log of any logger, with a mapping where it needs one.
 
-Validated with: test/recordings/test_mapping_apply.py, test/recordings/test_bring_your_own_log.py.
+Validated with: test/recordings/test_mapping.py, test/recordings/test_bring_your_own_log.py.
 """
 
 from __future__ import annotations

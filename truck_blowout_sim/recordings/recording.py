@@ -3,7 +3,7 @@
 References: the recording formats of the project's interface description.
 Known limits: one clock for all channels; times are seconds as float64 (0.1 microsecond over a
 year).
-Validated with: test/recordings/test_recording.py.
+Validated with: test/recordings/test_recording_in_memory.py.
 """
 
 from __future__ import annotations

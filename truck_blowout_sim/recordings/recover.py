@@ -2,7 +2,7 @@
 
 References: MCAP specification; rosbag2 ``metadata.yaml``.
 Known limits: a chunk that breaks off in the middle is lost (at most the last half second here).
-Validated with: test/recordings/test_recover.py, with mcap and rosbags reading the result.
+Validated with: test/recordings/test_bad_bags.py, with mcap and rosbags reading the result.
 """
 
 from __future__ import annotations

@@ -5,7 +5,7 @@ them, ``G``, ``kph``, ``°/s`` and ``hhmmss`` are nothing), and the table of abo
 all that a truck's log needs.
 
 References: NIST SP 811 (2008), appendix B.8: knot, mile, foot, psi, standard gravity.
-Validated with: test/recordings/test_mapping_units.py.
+Validated with: test/recordings/test_units.py.
 """
 
 from __future__ import annotations

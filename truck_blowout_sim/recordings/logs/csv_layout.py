@@ -4,7 +4,7 @@ The separator and decimal sign are those under which the lines in the middle of 
 the most numbers. The header is what stands above the first of such lines, as wide as they are.
 
 Known limits: one table a file; no thousands separators.
-Validated with: test/recordings/test_logs_csv.py (CarSim, VBOX, MATLAB and other exports).
+Validated with: test/recordings/test_logs_text.py (CarSim, VBOX, MATLAB and other exports).
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """Text logs of any logger: CSV, TSV, TXT, with any separator, decimal sign and header.
 
 Known limits: held in memory as text while it is read.
-Validated with: test/recordings/test_logs_csv.py.
+Validated with: test/recordings/test_logs_text.py.
 """
 
 from __future__ import annotations

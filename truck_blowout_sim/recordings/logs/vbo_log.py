@@ -3,7 +3,7 @@
 References: Racelogic VBOX file format: [header], [column names], [data]; time is UTC as HHMMSS.SS,
 latitude and longitude are minutes (west positive), velocity is km/h.
 Known limits: latitude and longitude are not projected.
-Validated with: test/recordings/test_logs_csv.py.
+Validated with: test/recordings/test_logs_text.py.
 """
 
 from __future__ import annotations

@@ -2,7 +2,7 @@
 
     value = sign * (number + offset), converted from the column's unit to SI
 
-Validated with: test/recordings/test_mapping_apply.py.
+Validated with: test/recordings/test_mapping.py.
 """
 
 from __future__ import annotations

@@ -2,7 +2,7 @@
 
 References: REP-103 (axes), REP-105 (map); rigid-body kinematics: v_b = v_s - w x r,
 a_b = a_s - dw/dt x r - w x (w x r), with r from base_link to the instrument.
-Validated with: test/recordings/test_mapping_finish.py.
+Validated with: test/recordings/test_mapping.py.
 """
 
 from __future__ import annotations

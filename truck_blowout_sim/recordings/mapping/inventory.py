@@ -1,6 +1,6 @@
 """What is in a log: columns with rates, sizes and gaps, clocks, and what becomes which channel.
 
-Validated with: test/recordings/test_inspect.py.
+Validated with: test/recordings/test_bring_your_own_log.py.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """Mapping files read from YAML: every key checked, an unknown one named with the nearest.
 
-Validated with: test/recordings/test_mapping_file.py (fuzzed by hypothesis).
+Validated with: test/recordings/test_mapping.py (fuzzed by hypothesis).
 """
 
 from __future__ import annotations

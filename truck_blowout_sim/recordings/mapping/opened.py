@@ -1,6 +1,6 @@
 """The files of one test, opened: as columns, and as a recording where they name channels.
 
-Validated with: test/recordings/test_mapping_apply.py.
+Validated with: test/recordings/test_mapping.py.
 """
 
 from __future__ import annotations

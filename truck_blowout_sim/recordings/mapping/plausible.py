@@ -3,7 +3,7 @@
 References: bounds from the machine, not from data: 60 m/s is beyond any truck's top speed; a hand
 wheel turns 2 to 3 times each way; a truck that spins or rolls over stays below 4 rad/s in yaw;
 compressed-air systems open their relief valve below 1.3 MPa (SAE J1849, FMVSS 121).
-Validated with: test/recordings/test_mapping_apply.py.
+Validated with: test/recordings/test_mapping.py.
 """
 
 from __future__ import annotations

@@ -2,7 +2,7 @@
 
 Every guess is marked as one; none is used before a person has read the file.
 
-Validated with: test/recordings/test_inspect.py.
+Validated with: test/recordings/test_proposing.py, test/recordings/test_bring_your_own_log.py.
 """
 
 from __future__ import annotations

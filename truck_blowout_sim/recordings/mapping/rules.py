@@ -1,6 +1,6 @@
 """A mapping file as plain data: what in a log becomes which channel.
 
-Validated with: test/recordings/test_mapping_file.py.
+Validated with: test/recordings/test_mapping.py.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """The time column of a log: which one it is, in which unit, where it begins.
 
-Validated with: test/recordings/test_mapping_apply.py.
+Validated with: test/recordings/test_mapping.py.
 """
 
 from __future__ import annotations

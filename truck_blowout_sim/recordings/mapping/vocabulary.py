@@ -3,7 +3,7 @@
 References: CarSim/TruckSim output variable names (Vx, AVz, Steer_SW); Racelogic VBOX channels;
 common CAN database and ROS message field names; German names as in MDF exports.
 Known limits: names only; units and sizes are weighed in `proposing`.
-Validated with: test/recordings/test_inspect.py.
+Validated with: test/recordings/test_proposing.py, test/recordings/test_bring_your_own_log.py.
 """
 
 from __future__ import annotations

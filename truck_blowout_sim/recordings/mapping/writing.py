@@ -1,6 +1,6 @@
 """A begun mapping as the text of a YAML file, every guess marked.
 
-Validated with: test/recordings/test_inspect.py.
+Validated with: test/recordings/test_bring_your_own_log.py.
 """
 
 from __future__ import annotations
