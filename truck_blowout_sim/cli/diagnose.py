@@ -78,8 +78,7 @@ def command(
 
     claim(output, inputs=[*recordings, *baseline, *holdout], force=force, writes=_FILES)
     if corrected is not None:
-        claim(corrected, inputs=[*recordings, *baseline, *holdout], force=force,
-              writes=("corrected",))
+        claim(corrected, inputs=[*recordings, *baseline, *holdout], force=force)
     loaded = load_vehicle(vehicle)
     train = _read(recordings, loaded, mapping, blow)
     base, hold = (_read(paths, loaded, mapping, ()) for paths in (baseline, holdout))
@@ -116,10 +115,9 @@ def _write_corrected(answer: Diagnosis, runs: Mapping[str, Sequence[Recording]],
     for role, group in runs.items():
         faults = [f for f in answer.evidence.findings if f.in_baseline or role != "baseline"]
         for run in group:
-            place = folder / "corrected"
-            place.mkdir(parents=True, exist_ok=True)
+            folder.mkdir(parents=True, exist_ok=True)
             name = run.name.replace("/", "_").replace(" #", "_")
-            write_recording(correct(run, faults), place / f"{name}.csv")
+            write_recording(correct(run, faults), folder / f"{name}.csv")
 
 
 def _write(answer: Diagnosis, vehicle: Vehicle, base: str, values: Mapping[str, float],

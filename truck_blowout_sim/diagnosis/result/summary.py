@@ -18,6 +18,7 @@ Label = Callable[[str], str]
 _NOTABLE = 1.0  # times the noise: a change below it nobody sees
 _SHARE = 0.05
 _MOST = 3
+_COMMON = 0.1  # a chance that no one would act on
 _SHOWN = {"rad/s": (180.0 / math.pi, " deg/s"), "rad": (180.0 / math.pi, " deg"),
           "s": (1.0, " s"), "m": (1.0, " m"), "1": (1.0, "")}  # fmt: skip
 _SHARES = ("scale_error", "roll_leak")
@@ -94,15 +95,22 @@ def _sure(diagnosis: Diagnosis) -> str:
 
 
 def _chance(diagnosis: Diagnosis) -> str:
+    findings = diagnosis.evidence.findings
+    if diagnosis.verdict == "sensor_artefact" and findings:
+        worst = max(finding.p_value for finding in findings)
+        return f"sound instruments contradict each other as much in {_one_in(worst)} cases"
     p_value = diagnosis.null_p_value
     if p_value is None:
         return ""
-    if p_value >= 0.1:
-        return (f"a truck with nothing missing shows as much in {p_value:.0%} of such cases, "
-                "so nothing can be claimed")
-    if p_value < 1e-4:
-        return "a truck with nothing missing shows as much in fewer than 1 of 10,000 cases"
-    return f"a truck with nothing missing shows as much in 1 of {1.0 / p_value:,.0f} cases"
+    said = f"a truck with nothing missing shows as much in {_one_in(p_value)} cases"
+    return f"{said}, so nothing can be claimed" if p_value >= _COMMON else said
+
+
+def _one_in(p_value: float) -> str:
+    """A probability as a person reads it."""
+    if p_value >= _COMMON:
+        return f"{p_value:.0%} of such"
+    return "fewer than 1 of 10,000" if p_value < 1e-4 else f"1 of {1.0 / p_value:,.0f}"
 
 
 def _changed(diagnosis: Diagnosis, label: Label) -> str:
