@@ -75,3 +75,12 @@ def test_a_name_of_no_effect_is_refused() -> None:
     assert known_names(("road_bank", "crosswind", "road_bank")) == ("crosswind", "road_bank")
     with pytest.raises(InputError, match="cross_wind"):
         known_names(("cross_wind",))
+
+
+def test_a_gyro_gain_is_asked_of_the_model_only_without_a_heading(
+    study_of: Callable[..., Study]
+) -> None:
+    study = study_of({})
+    names = {h.effect.name for h in steady_candidates(study)}
+    recorded = study.runs[study.train[0]].recording
+    assert ("yaw_rate_scale" in names) == ("tractor_yaw_rad" not in recorded)

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from truck_blowout_sim.diagnosis.case.study import Study
-from truck_blowout_sim.diagnosis.effects import LIBRARY, Effect, secondary_blowout
+from truck_blowout_sim.diagnosis.effects import LIBRARY, Effect, secondary_blowout, yaw_rate_scale
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.result.parts import Place
 from truck_blowout_sim.errors import InputError
@@ -53,8 +53,14 @@ def steady_candidates(study: Study) -> tuple[Hypothesis, ...]:
 
 
 def _can_show(study: Study, effect: Effect, place: Place) -> bool:
-    """Blowout effects act at tires that were blown, brake effects where pressure was applied."""
+    """Blowout effects act at tires that were blown, brake effects where pressure was applied.
+
+    A gyro's gain is asked of the model only where kinematics could not tell it: a heading does.
+    """
     runs = [study.runs[i] for i in study.train]
+    if effect.name == yaw_rate_scale.EFFECT.name:
+        rate, heading = f"{place.body}_yaw_rate_radps", f"{place.body}_yaw_rad"
+        return any(rate in run.recording and heading not in run.recording for run in runs)
     if effect.applies == "blowout":
         return any(place.tire in event.tires for run in runs for event in run.recording.blowouts)
     if effect.applies == "brakes":
