@@ -18,7 +18,8 @@ import psutil
 ENVIRONMENT = {
     "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
     "FASTDDS_BUILTIN_TRANSPORTS": "UDPv4",
-    "ROS_DOMAIN_ID": "101",
+    # two measurements at a time must not hear each other
+    "ROS_DOMAIN_ID": str(os.getpid() % 90 + 10),
     "ROS_LOG_DIR": str(Path(tempfile.gettempdir()) / "truck_blowout_sim_benchmark_log"),
 }
 
@@ -56,7 +57,7 @@ def simulator(*words: object) -> Iterator[Measured]:
                 command, env={**os.environ, **ENVIRONMENT}, stdout=stream, stderr=subprocess.STDOUT
             )
         try:
-            while "ready" not in log.read_text():
+            while "; ready" not in log.read_text():
                 if process.poll() is not None:
                     raise RuntimeError(log.read_text())
                 time.sleep(0.05)

@@ -51,7 +51,9 @@ def report(duration_s: float) -> None:
     found: dict[str, list[float]] = {"arrival_s": [], "factor": [], "late_p99_ms": []}
 
     def diagnose(message: DiagnosticArray) -> None:
-        pace = next(status for status in message.status if status.name.endswith("pace"))
+        pace = next((status for status in message.status if status.name.endswith("pace")), None)
+        if pace is None:  # the model is still being compiled
+            return
         values = {pair.key: pair.value for pair in pace.values}
         found["factor"].append(float(values["real_time_factor"]))
         found["late_p99_ms"].append(float(values["lateness_p99_ms"]))

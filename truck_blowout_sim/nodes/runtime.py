@@ -13,6 +13,7 @@ from collections.abc import Callable, Sequence
 from typing import Any, Protocol
 
 import rclpy
+from rclpy._rclpy_pybind11 import RCLError
 from rclpy.context import Context
 from rclpy.executors import Executor, SingleThreadedExecutor
 from rclpy.node import Node
@@ -62,7 +63,7 @@ def run(
         stop.at_once = True
         theirs, ours = _sorted_words(words)
         options = _parse(name, specs, about, ours, positional)
-        rclpy.init(args=[name, *theirs], signal_handler_options=SignalHandlerOptions.NO)
+        _init([name, *theirs])
         return _life(name, specs, make, options, stop)
     except InputError as error:
         print(f"{name}: {error}", file=sys.stderr)
@@ -77,6 +78,15 @@ def run(
         stop.at_once = False
         if rclpy.ok():
             rclpy.shutdown()
+
+
+def _init(words: list[str]) -> None:
+    try:
+        rclpy.init(args=words, signal_handler_options=SignalHandlerOptions.NO)
+    except RCLError as error:
+        # jazzy has no class of its own for words it cannot parse
+        expected = "arguments of ROS 2 behind --ros-args"
+        raise InputError(_first_line(error), expected=expected) from error
 
 
 def _sorted_words(words: Sequence[str]) -> tuple[list[str], list[str]]:
