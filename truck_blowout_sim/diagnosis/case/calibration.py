@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from truck_blowout_sim.diagnosis.case.nuisance import Nuisance
+from truck_blowout_sim.diagnosis.case.restlessness import widen
 from truck_blowout_sim.diagnosis.case.runs import Run
 from truck_blowout_sim.diagnosis.case.study import (
     FURTHEST,
@@ -54,6 +55,7 @@ def calibrate(study: Study, rounds: int = 2, progress: Progress | None = None) -
     study.holdout = tuple(run.shifted(part[:, :n_sheet] @ kept)
                           for run, part in zip(study.holdout, study.holdout_columns, strict=True))
     _drive_all(study)
+    widen(study)
 
 
 def _drive_all(study: Study) -> None:

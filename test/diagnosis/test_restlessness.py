@@ -1,0 +1,54 @@
+"""A channel is widened where runs with nothing missing are more restless than was guessed."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scipy.signal import lfilter
+
+from truck_blowout_sim.diagnosis.case.restlessness import long_run_variance, widen, widths
+from truck_blowout_sim.diagnosis.case.study import Study
+
+Studies = Callable[..., Study]
+CHANNEL = "tractor_yaw_rate_radps"
+
+
+@pytest.mark.parametrize("decay", [0.0, 0.5, 0.8])
+def test_the_long_run_variance_is_that_of_the_sum(decay: float) -> None:
+    rng = np.random.default_rng(0)
+    made = [lfilter([1.0], [1.0, -decay], rng.standard_normal(2000))[200:] for _ in range(40)]
+    found = np.mean([long_run_variance(one, 40) for one in made])
+    assert found == pytest.approx(1.0 / (1.0 - decay) ** 2, rel=0.2)
+
+
+def restless(study: Study, by: float) -> Study:
+    """The study, one channel of its baseline swinging at a third of a hertz by so many sigmas."""
+    i, = study.baseline
+    run = study.runs[i]
+    k = run.channels.index(CHANNEL)
+    measured = run.measured.copy()
+    wave = np.sin(2.0 * np.pi * 0.33 * np.arange(measured.shape[0]) * study.settings.bin_s)
+    measured[:, k] += by * run.sigma[:, k] * wave
+    runs = tuple(replace(r, measured=measured) if j == i else r for j, r in enumerate(study.runs))
+    return replace(study, runs=runs)
+
+
+def test_a_restless_channel_is_widened_in_every_run_with_its_columns(study_of: Studies) -> None:
+    study = restless(study_of(holdout={}, baseline=True), 4.0)
+    factor = widths(study)[CHANNEL]
+    assert factor > 2.0
+    k = study.runs[0].channels.index(CHANNEL)
+    before, columns = [run.sigma for run in (*study.runs, *study.holdout)], study.columns.copy()
+    widen(study)
+    for run, sigma in zip((*study.runs, *study.holdout), before, strict=True):
+        np.testing.assert_allclose(run.sigma[:, k], factor * sigma[:, k])
+    rows = np.arange(study.runs[0].measured.size).reshape(study.runs[0].measured.shape)[:, k]
+    np.testing.assert_allclose(factor * study.columns[rows], columns[rows])
+
+
+def test_a_calm_truck_and_one_without_baseline_keep_the_guess(study_of: Studies) -> None:
+    assert set(widths(study_of(baseline=True)).values()) == {1.0}
+    assert widths(study_of()) == {}
