@@ -34,6 +34,31 @@ def shared(*parts: str) -> PathJoinSubstitution:
     return PathJoinSubstitution([FindPackageShare(PACKAGE), "config", *parts])
 
 
+def arguments() -> list[DeclareLaunchArgument]:
+    """What the launch takes."""
+    return [
+        argument("vehicle", "international_9400i_trailmobile",
+                 "Name of a shipped vehicle, or path of a vehicle file."),
+        argument("namespace", "truck", "Namespace of every relative topic and service."),
+        argument("initial_speed_mps", "0.0", "Speed at the start and after reset [m/s]."),
+        argument("real_time_factor", "1.0",
+                 "Simulated seconds a second of wall time; 0: as fast as it can."),
+        argument("record_path", "", "Bag to write from the start; empty: none."),
+        argument("record_folder", "", "The only folder in which other nodes may have bags"
+                 " written; empty: the folder of the launch."),
+        argument("blow", "", "Blowouts at set instants, TIRE@SECONDS of simulated time after"
+                 " readiness, joined by commas."),
+        argument("use_sim_time", "false", "Follow /clock instead of publishing it."),
+        argument("params_file", shared("nodes", "simulator.yaml"), "All other parameters."),
+        argument("rviz", "false", "Show the truck (needs rviz2)."),
+        argument("state_publisher", "false", "Have robot_state_publisher place wheels and trailer"
+                 " in /tf instead of the simulator."),
+        argument("discovery_range", EnvironmentVariable(DISCOVERY, default_value="LOCALHOST"),
+                 "Who may take part: LOCALHOST, this machine; SUBNET, as ROS 2 by itself."),
+        argument("rviz_config", shared("rviz", "truck.rviz"), "Layout of RViz."),
+    ]  # fmt: skip
+
+
 def generate_launch_description() -> LaunchDescription:
     """What `ros2 launch` asks for."""
     vehicle = LaunchConfiguration("vehicle")
@@ -86,26 +111,8 @@ def generate_launch_description() -> LaunchDescription:
         condition=IfCondition(LaunchConfiguration("rviz")),
     )
     return LaunchDescription([
-        argument("vehicle", "international_9400i_trailmobile",
-                 "Name of a shipped vehicle, or path of a vehicle file."),
-        argument("namespace", "truck", "Namespace of every relative topic and service."),
-        argument("initial_speed_mps", "0.0", "Speed at the start and after reset [m/s]."),
-        argument("real_time_factor", "1.0",
-                 "Simulated seconds a second of wall time; 0: as fast as it can."),
-        argument("record_path", "", "Bag to write from the start; empty: none."),
-        argument("record_folder", "", "The only folder in which other nodes may have bags"
-                 " written; empty: the folder of the launch."),
-        argument("blow", "", "Blowouts at set instants, TIRE@SECONDS of simulated time after"
-                 " readiness, joined by commas."),
-        argument("use_sim_time", "false", "Follow /clock instead of publishing it."),
-        argument("params_file", shared("nodes", "simulator.yaml"), "All other parameters."),
-        argument("rviz", "false", "Show the truck (needs rviz2)."),
-        argument("state_publisher", "false", "Have robot_state_publisher place wheels and trailer"
-                 " in /tf instead of the simulator."),
-        argument("discovery_range", EnvironmentVariable(DISCOVERY, default_value="LOCALHOST"),
-                 "Who may take part: LOCALHOST, this machine; SUBNET, as ROS 2 by itself."),
+        *arguments(),
         SetEnvironmentVariable(DISCOVERY, LaunchConfiguration("discovery_range")),
-        argument("rviz_config", shared("rviz", "truck.rviz"), "Layout of RViz."),
         simulator,
         state_publisher,
         rviz,

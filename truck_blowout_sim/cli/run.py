@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sys
 import webbrowser
+from collections.abc import Iterator
 from pathlib import Path
 from time import perf_counter
 
@@ -17,6 +18,7 @@ from truck_blowout_sim.cli.settings import parse_blowouts, set_values
 from truck_blowout_sim.display.scene import beside
 from truck_blowout_sim.errors import InputError, quoted
 from truck_blowout_sim.recordings import INPUT_NAMES, Recording, write_recording
+from truck_blowout_sim.recordings.bag_export import Extra
 from truck_blowout_sim.simulation.drive import Drive, Ran, execute
 from truck_blowout_sim.simulation.drive import names_of as output_names_of
 from truck_blowout_sim.simulation.measures import measure
@@ -79,10 +81,7 @@ def command(
     ask_about(implausible(packed, drive), yes)
     ran, factor = _run(packed, drive, loaded.name)
     recording = recorded(packed, drive, ran, blowouts, loaded)
-    n = len(recording[INPUT_NAMES[0]].time_s)  # up to a rollover
-    shown = beside(packed.vehicle, output_names_of(packed.vehicle), drive.times_s[:n], ran.out[:n],
-                   recording.blowouts)  # fmt: skip
-    write_recording(recording, target, beside=shown)
+    write_recording(recording, target, beside=_shown(recording, packed, drive, ran))
     if page or open_page:
         _write_page(recording, packed, html)
     for note in recording.notes:
@@ -102,6 +101,13 @@ def command(
           if page or open_page else [])])
     if open_page:
         webbrowser.open(html.resolve().as_uri())
+
+
+def _shown(recording: Recording, packed: Packed, drive: Drive, ran: Ran) -> Iterator[Extra]:
+    """Frames and the like, so that the bag alone shows the truck; up to a rollover."""
+    n, vehicle = len(recording[INPUT_NAMES[0]]), packed.vehicle
+    return beside(vehicle, output_names_of(vehicle), drive.times_s[:n], ran.out[:n],
+                  recording.blowouts)
 
 
 def page_beside(target: Path) -> Path:
