@@ -5,7 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import typer
 from rich.console import Console
@@ -28,6 +28,27 @@ _QUICK_STEP_S, _QUICK_REFITS, _QUICK_PANELS = 0.0025, (3, 1), 3
 _THOROUGH_STEP_S = 0.001
 _FAR = 3.0  # prior sigmas from the sheet, beyond which a number is told
 _OF_SENSITIVITIES = 25.0  # as many times as long take four effects
+SETTINGS: Any = typer.Option(
+    "default", help="File in config/diagnosis: what is assumed of trucks and instruments."
+)
+IMPOSE_SPEED: Any = typer.Option(
+    None, "--impose-speed/--no-impose-speed",
+    help="Follow the recorded speed. By default only where throttle or brakes are missing."
+)
+WITHOUT: Any = typer.Option(
+    [], "--without", metavar="NAME", help="Effect that is known not to be the cause, as "
+    "crosswind on a calm day; repeat for more."
+)
+CORRECTED: Any = typer.Option(
+    None, "--write-corrected", metavar="DIR",
+    help="Folder for the recordings with the found faults of instruments taken out, as CSV."
+)
+QUICK: Any = typer.Option(
+    False, "--quick", help="One effect at most, fewer candidates fitted, coarser step."
+)
+THOROUGH: Any = typer.Option(
+    False, "--thorough", help="1 ms step, up to four effects, intervals by profile likelihood."
+)
 
 
 def command(
@@ -44,27 +65,12 @@ def command(
     output: Path = typer.Option(
         ..., "-o", "--output", help="Folder for diagnosis.json, report.html and vehicle.yaml."
     ),
-    settings: str = typer.Option(
-        "default", help="File in config/diagnosis: what is assumed of trucks and instruments."
-    ),
-    impose_speed: bool | None = typer.Option(
-        None, "--impose-speed/--no-impose-speed",
-        help="Follow the recorded speed. By default only where throttle or brakes are missing."
-    ),
-    without: list[str] = typer.Option(
-        [], "--without", metavar="NAME", help="Effect that is known not to be the cause, as "
-        "crosswind on a calm day; repeat for more."
-    ),
-    quick: bool = typer.Option(
-        False, "--quick", help="One effect at most, fewer candidates fitted, coarser step."
-    ),
-    thorough: bool = typer.Option(
-        False, "--thorough", help="1 ms step, up to four effects, intervals by profile likelihood."
-    ),
-    corrected: Path | None = typer.Option(
-        None, "--write-corrected", metavar="DIR",
-        help="Folder for the recordings with the found faults of instruments taken out, as CSV."
-    ),
+    settings: str = SETTINGS,
+    impose_speed: bool | None = IMPOSE_SPEED,
+    without: list[str] = WITHOUT,
+    quick: bool = QUICK,
+    thorough: bool = THOROUGH,
+    corrected: Path | None = CORRECTED,
     mapping: Path | None = MAP,
     blow: list[str] = BLOW,
     force: bool = FORCE,

@@ -106,9 +106,6 @@ def diagnose(recordings: Sequence[Recording], *, baseline: Sequence[Recording] =
         study, found = searched(gate)
     material = _material(study, found, gate, loaded.name, (profile, next_run), progress)
     told = answer(material)
-    told = replace(told, evidence=replace(told.evidence, findings=gate.findings, blowouts=tuple(
-        (r.name, event.time_s, " + ".join(event.tires))
-        for r in (*recordings, *baseline, *holdout) for event in r.blowouts)))
     told, truck = _with_truck(told, material, case)
     return told, truck.values
 
@@ -220,7 +217,11 @@ def _with_truck(told: Diagnosis, material: Material, case: _Case) -> tuple[Diagn
     named, the figures stay those of the prediction, which locates it anew.
     """
     before, after = _diagnosed(material, case.packed)
-    evidence = replace(told.evidence, sources=tuple(after.sources.items()))
+    evidence = replace(
+        told.evidence, sources=tuple(after.sources.items()), findings=material.gate.findings,
+        blowouts=tuple((r.name, event.time_s, " + ".join(event.tires))
+                       for r in (*case.recordings, *case.baseline, *case.holdout)
+                       for event in r.blowouts))
     runs = [run.recording for run in material.study.holdout]
     if runs and not any(r.hypothesis.effect.timed for r in material.found.named):
         told = replace(told, holdout=driven_fit(
