@@ -36,7 +36,9 @@ def output_channels(vehicle: Vehicle) -> tuple[Channel, ...]:
     """Rows of the table that a vehicle's simulator publishes, without the commands."""
     steered = [h for h in vehicle.hubs if vehicle.spec.axles[vehicle.axle_of_hub(h)].steered]
     rows = channels_for(vehicle.hubs, vehicle.tires, vehicle.units, steered)
-    published = [row for row in rows if row.group != "input" and row.place]
+    # tire forces go out as one message of markers; bags of a run hold them as channels
+    kept_back = ("input", "tire_contact")
+    published = [row for row in rows if row.group not in kept_back and row.place]
     return (*published, *(_vertical_speed(unit) for unit in vehicle.units))
 
 

@@ -106,7 +106,8 @@ def _tracks(recording: Recording) -> Iterator[Track]:
     table = parts_of(recording.channels).table()
     topics: dict[str, list[Channel]] = defaultdict(list)
     for channel in table:
-        if channel.place and channel.name in recording:
+        if (channel.place and channel.group != "tire_contact"
+                and channel.name in recording):
             topics[channel.topic].append(channel)
     shared: dict[bytes, tuple[FloatArray, list[Channel]]] = {}
     for rows in topics.values():

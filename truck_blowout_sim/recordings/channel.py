@@ -24,6 +24,7 @@ ODOMETRY = "nav_msgs/msg/Odometry"
 IMU = "sensor_msgs/msg/Imu"
 JOINT_STATE = "sensor_msgs/msg/JointState"
 FLUID_PRESSURE = "sensor_msgs/msg/FluidPressure"
+WRENCH = "geometry_msgs/msg/WrenchStamped"
 
 INPUT_NAMES = (
     "steering_wheel_angle_rad",
@@ -63,7 +64,7 @@ class Channel:
             ``tire_pressure``, ``brake_chamber``, ``joint``, ``tire_contact``.
         instrument: what measures it; channels of one instrument share delay and mounting.
         lowest, highest: bounds outside of which a number cannot be this quantity.
-        place: where it lives in a bag; ``None`` for rows that exist in CSV only.
+        place: where it lives in a bag; ``None`` for rows without one.
         copies: further messages that carry the same number; filled on writing, read only if
             ``place`` is absent.
         standard: a column of the public CSV format; the others are extras of the simulator.

@@ -28,6 +28,7 @@ from truck_blowout_sim.recordings.channel import (
     ODOMETRY,
     STRING,
     UNITS,
+    WRENCH,
     Channel,
     Place,
 )
@@ -46,6 +47,7 @@ __all__ = [
     "ODOMETRY",
     "STRING",
     "UNITS",
+    "WRENCH",
     "Channel",
     "Place",
     "by_name",
@@ -215,14 +217,18 @@ def _joint(name: str, joint: str, quantity: str, part: str = "") -> Channel:
 
 
 def _contact_rows(tire: str) -> list[Channel]:
+    force, radius = f"tires/{tire}/force", f"tires/{tire}/loaded_radius"
     columns = (
-        (f"tire_fx_{tire}_n", "N", "force along the wheel plane"),
-        (f"tire_fy_{tire}_n", "N", "force across the wheel plane, left positive"),
-        (f"tire_fz_{tire}_n", "N", "vertical load"),
-        (f"tire_loaded_radius_{tire}_m", "m", "hub height above the road"),
+        (f"tire_fx_{tire}_n", "N", "force along the wheel plane",
+         Place(force, WRENCH, "wrench.force.x", tire)),
+        (f"tire_fy_{tire}_n", "N", "force across the wheel plane, left positive",
+         Place(force, WRENCH, "wrench.force.y", tire)),
+        (f"tire_fz_{tire}_n", "N", "vertical load", Place(force, WRENCH, "wrench.force.z", tire)),
+        (f"tire_loaded_radius_{tire}_m", "m", "hub height above the road",
+         Place(radius, FLOAT64, "data")),
     )
     return [
         Channel(name, unit, f"{words} of tire {tire}", "tire_contact", "simulator",
-                -1.0e9, 1.0e9, None, standard=False, part=tire)
-        for name, unit, words in columns
+                -1.0e9, 1.0e9, place, standard=False, part=tire)
+        for name, unit, words, place in columns
     ]  # fmt: skip

@@ -10,12 +10,16 @@ from truck_blowout_sim.errors import InputError, nearest, quoted
 from truck_blowout_sim.recordings.channels import (
     BLOWOUT_EVENT,
     DEFAULT_NAMESPACE,
+    FLOAT64,
     FLUID_PRESSURE,
     STRING,
+    WRENCH,
     channels_for,
 )
 
 _TIRE = re.compile(r"tires/(\w+)/pressure")
+_TIRE_FORCE = re.compile(r"tires/(\w+)/force")
+_TIRE_RADIUS = re.compile(r"tires/(\w+)/loaded_radius")
 _CHAMBER = re.compile(r"brake_chambers/(\w+)/pressure")
 _FIXED = {
     **{c.topic: c.ros_type for c in channels_for((), ()) if c.place},
@@ -29,6 +33,10 @@ def type_of(topic: str) -> str | None:
     """Message type that the table has for a relative topic name, None if it has no such topic."""
     if _TIRE.fullmatch(topic) or _CHAMBER.fullmatch(topic):
         return FLUID_PRESSURE
+    if _TIRE_FORCE.fullmatch(topic):
+        return WRENCH
+    if _TIRE_RADIUS.fullmatch(topic):
+        return FLOAT64
     return _FIXED.get(topic)
 
 
@@ -39,6 +47,10 @@ def channel_names(topics: Iterable[str]) -> list[str]:
         tire, chamber = _TIRE.fullmatch(topic), _CHAMBER.fullmatch(topic)
         if tire:
             names.append(f"tire_pressure_{tire[1]}_pa")
+        elif force := _TIRE_FORCE.fullmatch(topic):
+            names.append(f"tire_fz_{force[1]}_n")
+        elif radius := _TIRE_RADIUS.fullmatch(topic):
+            names.append(f"tire_loaded_radius_{radius[1]}_m")
         elif chamber:
             names.append(f"brake_chamber_{chamber[1]}_pa")
         elif "/" in topic:
