@@ -59,12 +59,12 @@ def arguments() -> list[DeclareLaunchArgument]:
     ]  # fmt: skip
 
 
-def generate_launch_description() -> LaunchDescription:
-    """What `ros2 launch` asks for."""
+def simulator_node() -> Node:
+    """The simulator with the arguments of the launch as its parameters."""
     vehicle = LaunchConfiguration("vehicle")
     namespace = LaunchConfiguration("namespace")
     use_sim_time = LaunchConfiguration("use_sim_time")
-    simulator = Node(
+    return Node(
         package=PACKAGE,
         executable="simulator",
         namespace=namespace,
@@ -91,6 +91,13 @@ def generate_launch_description() -> LaunchDescription:
             },
         ],
     )
+
+
+def generate_launch_description() -> LaunchDescription:
+    """What `ros2 launch` asks for."""
+    vehicle = LaunchConfiguration("vehicle")
+    namespace = LaunchConfiguration("namespace")
+    simulator = simulator_node()
     description = ParameterValue(
         Command(["ros2 run truck_blowout_sim urdf ", vehicle]), value_type=str
     )
