@@ -65,7 +65,8 @@ def experiment(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def replayed(start: Any, experiment: Path, tmp_path_factory: pytest.TempPathFactory) -> Recording:
     bag = tmp_path_factory.mktemp("replayed") / "bag"
     # Slowly: a player that the machine holds up for a moment is late by less of simulated time.
-    simulator = start("simulator", "--start-paused", "--real-time-factor", 0.4)
+    simulator = start("simulator", "--start-paused", "--real-time-factor", 0.4,
+                      "--record-folder", bag.parent)  # fmt: skip
     simulator.wait_for("ready")
     follow = ("--ros-args", "-p", "use_sim_time:=true")
     player = start("player", experiment, "--record-path", bag, *follow)

