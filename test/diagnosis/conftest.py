@@ -9,11 +9,12 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from functools import cache
+from unittest.mock import patch
 
 import numpy as np
 import pytest
 
-from truck_blowout_sim.diagnosis.case.calibration import calibrate
+from truck_blowout_sim.diagnosis.case import calibration
 from truck_blowout_sim.diagnosis.case.runs import prepare_run
 from truck_blowout_sim.diagnosis.case.study import Study
 from truck_blowout_sim.diagnosis.settings import Settings, load_settings
@@ -77,7 +78,10 @@ def study_of(truck: Packed, few: Settings, drive_it: Drives) -> Studies:
         held = () if holdout is None else (prepare_run(
             drive_it(dict(holdout), seed=3, steer=-0.9), "holdout", truck, few, step_s=STEP_S),)
         study = Study(tuple(runs), held, truck, few)
-        calibrate(study)
+        # Its trucks differ by numbers that these small cases leave closed. The widths would take
+        # that for restlessness; they have tests of their own.
+        with patch.object(calibration, "widen", lambda _: None):
+            calibration.calibrate(study)
         return study
 
     def make(train: Changes | None = None, *, holdout: Changes | None = None,

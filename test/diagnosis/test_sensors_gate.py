@@ -103,7 +103,7 @@ def test_without_roll_a_leak_and_a_gain_are_aliases() -> None:
         for unit in ("tractor", "trailer"):
             run = faults.leaking(unit, -1.0)(run)
         return run.with_metadata(accelerometers="gravity removed").without_channels(
-            ["tractor_roll_rad", "trailer_roll_rad"]
+            [f"{unit}_{tilt}_rad" for unit in ("tractor", "trailer") for tilt in ("roll", "pitch")]
         )
 
     spoilt = [faults.scaled("tractor_ay_mps2", 0.12)(free_of_gravity(run)) for run in RUNS]
