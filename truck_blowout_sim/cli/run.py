@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sys
 import webbrowser
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from time import perf_counter
 
@@ -84,23 +84,35 @@ def command(
     write_recording(recording, target, beside=_shown(recording, packed, drive, ran))
     if page or open_page:
         _write_page(recording, packed, html)
-    for note in recording.notes:
-        typer.echo(f"note: {note}", err=True)
-    result = {
-        "output": str(target), "scenario": loaded.name, "vehicle": packed.vehicle.name,
+    measures = measure(packed, drive, ran, loaded.spec.lane_width_m).as_row()
+    result = {"output": str(target), "scenario": loaded.name, "vehicle": packed.vehicle.name,
+              **_result(recording), "page": str(html) if page or open_page else None,
+              "measures": measures}
+    _tell(recording, result, factor, as_json=as_json)
+    if open_page:
+        webbrowser.open(html.resolve().as_uri())
+
+
+def _result(recording: Recording) -> dict[str, object]:
+    """What a recording says of its run, as plain data."""
+    return {
         "start_s": recording.start_s, "end_s": recording.end_s, "summary": summarize(recording),
         "blowouts": [{"time_s": b.time_s, "tires": b.tires} for b in recording.blowouts],
-        "page": str(html) if page or open_page else None,
-        "measures": measure(packed, drive, ran, loaded.spec.lane_width_m).as_row(),
     }
+
+
+def _tell(recording: Recording, result: Mapping[str, object], factor: float, *, as_json: bool
+          ) -> None:
+    """Notes, the sentence of the result, and where everything is."""
+    for note in recording.notes:
+        typer.echo(f"note: {note}", err=True)
+    target, page = result["output"], result["page"]
     say(as_json, result, [
         str(result["summary"]),
         f"{target}: {len(recording.channels)} channels, {recording.start_s:g} s to "
         f"{recording.end_s:g} s, {factor:.0f} times faster than real time",
-        *([f"{html}: figures; `truck-blowout view {target}` shows the truck moving"]
-          if page or open_page else [])])
-    if open_page:
-        webbrowser.open(html.resolve().as_uri())
+        *([f"{page}: figures; `truck-blowout view {target}` shows the truck moving"]
+          if page else [])])
 
 
 def _shown(recording: Recording, packed: Packed, drive: Drive, ran: Ran) -> Iterator[Extra]:

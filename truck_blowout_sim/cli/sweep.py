@@ -15,6 +15,7 @@ from truck_blowout_sim.cli.failures import interruptible
 from truck_blowout_sim.cli.outputs import FORCE, JSON, YES, claim, say
 
 if TYPE_CHECKING:
+    from truck_blowout_sim.report.sweep_page import Findings
     from truck_blowout_sim.simulation.studies.sweep import Plan
 
 SEVERAL = ("--vary", "--channels", "-c")
@@ -61,7 +62,7 @@ def command(
 
     Example: truck-blowout sweep hold_straight --vary reaction.time_s=0.5,1,2 -o out/reaction
     """
-    from truck_blowout_sim.report.sweep_page import headline, sentences, write_sweep_report
+    from truck_blowout_sim.report.sweep_page import write_sweep_report
     from truck_blowout_sim.simulation.scenario import load_scenario
     from truck_blowout_sim.simulation.studies.sweep import Plan, run_sweep
 
@@ -76,6 +77,13 @@ def command(
         progress.update(task, description="drawing")
         page, found = write_sweep_report(batch, [axis.key for axis in plan.axes],
                                          load_scenario(scenario).title, _command(plan), output)
+    _tell(found, output, page, as_json=as_json)
+
+
+def _tell(found: Findings, output: Path, page: Path, *, as_json: bool) -> None:
+    """What the runs say together, and where the table and the page are."""
+    from truck_blowout_sim.report.sweep_page import headline, sentences
+
     said = [headline(found), *sentences(found)]
     say(as_json, {
         "output": str(output), "table": str(output / "runs.parquet"), "page": str(page),

@@ -22,7 +22,6 @@ from truck_blowout_sim.nodes.door import COMPILER
 from truck_blowout_sim.nodes.inputs import InputBank
 from truck_blowout_sim.nodes.live_parameters import LiveParameters
 from truck_blowout_sim.nodes.lockstep import Lockstep
-from truck_blowout_sim.nodes.more_inputs import accept_more
 from truck_blowout_sim.nodes.output_topics import OutputTopics
 from truck_blowout_sim.nodes.plant import Plant
 from truck_blowout_sim.nodes.recorder import Recorder
@@ -35,6 +34,7 @@ from truck_blowout_sim.nodes.simulator_parameters import (
     inputs_of,
     timing_of,
 )
+from truck_blowout_sim.nodes.wheel_and_blowout_topics import accept_wheel_and_blowout
 
 ABOUT = "Simulates a truck in real time; steer, brake and blow its tires over ROS 2."
 
@@ -70,7 +70,7 @@ class Simulator:
             for one in self.plant.bank.inputs
         ]
         self.lockstep = Lockstep(self.commands, values, self._period, lambda: bool(self._stop))
-        self._blowouts_taken = accept_more(node, self)
+        self._blowouts_taken = accept_wheel_and_blowout(node, self)
         tick_s = self.timing.tick_steps * values["step_s"]
         self.pace: WallPace | FollowPace
         self.clock: ClockPublisher | None = None

@@ -7,6 +7,7 @@ Validated with: test/vehicle/test_single_track.py (the stated cornering stiffnes
 
 from __future__ import annotations
 
+from functools import cache
 from math import atan, sin
 
 from scipy.constants import g
@@ -37,6 +38,7 @@ def put_tires(draft: Draft, unit: UnitPlan, spec: SingleTrackSpec) -> None:
         _put_forces(draft, at, unit, axle)
 
 
+@cache
 def _base_tire() -> TireSpec:
     return build(TireSpec, read_document(config_file("tires", BASE_TIRE), "tires"), Notes())
 

@@ -1,4 +1,4 @@
-"""Further ways to command the truck: a road-wheel angle, and blowouts named on a topic."""
+"""Commands beside the five inputs: a road-wheel angle, and blowouts named on a topic."""
 
 from __future__ import annotations
 
@@ -64,7 +64,7 @@ class BlowoutTopic:
                 simulator.blow(part)
 
 
-def accept_more(node: Node, simulator: Simulator) -> BlowoutTopic | None:
+def accept_wheel_and_blowout(node: Node, simulator: Simulator) -> BlowoutTopic | None:
     """Create the subscriptions; returns the one to blowouts if it is wanted."""
     RoadWheelTopic(node, simulator)
     return BlowoutTopic(node, simulator) if simulator.values["blowout_input"] else None
