@@ -42,7 +42,7 @@ def test_a_case_from_truth_to_table(tmp_path: Path) -> None:
     before = (out / "results.jsonl").read_bytes()
     subprocess.run(words, check=True)
     assert (out / "results.jsonl").read_bytes() == before
-    assert "brake_imbalance trailer_2_left" in (out / "proof.md").read_text()
+    assert "brake_imbalance trailer_2_left" in (out / "cases.csv").read_text()
 
 
 def test_a_wrong_set_is_one_line_and_status_2(tmp_path: Path) -> None:

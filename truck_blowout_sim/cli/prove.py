@@ -22,7 +22,7 @@ def command(
         0, "--limit", min=0, help="So many cases, spread over the set; 0: all."
     ),
     output: Path = typer.Option(
-        Path("proof"), "-o", "--output", help="Folder for proof.json, proof.md, figures and cases."
+        Path("proof"), "-o", "--output", help="Folder for the report, its tables and figures."
     ),
     workers: int = typer.Option(
         os.cpu_count() or 1, "--workers", min=1, help="Processes, one case each at a time."

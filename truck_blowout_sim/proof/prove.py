@@ -9,6 +9,7 @@ from typing import Any
 
 from truck_blowout_sim.comparison.plain_json import json_text
 from truck_blowout_sim.proof.baselines.sparse_regression import optimizer_name
+from truck_blowout_sim.proof.case_tables import cases_csv, parameters_csv
 from truck_blowout_sim.proof.cases import Case, read_truth
 from truck_blowout_sim.proof.figures import pictures
 from truck_blowout_sim.proof.rows import as_json, rows, rows_table, uniformity
@@ -47,7 +48,9 @@ def score_run(cases: Sequence[Case], lines: Mapping[str, Mapping[str, Any]], out
     head = seals.sentence() + (
         "" if len(figures["code"]) < 2 else
         f" The lines were made by {len(figures['code'])} versions of the code.")
-    _write(out / "proof.md", markdown(figures, scores, truths, head, rows_table(found, uniform)))
+    _write(out / "proof.md", markdown(figures, head, rows_table(found, uniform)))
+    _write(out / "cases.csv", cases_csv(scores, truths))
+    _write(out / "parameters.csv", parameters_csv(figures))
     _write(out / "summary.md", short_table(figures) + "\n")
     for picture in pictures(figures):
         (out / f"{picture.name}.png").write_bytes(picture.png())

@@ -1,4 +1,6 @@
-"""The report of a run as Markdown: figures against what is sought, then every case.
+"""The report of a run as Markdown: figures against what is sought.
+
+Every case and every parameter stand in CSV tables beside it (`case_tables.py`).
 
 Validated with: test/proof/test_summary.py.
 """
@@ -9,8 +11,6 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from truck_blowout_sim.proof.by_effect import effect_table
-from truck_blowout_sim.proof.cases import Truth
-from truck_blowout_sim.proof.score import CaseScore
 from truck_blowout_sim.proof.statistics import Proportion
 
 SOUGHT: Mapping[str, str] = {
@@ -35,8 +35,7 @@ RIVAL_WORDS: Mapping[str, str] = {
 }
 
 
-def markdown(figures: Mapping[str, Any], scores: Sequence[CaseScore], truths: Mapping[str, Truth],
-             seal: str, required: Sequence[str] = ()) -> str:
+def markdown(figures: Mapping[str, Any], seal: str, required: Sequence[str] = ()) -> str:
     """Everything, as one document; `required`: lines of the table of what must hold."""
     parts = [seal, "", "## What must hold", "", *required, "", "## Figures", "",
              *_proportions(figures), "", *_numbers(figures), "",
@@ -44,8 +43,7 @@ def markdown(figures: Mapping[str, Any], scores: Sequence[CaseScore], truths: Ma
              "## Effect by effect", "", *effect_table(figures["effects"]), "",
              "## p-values where nothing is missing", "", *_reliability(figures), "",
              "## Rivals on holdout", "", *_rivals(figures), "", "## Parameters", "",
-             *_parameters(figures), "", "## Every case", "", *_cases(scores, truths),
-             *_failed(figures)]
+             *_parameters(figures), "", "Every case: `cases.csv`.", *_failed(figures)]
     return "\n".join(parts) + "\n"
 
 
@@ -121,32 +119,9 @@ def _rivals(figures: Mapping[str, Any]) -> list[str]:
 
 
 def _parameters(figures: Mapping[str, Any]) -> list[str]:
-    par = figures["parameters"]
-    rows = ["| effect | truth | found | relative error | in the 90 % interval |",
-            "|---|---|---|---|---|"]
-    rows += [f"| {p['name']} | {p['truth']:.4g} | {p['found']:.4g} | {p['relative_error']:.2f} | "
-             f"{'yes' if p['covered'] else 'no'} |" for p in par["each"]]
-    said = [f"- `{name}`: {why}" for name, why in par["not_comparable"].items()]
-    return [*rows, "", "Not compared, because truth and model state different quantities:", "",
-            *said]
-
-
-def _cases(scores: Sequence[CaseScore], truths: Mapping[str, Truth]) -> list[str]:
-    rows = ["| case | concealed | sigma | verdict | named (alias set) | right | "
-            "holdout before → after |", "|---" * 7 + "|"]
-    for s in scores:
-        hidden = " + ".join(f"{c.name} {_place(c.where)}".strip() for c in truths[s.case].causes)
-        named = "; ".join(n + (f" ({', '.join(a[1:])})" if len(a) > 1 else "")
-                          for n, a in zip(s.named, s.aliases, strict=True))
-        mark = "yes" if s.solved else "verdict" if s.right else "no"
-        fit = f"{s.holdout.before:.3g} → {s.holdout.after:.3g}" if s.holdout else "–"
-        rows.append(f"| {s.case} | {hidden or 'nothing'} | {_number(s.sigma)} | "
-                    f"{s.verdict.replace('_', ' ')} | {named or '–'} | {mark} | {fit} |")
-    return rows
-
-
-def _place(where: Mapping[str, str | None]) -> str:
-    return where["tire"] or where["hub"] or where["axle"] or where["body"] or ""
+    said = [f"- `{name}`: {why}" for name, why in figures["parameters"]["not_comparable"].items()]
+    return ["Truth and estimate of each: `parameters.csv`. Not compared, because truth and model "
+            "state different quantities:", "", *said]
 
 
 def _failed(figures: Mapping[str, Any]) -> list[str]:
