@@ -7,6 +7,8 @@ it against the programs.
 from __future__ import annotations
 
 import sys
+from collections import Counter
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -21,26 +23,41 @@ HEAD = """# Commands
 done; 2 bad usage or bad input, in one line; 1 an internal failure (`--traceback` shows where).
 This page is written from the programs' own help.
 """
+TABLE = ("| argument or option | default | meaning |", "|---|---|---|")
+
+
+SHARED_BY = 3  # verbs that have an option in the same words: it stands once, at the end
 
 
 def command_reference() -> str:
-    return HEAD + "".join(_verb(verb) for verb in sorted(VERBS))
+    commands = {verb: _command(verb) for verb in sorted(VERBS)}
+    count = Counter(_row(p) for command in commands.values() for p in _options(command))
+    shared = sorted(row for row, verbs in count.items() if verbs >= SHARED_BY)
+    pages = [_verb(verb, command, shared) for verb, command in commands.items()]
+    last = ["\n## Shared options\n", *TABLE, *shared]
+    return HEAD + "".join(pages) + "\n".join(last) + "\n"
 
 
-def _verb(verb: str) -> str:
-    app = build([verb])
-    group = typer.main.get_command(app)  # type: ignore[arg-type]
-    command = group.commands[verb]  # type: ignore[attr-defined]
-    shown = [p for p in command.params if not getattr(p, "hidden", False)]
+def _command(verb: str) -> Any:  # noqa: ANN401 (typer brings a click of its own)
+    group = typer.main.get_command(build([verb]))  # type: ignore[arg-type]
+    return group.commands[verb]  # type: ignore[attr-defined]
+
+
+def _options(command: Any) -> list[Any]:  # noqa: ANN401
+    return [p for p in command.params if not getattr(p, "hidden", False)]
+
+
+def _verb(verb: str, command: Any, shared: Sequence[str]) -> str:  # noqa: ANN401
     about = (command.help or "").strip().split("\n\n")
-    lines = [f"\n## {verb}\n", f"{about[0]}\n"]
-    lines += [f"{part}\n" for part in about[1:]]
-    lines += ["| argument or option | default | meaning |", "|---|---|---|"]
-    lines += [_row(parameter) for parameter in shown]
+    rows = {_row(p): p for p in _options(command)}
+    also = [f"`{p.opts[0]}`" for row, p in rows.items() if row in shared]
+    lines = [f"\n## {verb}\n", *(f"{part}\n" for part in about), *TABLE]
+    lines += [row for row in rows if row not in shared]
+    lines += [f"\nAnd [shared options](#shared-options): {', '.join(also)}."] if also else []
     return "\n".join(lines) + "\n"
 
 
-def _row(parameter: Any) -> str:  # noqa: ANN401 (typer brings a click of its own)
+def _row(parameter: Any) -> str:  # noqa: ANN401
     option = parameter.param_type_name == "option"
     words = [*parameter.opts, *parameter.secondary_opts] if option else [parameter.name.upper()]
     name = ", ".join(f"`{word}`" for word in words)

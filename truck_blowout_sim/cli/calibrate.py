@@ -34,7 +34,7 @@ def command(
     ),
     output: Path = typer.Option(..., "-o", "--output", help="Vehicle file to write, .yaml."),
     settings: str = typer.Option(
-        "default", help="File in config/diagnosis: how far numbers stray from truck to truck."
+        "default", help="File in config/diagnosis: spread of each number between trucks."
     ),
     impose_speed: bool | None = typer.Option(
         None, "--impose-speed/--no-impose-speed",

@@ -45,7 +45,7 @@ def command(
         " one folder each inside it.",
     ),
     step_s: float = typer.Option(
-        0.001, "--step-s", "--step", min=1e-5, max=0.005, help="Step of the simulation, s."
+        0.001, "--step-s", "--step", min=1e-5, max=0.005, help="Step [s]."
     ),
     impose_speed: bool | None = typer.Option(
         None,
@@ -54,11 +54,11 @@ def command(
         " pressure was not recorded.",
     ),
     no_model: bool = typer.Option(
-        False, "--no-model", help="Hold two recordings against each other, without a model."
+        False, "--no-model", help="Compare two recordings with each other, without a model."
     ),
     hve: bool = typer.Option(
-        False, "--hve", help="Of a .mat with the thesis's variables: hold HVE's run (_h) against"
-        " the test's too; a second page in the folder hve/."
+        False, "--hve", help="Of a .mat with the thesis's variables: compare HVE's run (_h) with"
+        " the test too; a second page in the folder hve/."
     ),
     mapping: Path | None = MAP,
     blow: list[str] = BLOW,

@@ -36,12 +36,12 @@ IMPOSE_SPEED: Any = typer.Option(
     help="Follow the recorded speed. By default only where throttle or brakes are missing."
 )
 WITHOUT: Any = typer.Option(
-    [], "--without", metavar="NAME", help="Effect that is known not to be the cause, as "
+    [], "--without", metavar="NAME", help="Effect that is not the cause, such as "
     "crosswind on a calm day; repeat for more."
 )
 CORRECTED: Any = typer.Option(
     None, "--write-corrected", metavar="DIR",
-    help="Folder for the recordings with the found faults of instruments taken out, as CSV."
+    help="Folder for the recordings, corrected for the instrument faults found, as CSV."
 )
 QUICK: Any = typer.Option(
     False, "--quick", help="One effect at most, fewer candidates fitted, coarser step."

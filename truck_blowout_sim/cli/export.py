@@ -32,7 +32,7 @@ def command(
     force: bool = FORCE,
     as_json: bool = JSON,
 ) -> None:
-    """Convert a bag to CSV: one row an instant, gauge pressures, empty where not measured."""
+    """Convert a bag to CSV: one row per instant, gauge pressures, empty where not measured."""
     given = [bag, *also, *([mapping] if mapping else [])]
     claim(output, inputs=given, force=force)
     recording = read(bag, mapping=mapping, blow=blow, also=also, namespace=namespace)

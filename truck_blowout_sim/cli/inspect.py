@@ -26,8 +26,8 @@ def command(
     mapping: Path | None = MAP,
     also: list[Path] = ALSO,
     write_map: Path | None = typer.Option(
-        None, "--write-map", metavar="FILE", help="Begin a mapping file; every guess in it is "
-        "marked as one."
+        None, "--write-map", metavar="FILE", help="Write a first mapping file; every guess in "
+        "it is marked."
     ),
     namespace: str | None = typer.Option(
         None, help="Prefix of the truck's topics in a bag; /truck, or found by itself."
@@ -35,7 +35,7 @@ def command(
     force: bool = FORCE,
     as_json: bool = JSON,
 ) -> None:
-    """Say what is in a log: columns, units, rates, clocks, gaps; what becomes which channel."""
+    """Show what a log holds: columns, units, rates, clocks, gaps, and the channels they become."""
     from truck_blowout_sim.recordings.mapping.inventory import inspect_log
     from truck_blowout_sim.recordings.mapping.writing import mapping_text
 

@@ -24,18 +24,18 @@ PROGRAM = "truck-blowout"
 # so that `--help` lists every verb without importing any of them.
 VERBS: dict[str, tuple[str, str]] = {
     "run": ("run", "Simulate a scenario without ROS and write a bag."),
-    "inspect": ("inspect", "Say what is in a log, and what becomes which channel."),
+    "inspect": ("inspect", "Show what a log holds and which channels it becomes."),
     "import": ("import_", "Convert a log of any logger to a bag."),
     "export": ("export", "Convert a bag or log to CSV, .mat or .mcap."),
     "compare": ("compare", "Drive the model with a recording's inputs and report the differences."),
     "diagnose": ("diagnose", "Locate, name and fit what the model lacks to explain recordings."),
     "calibrate": ("calibrate", "Fit the sheet's numbers to ordinary driving; write the vehicle."),
-    "sweep": ("sweep", "Run a scenario many times with keys that vary: one table, one page."),
+    "sweep": ("sweep", "Run a scenario many times with varied keys: one table, one page."),
     "prove": ("prove", "Run the concealed-effect benchmark and write its table."),
-    "vehicle": ("vehicle", "Show loads, handling and what was filled in of a vehicle file."),
+    "vehicle": ("vehicle", "Show loads, handling and filled-in values of a vehicle file."),
     "plot": ("plot", "Plot any channel of any run; the thesis's figures by number."),
     "view": ("view", "Show the truck of a run moving in 3-D, in one HTML file."),
-    "recover": ("recover", "Make a bag readable again whose writer was killed."),
+    "recover": ("recover", "Repair a bag whose writer was killed."),
     "validate": ("validate", "Measure the model against the published figures of the test."),
 }
 

@@ -23,7 +23,7 @@ JSON: Any = typer.Option(
 )
 
 YES: Any = typer.Option(
-    False, "--yes", help="Simulate implausible input without asking, as 300 deg of road wheel."
+    False, "--yes", help="Simulate implausible input without asking, such as 300 deg of road wheel."
 )
 
 

@@ -45,7 +45,7 @@ def command(
     forms: list[str] = typer.Option(["png"], "--format", help="png, svg, pdf; one or several."),
     units: str = typer.Option("us", help="us (mph, ft, psi, lbf) or si (m/s, m, kPa, kN)."),
     axes: str = typer.Option("iso", help="iso (left and up positive) or sae (right and down)."),
-    over: str = typer.Option("time_s", help="Channel on the horizontal axis, as tractor_x_m."),
+    over: str = typer.Option("time_s", help="Channel on the horizontal axis, such as tractor_x_m."),
     start_s: float | None = typer.Option(None, "--start", help="Start, s on the run's clock."),
     end_s: float | None = typer.Option(None, "--end", help="End, s on the run's clock."),
     dark: bool = typer.Option(False, "--dark", help="Light lines on dark paper."),

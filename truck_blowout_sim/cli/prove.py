@@ -19,7 +19,7 @@ def command(
         "ci", "--set", help="Set to generate: dev, test, or ci (24 small cases, all groups)."
     ),
     limit: int = typer.Option(
-        0, "--limit", min=0, help="So many cases, spread over the set; 0: all."
+        0, "--limit", min=0, help="Number of cases, spread over the set; 0: all."
     ),
     output: Path = typer.Option(
         Path("proof"), "-o", "--output", help="Folder for the report, its tables and figures."
@@ -31,12 +31,12 @@ def command(
         None, "--manifest", help="Sealed hashes. By default the published ones of the set, else "
         "manifest.json beside the cases."
     ),
-    step_s: float = typer.Option(0.0025, "--step-s", help="Integration step of the model [s]."),
+    step_s: float = typer.Option(0.0025, "--step-s", help="Step [s]."),
     baselines: bool = typer.Option(
         True, "--baselines/--no-baselines", help="Also try the rivals on every case."
     ),
 ) -> None:
-    """Run the concealed-effect benchmark; an interrupted run goes on where it was."""
+    """Run the concealed-effect benchmark; an interrupted run resumes."""
     from truck_blowout_sim.proof.cases import find_cases
     from truck_blowout_sim.proof.generate import generate_set
     from truck_blowout_sim.proof.prove import score_run

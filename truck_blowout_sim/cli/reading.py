@@ -12,8 +12,8 @@ from truck_blowout_sim.cli.settings import parse_blowouts
 from truck_blowout_sim.recordings import Blowout, Recording, read_recording
 
 MAP: Any = typer.Option(
-    None, "--map", "-m", metavar="FILE", help="Mapping file: what in the log becomes which "
-    "channel (docs/bring_your_own_log.md; `inspect LOG --write-map FILE` begins one)."
+    None, "--map", "-m", metavar="FILE", help="Mapping file: which column or topic becomes "
+    "which channel (`inspect LOG --write-map FILE` writes a first one)."
 )  # fmt: skip
 BLOW: Any = typer.Option(
     [], "--blow", metavar="TIRE@SECONDS", help="A blowout that the log does not mark, on the "

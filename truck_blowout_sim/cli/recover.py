@@ -19,7 +19,7 @@ def command(
     force: bool = FORCE,
     as_json: bool = JSON,
 ) -> None:
-    """Make a bag readable again whose writer was killed; every whole chunk is kept."""
+    """Repair a bag whose writer was killed; every whole chunk is kept."""
     if not bag.exists():
         raise InputError(
             "no such file or directory", file=bag, expected="an .mcap file or a rosbag2 folder"

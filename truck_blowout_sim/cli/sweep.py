@@ -35,9 +35,9 @@ def command(
     ),
     random: int = typer.Option(
         0, "--random", metavar="N", min=0,
-        help="N runs of a random sample instead of every combination; then lo:hi will do."
+        help="N runs of a random sample instead of every combination; lo:hi is then enough."
     ),
-    seed: int = typer.Option(1, "--seed", help="Of the random sample."),
+    seed: int = typer.Option(1, "--seed", help="Seed of the random sample."),
     vehicle: str = typer.Option(
         "international_9400i_trailmobile", help="Name of a shipped vehicle, or a YAML file."
     ),
@@ -58,7 +58,7 @@ def command(
     force: bool = FORCE,
     as_json: bool = JSON,
 ) -> None:
-    """Run a scenario many times with keys that vary; a run that fails is a row with its reason.
+    """Run a scenario many times with varied keys; a failed run is a row with its reason.
 
     Example: truck-blowout sweep hold_straight --vary reaction.time_s=0.5,1,2 -o out/reaction
     """

@@ -15,8 +15,8 @@ MARK = "<!-- below: written by `truck-blowout validate -o docs/validation.md` --
 
 def command(
     output: Path | None = typer.Option(
-        None, "-o", "--output", help="Markdown file to write; what stands above the mark in an "
-        "older one is kept. To the terminal if not given."
+        None, "-o", "--output", help="Markdown file to write; text above the mark in an existing "
+        "file is kept. Without it, print to the terminal."
     ),
     force: bool = FORCE,
     as_json: bool = JSON,

@@ -28,7 +28,7 @@ def command(
     force: bool = FORCE,
     as_json: bool = JSON,
 ) -> None:
-    """Show loads, handling and what was filled in of a vehicle file.
+    """Show loads, handling and filled-in values of a vehicle file.
 
     Example: truck-blowout vehicle my_truck.yaml --tire steer_left -o rig
     """

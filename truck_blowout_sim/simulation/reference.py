@@ -10,16 +10,15 @@ import sys
 from pathlib import Path
 
 from truck_blowout_sim.simulation.scenario_schema import ScenarioSpec
-from truck_blowout_sim.vehicle.reference import key_rows
+from truck_blowout_sim.vehicle.reference import key_block, key_line
 
 TITLE = "## All keys"
 
 
 def reference_markdown() -> str:
     """Every key of a scenario file."""
-    head = [TITLE, "", "| key | accepts | meaning |", "|---|---|---|"]
-    last = "| `values.<name>` | number; optional | a parameter of the vehicle by its packed name |"
-    return "\n".join([*head, *key_rows(ScenarioSpec, "", {}), last]) + "\n"
+    last = ["values:", key_line("  <name>", "number, optional: a vehicle parameter, packed name")]
+    return "\n".join([TITLE, "", *key_block(ScenarioSpec, last)]) + "\n"
 
 
 def write_into(page: Path) -> None:

@@ -7,7 +7,7 @@ without a file it prints. A test holds the page against the schema.
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from math import isfinite, isinf
 from pathlib import Path
 from typing import Any
@@ -42,37 +42,54 @@ BLOCKS = {
 }
 
 
+COMMENT_COLUMN = 34  # where comments begin, if the key is shorter
+
+
 def reference_markdown() -> str:
-    """Every key of every file, then every parameter only `effects:` reaches."""
+    """Every key of every file as commented YAML, then every parameter only `effects:` reaches."""
     lines: list[str] = []
     for title, section in FILES.items():
-        lines += [f"### {title}", "", "| key | accepts | meaning |", "|---|---|---|"]
-        lines += list(key_rows(section, "", {}))
-        lines.append("")
-    lines += ["### Parameters that only `effects:` sets", "", "| name | neutral |", "|---|---|"]
+        lines += [f"### {title}", "", *key_block(section), ""]
+    lines += ["### Parameters that only `effects:` sets", "", "With their neutral values:", "",
+              "```yaml"]
     lines += [
-        f"| `{BLOCKS[block.__name__]}.{name}` | {'never' if isinf(value) else f'{value:g}'} |"
+        f"{BLOCKS[block.__name__]}.{name}: {'never' if isinf(value) else f'{value:g}'}"
         for block, values in NEUTRAL.items()
         for name, value in values.items()
     ]
-    return "\n".join(lines) + "\n"
+    return "\n".join([*lines, "```"]) + "\n"
 
 
-def key_rows(section: type[Any], prefix: str, shown: dict[type[Any], str]) -> Iterator[str]:
-    """A row of a Markdown table for every key of a section and of the sections below it.
+def key_block(section: type[Any], more: Sequence[str] = ()) -> list[str]:
+    """A fenced block of YAML with every key of a section, and further lines."""
+    return ["```yaml", *key_lines(section, "", "", {}), *more, "```"]
+
+
+def key_lines(section: type[Any], prefix: str, indent: str,
+              shown: dict[type[Any], str]) -> Iterator[str]:
+    """A line of YAML for every key of a section and of the sections below it.
 
     Args:
-        prefix: of the keys; ``shown``: sections that have their rows already, filled on the way.
+        prefix: of the keys; ``shown``: sections that have their lines already, filled on the way.
     """
     needed = required(section)
     for key, rule in rules(section).items():
         name = f"{prefix}{key}"
         again = shown.setdefault(rule.section, name) if rule.section else name
-        doc = rule.doc if again == name else f"{rule.doc}; keys as in `{again}`"
-        yield f"| `{name}` | {_accepts(rule, needed=key in needed)} | {doc} |"
+        doc = rule.doc if again == name else f"{rule.doc}; keys as in {again}"
+        accepts = _accepts(rule, needed=key in needed)
+        yield key_line(f"{indent}{key}", f"{accepts}: {doc}" if accepts else doc)
         if rule.section is not None and again == name:
-            below = f"{name}.<name>." if rule.kind == "sections" else f"{name}."
-            yield from key_rows(rule.section, below, shown)
+            named = rule.kind == "sections"
+            if named:
+                yield f"{indent}  <name>:"
+            yield from key_lines(rule.section, f"{name}.<name>." if named else f"{name}.",
+                                 indent + ("    " if named else "  "), shown)
+
+
+def key_line(key: str, comment: str) -> str:
+    """A key without a value, and a comment on it."""
+    return f"{key + ':':{COMMENT_COLUMN}}  # {comment}"
 
 
 def _accepts(rule: Rule, *, needed: bool) -> str:
@@ -80,15 +97,17 @@ def _accepts(rule: Rule, *, needed: bool) -> str:
         "number": _bounds(rule),
         "numbers": "list",
         "switch": "true, false",
-        "choice": ", ".join(f"`{option}`" for option in rule.options),
+        "choice": " | ".join(rule.options),
         "text": "text",
-        "section": "section",
-        "sections": "named sections" if rule.section else "named texts",
+        "section": "",
+        "sections": "" if rule.section else "names",
     }[rule.kind]
-    return words if needed else f"{words}; optional"
+    return words if needed else ", ".join(filter(None, (words, "optional")))
 
 
 def _bounds(rule: Rule) -> str:
+    if isfinite(rule.low) and isfinite(rule.high) and not rule.open_low:
+        return f"{rule.low:g} to {rule.high:g}"
     parts = []
     if isfinite(rule.low):
         parts.append(f"{'>' if rule.open_low else '>='} {rule.low:g}")
