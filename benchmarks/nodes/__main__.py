@@ -1,24 +1,24 @@
-"""`python -m benchmarks.nodes [pace|fast|record|soak MINUTES FACTOR [record]]`: the node's figures.
+"""`python -m benchmarks.nodes [pace|fast|record|soak MINUTES FACTOR …]`: the node's figures.
 
 `pace`: CPU share and jitter in real time, alone and with a reader of every topic. `fast`: factor
-achieved as fast as possible. `record`: the same two while a bag is written. `soak`: resident
-memory over many minutes. Prints a table; the machine's load is printed with it, because a busy
+achieved as fast as possible. `record`: the same two while a bag is written. `soak`: many
+minutes, see `soak.py`. Prints a table; the machine's load is printed with it, because a busy
 machine changes every figure.
 """
 
 from __future__ import annotations
 
 import contextlib
-import os
 import statistics
 import sys
 import tempfile
 import time
-from concurrent.futures import ThreadPoolExecutor
 from itertools import pairwise
 from pathlib import Path
 
 from benchmarks.nodes.harness import listen, listener, simulator
+from benchmarks.nodes.rows import HEAD, row
+from benchmarks.nodes.soak import soak
 
 _SETTLE_S = 3.0
 _WINDOW_S = 20.0
@@ -28,11 +28,6 @@ def percentile(values: list[float], part: float) -> float:
     """Value below which a part of the values lies."""
     ordered = sorted(values)
     return ordered[min(len(ordered) - 1, round(part * len(ordered)))]
-
-
-def row(name: str, value: float, unit: str, sought: str) -> None:
-    load = os.getloadavg()[0]
-    print(f"| {name} | {value:.3g} {unit} | {sought} | {load:.1f} |", flush=True)
 
 
 def pace(label: str, *words: object, reader: bool = False) -> None:
@@ -63,37 +58,11 @@ def fast(label: str, *words: object, reader: bool = False) -> None:
             statistics.median(heard["factor"][1:]) / share, "", "20")  # fmt: skip
 
 
-def soak(minutes: float, factor: float, *, record: bool) -> None:
-    with (
-        tempfile.TemporaryDirectory() as folder,
-        simulator(
-            "--initial-speed-mps", 20, "--real-time-factor", factor,
-            *(("--record-path", Path(folder) / "bag") if record else ()),
-        ) as node,
-    ):  # fmt: skip
-        time.sleep(30.0)
-        first_mb, samples, span_s = node.memory_mb(), list[float](), 60.0 * minutes
-        with ThreadPoolExecutor(1) as reader:
-            heard = reader.submit(listen, span_s)
-            while not heard.done():
-                time.sleep(10.0)
-                samples.append(node.memory_mb())
-    tail = samples[len(samples) // 2 :]
-    growth = statistics.mean(tail[len(tail) // 2 :]) - statistics.mean(tail[: len(tail) // 2])
-    late_ms = heard.result()["late_p99_ms"]
-    row("resident memory after 30 s", first_mb, "MB", "")
-    row(f"resident memory after {minutes:g} min at factor {factor:g}", samples[-1], "MB", "")
-    row("growth between the third and the last quarter", growth, "MB", "0")
-    row("factor, mean", statistics.mean(heard.result()["factor"]), "", f"{factor:g}")
-    row("lateness p99 in the node, median of the reports", statistics.median(late_ms), "ms", "2")
-    row("lateness p99 in the node, worst report", max(late_ms), "ms", "")
-
-
 def main(words: list[str]) -> None:
     what = words[0] if words else "all"
-    print("| figure | measured | sought | load average |\n|---|---|---|---|")
+    print(HEAD, flush=True)
     if what == "soak":
-        soak(float(words[1]), float(words[2]), record="record" in words)
+        soak(float(words[1]), float(words[2]), set(words[3:]))
         return
     if what in ("pace", "all"):
         pace("no reader")

@@ -68,6 +68,20 @@ def simulator(*words: object) -> Iterator[Measured]:
 
 
 @contextmanager
+def lane_keeper() -> Iterator[None]:
+    """The shipped controller, driving."""
+    process = subprocess.Popen(
+        [sys.executable, "-m", "truck_blowout_sim.nodes.lane_keeper"],
+        env={**os.environ, **ENVIRONMENT}, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+    )  # fmt: skip
+    try:
+        yield
+    finally:
+        process.terminate()
+        process.wait(30)
+
+
+@contextmanager
 def listener() -> Iterator[None]:
     """A process that subscribes to every output and throws it away."""
     process = subprocess.Popen(

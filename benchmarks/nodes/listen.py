@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import signal
+import struct
 import sys
 import time
 from types import FrameType
@@ -13,11 +14,14 @@ from diagnostic_msgs.msg import DiagnosticArray
 from nav_msgs.msg import Odometry
 from rclpy.node import Node
 from rclpy.qos import QoSProfile
+from rclpy.serialization import deserialize_message
 
 from truck_blowout_sim import load_vehicle
 from truck_blowout_sim.nodes.outputs import output_channels
 from truck_blowout_sim.nodes.publishing import message_class
 from truck_blowout_sim.nodes.runtime import new_executor
+
+_SPEED_EVERY = 100  # messages
 
 
 def _leave(number: int, frame: FrameType | None) -> None:
@@ -48,7 +52,8 @@ def report(duration_s: float) -> None:
     node = Node("benchmark_listener")
     executor = new_executor()
     executor.add_node(node)
-    found: dict[str, list[float]] = {"arrival_s": [], "factor": [], "late_p99_ms": []}
+    names = ("arrival_s", "stamp_s", "factor", "late_p99_ms", "not_finite", "speed_mps")
+    found: dict[str, list[float]] = {name: [] for name in names}
 
     def diagnose(message: DiagnosticArray) -> None:
         pace = next((status for status in message.status if status.name.endswith("pace")), None)
@@ -57,11 +62,20 @@ def report(duration_s: float) -> None:
         values = {pair.key: pair.value for pair in pace.values}
         found["factor"].append(float(values["real_time_factor"]))
         found["late_p99_ms"].append(float(values["lateness_p99_ms"]))
+        ends = [status for status in message.status if status.name.endswith("state")]
+        found["not_finite"].append(float(any(status.level != b"\x00" for status in ends)))
+
+    def arrive(data: bytes) -> None:
+        found["arrival_s"].append(time.monotonic())
+        # header.stamp comes first, behind four bytes that state the encoding
+        second, nanosecond = struct.unpack_from("<iI", data, 4)
+        found["stamp_s"].append(second + 1e-9 * nanosecond)
+        if len(found["arrival_s"]) % _SPEED_EVERY == 0:
+            found["speed_mps"].append(deserialize_message(data, Odometry).twist.twist.linear.x)
 
     node.create_subscription(
-        Odometry, "/truck/tractor/odometry",
-        lambda _: found["arrival_s"].append(time.monotonic()), QoSProfile(depth=100), raw=True,
-    )  # fmt: skip
+        Odometry, "/truck/tractor/odometry", arrive, QoSProfile(depth=100), raw=True
+    )
     node.create_subscription(DiagnosticArray, "/diagnostics", diagnose, 10)
     end_s = time.monotonic() + duration_s
     while (left_s := end_s - time.monotonic()) > 0:

@@ -11,8 +11,8 @@ import scipy.io
 
 from truck_blowout_sim.cli.compare import _folders
 from truck_blowout_sim.cli.main import main
-from truck_blowout_sim.comparison.sources import find_recording
 from truck_blowout_sim.recordings import read_recording
+from truck_blowout_sim.recordings.shipped import find_recording
 
 TEST_2013 = "test_2013_steer_blowout"
 

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from truck_blowout_sim.comparison.provenance import MARKS, marks_of
-from truck_blowout_sim.comparison.sources import find_recording, shipped_recordings
 from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.recordings import Recording, Series, read_recording
+from truck_blowout_sim.recordings.shipped import find_recording, shipped_recordings
 
 TEST_2013 = "test_2013_steer_blowout"
 

@@ -89,9 +89,11 @@ def test_a_mapping_file_says_what_is_what(
         "  steering_wheel_angle_rad: {from: SteerAngle, unit: deg, sign: -1}\n"
         "  tractor_vx_mps: {from: Speed, unit: km/h}\n"
     )
-    player = start("player", bags / "theirs.csv", "--map", bags / "map.yaml")
+    player = start("player", bags / "theirs.csv", "--map", bags / "map.yaml",
+                   "--blow", "steer_left@0.4")  # fmt: skip
     assert player.wait() == 0, player.output
     assert "simulator at 15.00 m/s" in player.output
+    assert "steer_left" in player.output
     refused = start("player", bags / "theirs.csv", "--map", bags / "map.yaml", "--remap", "/a:=b")
     assert refused.wait() == 2
     assert "remap and map are both given" in refused.output

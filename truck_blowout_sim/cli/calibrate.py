@@ -11,20 +11,21 @@ from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 
 from truck_blowout_sim.cli.outputs import FORCE, JSON, claim, say
-from truck_blowout_sim.cli.reading import MAP, read
+from truck_blowout_sim.cli.reading import AS_IT_IS, LogOptions, reads_logs, say_notes
 
 if TYPE_CHECKING:
     from truck_blowout_sim.diagnosis.calibrate import Calibration
     from truck_blowout_sim.recordings import Recording
-    from truck_blowout_sim.vehicle import Vehicle
 
 SEVERAL = ("--holdout",)
 _MOST_CHANNELS = 12
 
 
+@reads_logs
 def command(
     recordings: list[Path] = typer.Argument(
-        help="Runs in which nothing is missing: bags, .mcap, .csv or .mat."
+        help="Runs in which nothing is missing: bags, any log with a mapping, or the name of a"
+        " shipped recording."
     ),
     holdout: list[Path] = typer.Option(
         [], "--holdout", help="Runs that are predicted only, never fitted."
@@ -40,7 +41,7 @@ def command(
         None, "--impose-speed/--no-impose-speed",
         help="Follow the recorded speed. By default only where throttle or brakes are missing."
     ),
-    mapping: Path | None = MAP,
+    logs: LogOptions = AS_IT_IS,
     force: bool = FORCE,
     as_json: bool = JSON,
 ) -> None:
@@ -52,11 +53,12 @@ def command(
     from truck_blowout_sim.errors import InputError
     from truck_blowout_sim.vehicle import load_vehicle
 
-    claim(output, inputs=[*recordings, *holdout], force=force)
+    claim(output, inputs=[*recordings, *holdout, *logs.files], force=force)
     if output.suffix not in (".yaml", ".yml"):
         raise InputError("is no name of a vehicle file", file=output, expected="a name in .yaml")
     loaded = load_vehicle(vehicle)
-    runs, unseen = (_read(paths, loaded, mapping) for paths in (recordings, holdout))
+    runs, unseen = (logs.read_all(names, loaded) for names in (recordings, holdout))
+    say_notes(*runs, *unseen)
     if not as_json:
         say_roles({"fits": runs, "only predicts": unseen})
     with _progress() as bar:
@@ -67,18 +69,6 @@ def command(
     output.parent.mkdir(parents=True, exist_ok=True)
     write_calibrated_vehicle(output, vehicle if vehicle == loaded.name else loaded, found)
     say(as_json, as_plain(found, output), lines(found, output))
-
-
-def _read(paths: Sequence[Path], vehicle: Vehicle, mapping: Path | None) -> list[Recording]:
-    """Read recordings; the same name twice is told apart by a number."""
-    from dataclasses import replace
-
-    found: list[Recording] = []
-    for path in paths:
-        one = read(path, mapping=mapping, blow=(), hubs=vehicle.hubs, tires=vehicle.tires)
-        same = sum(r.name.split(" #")[0] == one.name for r in found)
-        found.append(replace(one, name=f"{one.name} #{same + 1}") if same else one)
-    return found
 
 
 def say_roles(roles: dict[str, Sequence[Recording]]) -> None:

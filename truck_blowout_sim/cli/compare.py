@@ -14,8 +14,9 @@ from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 from rich.table import Table
 
 from truck_blowout_sim.cli.outputs import FORCE, JSON, YES, ask_about, claim, say
-from truck_blowout_sim.cli.reading import BLOW, MAP, read
+from truck_blowout_sim.cli.reading import AS_IT_IS, LogOptions, reads_logs
 from truck_blowout_sim.errors import InputError
+from truck_blowout_sim.recordings.shipped import find_recording
 
 if TYPE_CHECKING:
     from truck_blowout_sim.comparison import Comparison
@@ -29,6 +30,7 @@ _NUMBERS = (
 )  # fmt: skip
 
 
+@reads_logs
 def command(
     recordings: list[str] = typer.Argument(
         help="Bags, .mcap, .csv or .mat files, or the name of a shipped one:"
@@ -60,8 +62,7 @@ def command(
         False, "--hve", help="Of a .mat with the thesis's variables: compare HVE's run (_h) with"
         " the test too; a second page in the folder hve/."
     ),
-    mapping: Path | None = MAP,
-    blow: list[str] = BLOW,
+    logs: LogOptions = AS_IT_IS,
     yes: bool = YES,
     force: bool = FORCE,
     as_json: bool = JSON,
@@ -74,14 +75,14 @@ def command(
     from truck_blowout_sim.vehicle import load_vehicle
 
     console, loaded = _console(), load_vehicle(vehicle)
-    folders = _claimed(recordings, output, no_model=no_model, hve=hve, force=force)
+    folders = _claimed(recordings, output, logs.files, no_model=no_model, hve=hve, force=force)
     for name, folder in zip(recordings, folders, strict=False):
 
         def made(tell: Tell, name: str = name) -> Comparison:
             if no_model:
-                both = _both(recordings, mapping, blow, loaded)
-                return compare_recordings(*both, vehicle=loaded, progress=tell)
-            return compare(_read(name, mapping, blow, loaded), loaded, step_s=step_s,
+                first, second = logs.read_all(recordings, loaded)
+                return compare_recordings(first, second, vehicle=loaded, progress=tell)
+            return compare(_read(name, logs, loaded), loaded, step_s=step_s,
                            impose_speed=impose_speed, contrasted=True, progress=tell,
                            ask=lambda problems: ask_about(problems, yes))
 
@@ -92,16 +93,18 @@ def command(
 
 
 def _claimed(
-    recordings: list[str], output: Path, *, no_model: bool, hve: bool, force: bool
-) -> list[Path]:
+    recordings: list[str], output: Path, beside: list[Path], *, no_model: bool, hve: bool,
+    force: bool,
+) -> list[Path]:  # fmt: skip
     """The folder of each page, checked to be free."""
     from truck_blowout_sim.report.comparison_page import DATA, PAGE
 
     if no_model and len(recordings) != 2:
         raise InputError(f"--no-model with {len(recordings)} recordings", expected="two of them")
+    inputs: list[str | Path] = [*recordings, *beside]
     folders = _folders(recordings[:1] if no_model else recordings, output)
     for folder in folders:
-        claim(folder, inputs=recordings, force=force, writes=(PAGE, DATA, *([HVE] if hve else [])))
+        claim(folder, inputs=inputs, force=force, writes=(PAGE, DATA, *([HVE] if hve else [])))
     return folders
 
 
@@ -124,13 +127,12 @@ def _hold_hve(console: Console, compared: Comparison, name: str, folder: Path, a
               ) -> None:
     """HVE's run against the test's, with the same figures as the model's."""
     from truck_blowout_sim.comparison import compare_recordings
-    from truck_blowout_sim.comparison.sources import find_recording
     from truck_blowout_sim.report.comparison_page import write_comparison_report
 
     path = find_recording(name)
     if path.suffix.lower() != ".mat":
         raise InputError("--hve", file=path, expected="a .mat with the thesis's variables (vx_h …)")
-    theirs = read(path, mapping=None, blow=(), source="hve")
+    theirs = AS_IT_IS.read(path, source="hve")
     held = compare_recordings(compared.recording, replace(theirs, name=f"{theirs.name} (HVE)"),
                               vehicle=compared.vehicle)  # fmt: skip
     page = write_comparison_report(held, folder)
@@ -146,20 +148,9 @@ def _tell(console: Console, compared: Comparison, page: Path, as_json: bool) -> 
         _print(console, compared, page)
 
 
-def _both(recordings: list[str], mapping: Path | None, blow: list[str], vehicle: Vehicle
-          ) -> tuple[str | Recording, str | Recording]:
-    first, second = (_read(one, mapping, blow, vehicle) for one in recordings)
-    return first, second
-
-
-def _read(name: str, mapping: Path | None, blow: list[str], vehicle: Vehicle) -> str | Recording:
+def _read(name: str, logs: LogOptions, vehicle: Vehicle) -> str | Recording:
     """What to compare with: the name as it is, or the recording where options change it."""
-    from truck_blowout_sim.comparison.sources import find_recording
-
-    if mapping is None and not blow:
-        return name
-    return read(find_recording(name), mapping=mapping, blow=blow, hubs=vehicle.hubs,
-                tires=vehicle.tires)  # fmt: skip
+    return logs.read(name, vehicle) if logs.given else name
 
 
 def _folders(recordings: list[str], output: Path) -> list[Path]:

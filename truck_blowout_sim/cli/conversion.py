@@ -4,16 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
-import typer
-
 from truck_blowout_sim.cli.outputs import say
 from truck_blowout_sim.recordings import Recording
-
-
-def warn(recording: Recording) -> None:
-    """Say on stderr what the reader had to assume or leave out."""
-    for note in recording.notes:
-        typer.echo(f"note: {note}", err=True)
 
 
 def report(recording: Recording, output: Path, as_json: bool) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import time
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
@@ -13,7 +14,7 @@ from rich.progress import BarColumn, Progress, TaskID, TextColumn, TimeElapsedCo
 
 from truck_blowout_sim.cli.failures import interruptible
 from truck_blowout_sim.cli.outputs import FORCE, JSON, claim, say
-from truck_blowout_sim.cli.reading import BLOW, MAP, read
+from truck_blowout_sim.cli.reading import AS_IT_IS, LogOptions, reads_logs, say_notes
 
 if TYPE_CHECKING:
     from truck_blowout_sim.diagnosis import Diagnosis
@@ -51,8 +52,11 @@ THOROUGH: Any = typer.Option(
 )
 
 
+@reads_logs
 def command(
-    recordings: list[Path] = typer.Argument(help="Training recordings: bags, .mcap, .csv or .mat."),
+    recordings: list[Path] = typer.Argument(
+        help="Training recordings: bags, any log with a mapping, or the name of a shipped one."
+    ),
     baseline: list[Path] = typer.Option(
         [], "--baseline", help="Runs of the same truck without the effect."
     ),
@@ -71,8 +75,7 @@ def command(
     quick: bool = QUICK,
     thorough: bool = THOROUGH,
     corrected: Path | None = CORRECTED,
-    mapping: Path | None = MAP,
-    blow: list[str] = BLOW,
+    logs: LogOptions = AS_IT_IS,
     force: bool = FORCE,
     as_json: bool = JSON,
 ) -> None:
@@ -82,12 +85,11 @@ def command(
     from truck_blowout_sim.diagnosis.diagnose import STEP_S
     from truck_blowout_sim.vehicle import load_vehicle
 
-    claim(output, inputs=[*recordings, *baseline, *holdout], force=force, writes=_FILES)
-    if corrected is not None:
-        claim(corrected, inputs=[*recordings, *baseline, *holdout], force=force)
+    _claim(output, corrected, [*recordings, *baseline, *holdout, *logs.files], force)
     loaded = load_vehicle(vehicle)
-    train = _read(recordings, loaded, mapping, blow)
-    base, hold = (_read(paths, loaded, mapping, ()) for paths in (baseline, holdout))
+    train = logs.read_all(recordings, loaded)
+    base, hold = (logs.without_blowouts().read_all(runs, loaded) for runs in (baseline, holdout))
+    say_notes(*train, *base, *hold)
     if not as_json:
         _say_roles(train, base, hold)
     output.mkdir(parents=True, exist_ok=True)
@@ -112,6 +114,13 @@ def command(
         _print(Console(), answer, output)
 
 
+def _claim(output: Path, corrected: Path | None, inputs: Sequence[Path], force: bool) -> None:
+    """Check that the outputs are free, before anything is computed."""
+    claim(output, inputs=inputs, force=force, writes=_FILES)
+    if corrected is not None:
+        claim(corrected, inputs=inputs, force=force)
+
+
 def _write_corrected(answer: Diagnosis, runs: Mapping[str, Sequence[Recording]], folder: Path
                      ) -> None:
     """Every recording without the faults of its instruments, under its own name."""
@@ -122,7 +131,7 @@ def _write_corrected(answer: Diagnosis, runs: Mapping[str, Sequence[Recording]],
         faults = [f for f in answer.evidence.findings if f.in_baseline or role != "baseline"]
         for run in group:
             folder.mkdir(parents=True, exist_ok=True)
-            name = run.name.replace("/", "_").replace(" #", "_")
+            name = re.sub(r"\W+", "_", run.name).strip("_")
             write_recording(correct(run, faults), folder / f"{name}.csv")
 
 
@@ -135,19 +144,6 @@ def _write(answer: Diagnosis, vehicle: Vehicle, base: str, values: Mapping[str, 
     write_diagnosis(answer, folder / "diagnosis.json")
     write_diagnosed_vehicle(folder / "vehicle.yaml", base, values, answer)
     write_diagnosis_report(answer, vehicle, folder / "report.html", panels)
-
-
-def _read(paths: Sequence[Path], vehicle: Vehicle, mapping: Path | None, blow: Sequence[str]
-          ) -> list[Recording]:
-    """Read recordings; the same name twice is told apart by a number."""
-    from dataclasses import replace
-
-    read_so_far: list[Recording] = []
-    for path in paths:
-        one = read(path, mapping=mapping, blow=blow, hubs=vehicle.hubs, tires=vehicle.tires)
-        same = sum(r.name.split(" #")[0] == one.name for r in read_so_far)
-        read_so_far.append(replace(one, name=f"{one.name} #{same + 1}") if same else one)
-    return read_so_far
 
 
 def _say_roles(train: Sequence[Recording], base: Sequence[Recording], hold: Sequence[Recording]

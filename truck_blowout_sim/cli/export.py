@@ -6,25 +6,21 @@ from pathlib import Path
 
 import typer
 
-from truck_blowout_sim.cli.conversion import report, warn
+from truck_blowout_sim.cli.conversion import report
 from truck_blowout_sim.cli.outputs import FORCE, JSON, claim
-from truck_blowout_sim.cli.reading import ALSO, BLOW, MAP, read
+from truck_blowout_sim.cli.reading import AS_IT_IS, LogOptions, reads_logs, say_notes
 from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.recordings import write_recording
 from truck_blowout_sim.recordings.mat_thesis import THESIS_CHANNELS
 
 
+@reads_logs
 def command(
     bag: Path = typer.Argument(help="rosbag2 folder or .mcap file, finished or not."),
     output: Path = typer.Option(
         ..., "-o", "--output", help="File to write: .csv; .mat and .mcap work too."
     ),
-    mapping: Path | None = MAP,
-    blow: list[str] = BLOW,
-    also: list[Path] = ALSO,
-    namespace: str | None = typer.Option(
-        None, help="Prefix of the truck's topics; /truck, or found by itself."
-    ),
+    logs: LogOptions = AS_IT_IS,
     thesis_variables: bool = typer.Option(
         False, "--thesis-variables", help="Of a .mat: only the variables of the thesis's script "
         "(time_e, vx_e, …: mph, deg/s, ft, SAE axes), not every channel."
@@ -33,10 +29,9 @@ def command(
     as_json: bool = JSON,
 ) -> None:
     """Convert a bag to CSV: one row per instant, gauge pressures, empty where not measured."""
-    given = [bag, *also, *([mapping] if mapping else [])]
-    claim(output, inputs=given, force=force)
-    recording = read(bag, mapping=mapping, blow=blow, also=also, namespace=namespace)
-    warn(recording)
+    claim(output, inputs=[bag, *logs.files], force=force)
+    recording = logs.read(bag)
+    say_notes(recording)
     if thesis_variables:
         _check_thesis(output)
         left_out = len(recording.channels) - len(THESIS_CHANNELS & set(recording.channels))

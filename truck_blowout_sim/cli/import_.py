@@ -6,12 +6,13 @@ from pathlib import Path
 
 import typer
 
-from truck_blowout_sim.cli.conversion import report, warn
+from truck_blowout_sim.cli.conversion import report
 from truck_blowout_sim.cli.outputs import FORCE, JSON, claim
-from truck_blowout_sim.cli.reading import ALSO, BLOW, MAP, read
+from truck_blowout_sim.cli.reading import AS_IT_IS, LogOptions, reads_logs, say_notes
 from truck_blowout_sim.recordings import write_recording
 
 
+@reads_logs
 def command(
     log: Path = typer.Argument(
         help="Any log: bag, .mcap, .db3, .bag, CSV or text of any logger, .vbo, .mat, MDF."
@@ -19,23 +20,16 @@ def command(
     output: Path = typer.Option(
         ..., "-o", "--output", help="Bag to write: a folder, or a bare file ending in .mcap."
     ),
-    mapping: Path | None = MAP,
-    blow: list[str] = BLOW,
-    also: list[Path] = ALSO,
+    logs: LogOptions = AS_IT_IS,
     source: str = typer.Option(
         "experiment", help="Of a .mat with the thesis's variables: experiment (_e) or hve (_h)."
-    ),
-    namespace: str | None = typer.Option(
-        None, help="Prefix of the truck's topics in a bag; /truck, or found by itself."
     ),
     force: bool = FORCE,
     as_json: bool = JSON,
 ) -> None:
     """Convert a log of any logger to a bag: SI units, ISO axes, absolute pressures."""
-    given = [log, *also, *([mapping] if mapping else [])]
-    claim(output, inputs=given, force=force)
-    recording = read(log, mapping=mapping, blow=blow, also=also, source=source,
-                     namespace=namespace)  # fmt: skip
-    warn(recording)
+    claim(output, inputs=[log, *logs.files], force=force)
+    recording = logs.read(log, source=source)
+    say_notes(recording)
     write_recording(recording, output)
     report(recording, output, as_json)

@@ -13,24 +13,23 @@ from rich.console import Console
 from rich.table import Table
 
 from truck_blowout_sim.cli.outputs import FORCE, JSON, claim, say
-from truck_blowout_sim.cli.reading import ALSO, MAP
+from truck_blowout_sim.cli.reading import AS_IT_IS, LogOptions, reads_logs
+from truck_blowout_sim.recordings import Recording
+from truck_blowout_sim.recordings.shipped import find_recording
 
 if TYPE_CHECKING:
     from truck_blowout_sim.recordings.mapping.inventory import Inventory, Line
 
 
+@reads_logs
 def command(
     log: Path = typer.Argument(
         help="Any log: bag, .mcap, .db3, .bag, CSV or text of any logger, .vbo, .mat, MDF."
     ),
-    mapping: Path | None = MAP,
-    also: list[Path] = ALSO,
+    logs: LogOptions = AS_IT_IS,
     write_map: Path | None = typer.Option(
         None, "--write-map", metavar="FILE", help="Write a first mapping file; every guess in "
         "it is marked."
-    ),
-    namespace: str | None = typer.Option(
-        None, help="Prefix of the truck's topics in a bag; /truck, or found by itself."
     ),
     force: bool = FORCE,
     as_json: bool = JSON,
@@ -40,10 +39,11 @@ def command(
     from truck_blowout_sim.recordings.mapping.writing import mapping_text
 
     if write_map is not None:
-        claim(write_map, force=force, inputs=[log, *also])
-    found = inspect_log(log, mapping=mapping, namespace=namespace, also=also)
-    if mapping is not None:
-        _check(log, mapping, also, namespace)
+        claim(write_map, force=force, inputs=[log, *logs.files])
+    found = inspect_log(find_recording(log), mapping=logs.mapping, namespace=logs.namespace,
+                        also=logs.also)  # fmt: skip
+    if logs.mapping is not None or logs.blow:
+        found = _checked(found, logs.read(log))
     if write_map is not None:
         _write(write_map, mapping_text(found))
     if as_json:
@@ -56,11 +56,11 @@ def command(
                    f"truck-blowout compare {log} --map {write_map}")  # fmt: skip
 
 
-def _check(log: Path, mapping: Path, also: list[Path], namespace: str | None) -> None:
-    """Apply the mapping, so that what is wrong in it is said here."""
-    from truck_blowout_sim.recordings import read_recording
-
-    read_recording(log, mapping=mapping, also=also, namespace=namespace)
+def _checked(found: Inventory, read: Recording) -> Inventory:
+    """With what the mapping and `--blow` made of the log; what is wrong in them was said."""
+    blowouts = tuple((b.time_s, "+".join(b.tires)) for b in read.blowouts)
+    return dataclasses.replace(found, blowouts=blowouts,
+                               notes=tuple(dict.fromkeys((*found.notes, *read.notes))))  # fmt: skip
 
 
 def _write(path: Path, text: str) -> None:

@@ -13,8 +13,7 @@ from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn
 
 from truck_blowout_sim.cli.outputs import FORCE, JSON, claim, say
-from truck_blowout_sim.cli.reading import MAP
-from truck_blowout_sim.cli.shown_runs import read_runs
+from truck_blowout_sim.cli.reading import AS_IT_IS, LogOptions, reads_logs, say_notes
 from truck_blowout_sim.comparison.units import AXES, SYSTEMS
 from truck_blowout_sim.errors import InputError, nearest, quoted
 from truck_blowout_sim.recordings import Recording
@@ -30,6 +29,7 @@ _FIRST = (
 )  # fmt: skip
 
 
+@reads_logs
 def command(
     runs: list[str] = typer.Argument(
         None, help="Bags, .mcap, .csv or .mat files, or the name of a shipped recording; overlaid."
@@ -50,7 +50,7 @@ def command(
     end_s: float | None = typer.Option(None, "--end", help="End, s on the run's clock."),
     dark: bool = typer.Option(False, "--dark", help="Light lines on dark paper."),
     listed: bool = typer.Option(False, "--list", help="List the channels of the runs and end."),
-    mapping: Path | None = MAP,
+    logs: LogOptions = AS_IT_IS,
     force: bool = FORCE,
     as_json: bool = JSON,
 ) -> None:
@@ -70,7 +70,8 @@ def command(
         return
     if not runs:
         raise InputError("no run given", expected="a run, or --thesis")
-    recordings = read_runs(runs, mapping)
+    recordings = logs.read_all(runs)
+    say_notes(*recordings)
     if listed:
         _list(recordings, as_json)
         return
@@ -79,7 +80,8 @@ def command(
     panels = _panels(channels, recordings)
     if over != "time_s":
         _known(over, recordings)
-    target = claim(output, force=force, inputs=runs, writes=[f"plot.{form}" for form in forms])
+    target = claim(output, force=force, inputs=[*runs, *logs.files],
+                   writes=[f"plot.{form}" for form in forms])
     request = PlotRequest(panels, over, units, axes, start_s, end_s)
     picture = channel_plot(recordings, request, "plot")
     _say_paths(as_json, save_pictures([picture], target, forms, dark))

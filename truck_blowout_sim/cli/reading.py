@@ -1,44 +1,182 @@
-"""Options of every verb that reads a recording: ``--map``, ``--blow``, ``--also``."""
+"""Options of every verb that reads a recording: `--map`, `--blow`, `--also`, `--namespace`.
+
+A verb is decorated with `reads_logs`, takes ``logs: LogOptions`` among its parameters, and reads
+through it; the four options then stand in its help.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+import functools
+import inspect
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from os import PathLike
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any, get_type_hints
 
 import typer
 
-from truck_blowout_sim.cli.settings import parse_blowouts
-from truck_blowout_sim.recordings import Blowout, Recording, read_recording
+from truck_blowout_sim.errors import InputError
+from truck_blowout_sim.recordings import Recording, read_recording
+from truck_blowout_sim.recordings.blowout_words import parse_blowouts
+from truck_blowout_sim.recordings.mapping.finish import with_blowouts
+from truck_blowout_sim.recordings.shipped import find_recording
 
-MAP: Any = typer.Option(
-    None, "--map", "-m", metavar="FILE", help="Mapping file: which column or topic becomes "
-    "which channel (`inspect LOG --write-map FILE` writes a first one)."
-)  # fmt: skip
-BLOW: Any = typer.Option(
-    [], "--blow", metavar="TIRE@SECONDS", help="A blowout that the log does not mark, on the "
-    "recording's clock, e.g. steer_left@4.92; repeat for more."
-)  # fmt: skip
-ALSO: Any = typer.Option(
-    [], "--also", metavar="FILE", help="A further file of the same test; repeat for more."
-)
+if TYPE_CHECKING:
+    from truck_blowout_sim.vehicle import Vehicle
+
+_OPTIONS: dict[str, tuple[Any, Any]] = {
+    "mapping": (Path | None, typer.Option(
+        None, "--map", "-m", metavar="FILE", help="Mapping file: which column or topic becomes"
+        " which channel (`inspect LOG --write-map FILE` writes a first one).")),
+    "blow": (list[str], typer.Option(
+        [], "--blow", metavar="TIRE@SECONDS", help="A blowout that the log does not mark, on the"
+        " recording's clock, e.g. steer_left@4.92; repeat for more.")),
+    "also": (list[Path], typer.Option(
+        [], "--also", metavar="FILE", help="A further file of the same test; repeat for more.")),
+    "namespace": (str | None, typer.Option(
+        None, help="Prefix of the truck's topics in a bag; /truck, or found by itself.")),
+}  # fmt: skip
 
 
-def read(
-    path: str | Path,
-    *,
-    mapping: Path | None,
-    blow: Sequence[str],
-    also: Iterable[Path] = (),
-    hubs: Iterable[str] = (),
-    tires: Iterable[str] = (),
-    **how: Any,  # noqa: ANN401 -- handed on as it is
-) -> Recording:
-    """Read a recording as the options say; arguments beyond them as in `read_recording`.
+@dataclass(frozen=True)
+class LogOptions:
+    """What the user said about how a log is to be read.
 
-    Raises:
-        InputError: one line: file, place, value, expectation.
+    Attributes:
+        mapping: mapping file.
+        blow: ``TIRE@SECONDS`` words.
+        also: further files of the same test.
+        namespace: prefix of the truck's topics in a bag.
     """
-    events: list[Blowout] = parse_blowouts(blow)
-    return read_recording(path, mapping=mapping, blow=events, also=also, hubs=hubs, tires=tires,
-                          **how)  # fmt: skip
+
+    mapping: Path | None = None
+    blow: tuple[str, ...] = ()
+    also: tuple[Path, ...] = ()
+    namespace: str | None = None
+
+    @property
+    def given(self) -> bool:
+        """Whether anything was said."""
+        return self != AS_IT_IS
+
+    @property
+    def files(self) -> list[Path]:
+        """Files that are read besides the recordings themselves."""
+        return [*self.also, *([self.mapping] if self.mapping else [])]
+
+    def without_blowouts(self) -> LogOptions:
+        """For runs of another kind than those of which ``--blow`` and ``--also`` speak."""
+        return replace(self, blow=(), also=())
+
+    def read(
+        self, name: str | PathLike[str], vehicle: Vehicle | None = None, *,
+        source: str = "experiment",
+    ) -> Recording:
+        """A recording by path or shipped name.
+
+        Args:
+            name: path, or name of a shipped recording.
+            vehicle: knows the names of tires and hubs; None: the default truck's.
+            source: which of the thesis's variables of a ``.mat``.
+
+        Raises:
+            InputError: one line: file, place, value, expectation.
+        """
+        return read_recording(
+            find_recording(name), mapping=self.mapping, blow=parse_blowouts(self.blow),
+            also=self.also, namespace=self.namespace, source=source, **_parts_of(vehicle),
+        )  # fmt: skip
+
+    def read_all(
+        self, names: Sequence[str | PathLike[str]], vehicle: Vehicle | None = None
+    ) -> list[Recording]:
+        """Several recordings, each under a name of its own.
+
+        Where there are several, the mapping applies to those that it fits: one that names its
+        channels as the table does, as a bag of the simulator, is read without, and a note says
+        so. Blowouts apply to the recordings that mark none.
+
+        Raises:
+            InputError: one cannot be read; or ``--also``, which is of one test, and several.
+        """
+        if self.also and len(names) > 1:
+            raise InputError(f"--also with {len(names)} recordings",
+                             expected="one recording; or a mapping file with `also`")  # fmt: skip
+        if len(names) == 1:
+            return [self.read(names[0], vehicle)]
+        return _apart([self._read_one_of_several(name, vehicle) for name in names], names)
+
+    def _read_one_of_several(self, name: str | PathLike[str], vehicle: Vehicle | None) -> Recording:
+        plain = replace(self, blow=())
+        try:
+            read = plain.read(name, vehicle)
+        except InputError:
+            if self.mapping is None:
+                raise
+            try:
+                read = replace(plain, mapping=None).read(name, vehicle)
+            except InputError:
+                pass
+            else:
+                note = f"read under its own names: {self.mapping} does not fit"
+                return self._marked(replace(read, notes=(*read.notes, note)), vehicle)
+            raise
+        return self._marked(read, vehicle)
+
+    def _marked(self, recording: Recording, vehicle: Vehicle | None) -> Recording:
+        if recording.blowouts or not self.blow:
+            return recording
+        return with_blowouts(recording, parse_blowouts(self.blow), **_parts_of(vehicle))
+
+
+AS_IT_IS = LogOptions()
+"""Nothing was said: the default of a verb's ``logs``."""
+
+
+def reads_logs(command: Callable[..., None]) -> Callable[..., None]:
+    """Add the options to a verb; it gets them as one ``logs: LogOptions``."""
+    signature = inspect.signature(command)
+    hints = get_type_hints(command)
+
+    @functools.wraps(command)
+    def wrapped(**values: Any) -> None:  # noqa: ANN401 -- typer has checked them
+        said = {name: values.pop(name) for name in _OPTIONS}
+        logs = LogOptions(said["mapping"], tuple(said["blow"]), tuple(said["also"]),
+                          said["namespace"])  # fmt: skip
+        command(**values, logs=logs)
+
+    parameters: list[inspect.Parameter] = []
+    for parameter in signature.parameters.values():
+        if parameter.name == "logs":
+            parameters += [_parameter(name) for name in _OPTIONS]
+        else:
+            parameters.append(parameter.replace(annotation=hints[parameter.name]))
+    wrapped.__signature__ = signature.replace(parameters=parameters)  # type: ignore[attr-defined]
+    wrapped.__annotations__ = {p.name: p.annotation for p in parameters}
+    return wrapped
+
+
+def say_notes(*recordings: Recording) -> None:
+    """Say on stderr what the reader had to assume or leave out."""
+    for recording in recordings:
+        name = f"{recording.name}: " if len(recordings) > 1 else ""
+        for note in recording.notes:
+            typer.echo(f"note: {name}{note}", err=True)
+
+
+def _parameter(name: str) -> inspect.Parameter:
+    annotation, option = _OPTIONS[name]
+    return inspect.Parameter(name, inspect.Parameter.POSITIONAL_OR_KEYWORD, default=option,
+                             annotation=annotation)  # fmt: skip
+
+
+def _parts_of(vehicle: Vehicle | None) -> dict[str, Any]:
+    return {"hubs": vehicle.hubs, "tires": vehicle.tires} if vehicle else {}
+
+
+def _apart(runs: Sequence[Recording], names: Sequence[str | PathLike[str]]) -> list[Recording]:
+    """Recordings of one name told apart by their paths."""
+    count = [sum(run.name == other.name for other in runs) for run in runs]
+    return [run if alone == 1 else replace(run, name=f"{run.name} ({name})")
+            for run, alone, name in zip(runs, count, names, strict=True)]  # fmt: skip

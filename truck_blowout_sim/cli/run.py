@@ -14,11 +14,12 @@ from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 
 from truck_blowout_sim.cli.listing import list_option, names_of
 from truck_blowout_sim.cli.outputs import FORCE, JSON, YES, ask_about, claim, say
-from truck_blowout_sim.cli.settings import parse_blowouts, set_values
+from truck_blowout_sim.cli.settings import set_values
 from truck_blowout_sim.display.scene import beside
 from truck_blowout_sim.errors import InputError, quoted
 from truck_blowout_sim.recordings import INPUT_NAMES, Recording, write_recording
 from truck_blowout_sim.recordings.bag_export import Extra
+from truck_blowout_sim.recordings.blowout_words import parse_blowouts
 from truck_blowout_sim.simulation.drive import Drive, Ran, execute
 from truck_blowout_sim.simulation.drive import names_of as output_names_of
 from truck_blowout_sim.simulation.measures import measure
@@ -68,7 +69,7 @@ def command(
         raise InputError(f"--format {quoted(form)}", expected="bag or csv")
     loaded = load_scenario(scenario)
     if blow:
-        loaded = loaded.with_blowouts(parse_blowouts(blow))
+        loaded = loaded.with_blowouts(parse_blowouts([] if blow == ["none"] else blow))
     truck = set_values(pack(load_vehicle(vehicle)), values)
     target = output or Path(loaded.name)
     if form == "csv" and target.suffix != ".csv":

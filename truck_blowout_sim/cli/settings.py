@@ -1,12 +1,10 @@
-"""Words of the command line that change a run: `NAME=VALUE`, `TIRE@SECONDS`."""
+"""Words of the command line that change a vehicle: `NAME=VALUE`."""
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 
 from truck_blowout_sim.errors import InputError, quoted
-from truck_blowout_sim.recordings import Blowout
 from truck_blowout_sim.vehicle import Packed
 from truck_blowout_sim.vehicle.document import Place
 from truck_blowout_sim.vehicle.packing.bounds import number_of
@@ -32,30 +30,3 @@ def set_values(truck: Packed, words: Sequence[str]) -> Packed:
             raise InputError(f"--set {quoted(word)}: {error.problem}", expected=error.expected
                              ) from None
     return truck
-
-
-def parse_blowouts(words: Sequence[str]) -> list[Blowout]:
-    """``TIRE@SECONDS`` words as blowouts; the word ``none`` alone as no blowout.
-
-    Raises:
-        InputError: a word of another form.
-    """
-    if list(words) == ["none"]:
-        return []
-    events = []
-    for word in words:
-        tires, sign, text = word.partition("@")
-        if not (tires and sign):
-            raise InputError(f"--blow {quoted(word)}", expected="TIRE@SECONDS, or none")
-        events.append(Blowout(_number(text, f"--blow {quoted(word)}"), tuple(tires.split("+"))))
-    return events
-
-
-def _number(text: str, where: str) -> float:
-    try:
-        value = float(text)
-    except ValueError:
-        raise InputError(f"{where}: {quoted(text)} is not a number") from None
-    if not math.isfinite(value):
-        raise InputError(f"{where}: {quoted(text)} is not finite", expected="a finite number")
-    return value

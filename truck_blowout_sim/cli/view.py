@@ -12,9 +12,9 @@ import typer
 from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 
+from truck_blowout_sim.cli.drawn_vehicle import vehicle_of
 from truck_blowout_sim.cli.outputs import FORCE, JSON, claim, say
-from truck_blowout_sim.cli.reading import MAP
-from truck_blowout_sim.cli.shown_runs import read_runs, vehicle_of
+from truck_blowout_sim.cli.reading import AS_IT_IS, LogOptions, reads_logs, say_notes
 from truck_blowout_sim.errors import InputError, nearest, quoted
 from truck_blowout_sim.recordings import Recording
 
@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 _VIEWS = ("chase", "front left", "front right", "side", "top", "driver")
 
 
+@reads_logs
 def command(
     runs: list[str] = typer.Argument(
         help="Bags, .mcap, .csv or .mat files, or the name of a shipped recording. The first run"
@@ -45,7 +46,7 @@ def command(
                                 help="Seconds of the run per second of the film."),
     dark: bool = typer.Option(False, "--dark", help="Film in dark colors."),
     open_page: bool = typer.Option(False, "--open", help="Open the page in the browser."),
-    mapping: Path | None = MAP,
+    logs: LogOptions = AS_IT_IS,
     force: bool = FORCE,
     as_json: bool = JSON,
 ) -> None:
@@ -56,13 +57,15 @@ def command(
     from truck_blowout_sim.report.viewer import write_viewer
 
     _check_view(camera)
-    recordings = read_runs(runs, mapping)
+    inputs: list[str | Path] = [*runs, *logs.files]
     target = claim(output or Path(f"{Path(runs[0].rstrip('/')).stem}.html"), force=force,
-                   inputs=runs)
+                   inputs=inputs)
     if video is not None:
         if video.suffix != ".mp4":
             raise InputError(f"--video {quoted(str(video))}", expected="a name that ends in .mp4")
-        claim(video, force=force, inputs=runs)
+        claim(video, force=force, inputs=inputs)
+    recordings = logs.read_all(runs)
+    say_notes(*recordings)
     shown = [_shown(recording, vehicle) for recording in recordings]
     write_viewer(shown, target)
     result = {

@@ -21,10 +21,10 @@ from truck_blowout_sim.comparison.noise import channel_sigmas
 from truck_blowout_sim.comparison.pairing import Pair, gravity_is_removed, pairs_of
 from truck_blowout_sim.comparison.provenance import Marks, marks_of
 from truck_blowout_sim.comparison.resets import longest_run
-from truck_blowout_sim.comparison.sources import find_recording
 from truck_blowout_sim.comparison.words import labels_for
 from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.recordings import Recording, read_recording
+from truck_blowout_sim.recordings.shipped import find_recording
 from truck_blowout_sim.simulation.drive import execute
 from truck_blowout_sim.simulation.plausible import implausible
 from truck_blowout_sim.simulation.replay import as_recording, drive_from

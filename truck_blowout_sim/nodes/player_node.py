@@ -28,8 +28,10 @@ from truck_blowout_sim.nodes.publishing import make_publishers
 from truck_blowout_sim.nodes.signals import StopFlag
 from truck_blowout_sim.nodes.simulator_client import SimulatorClient
 from truck_blowout_sim.nodes.stage import Stage
+from truck_blowout_sim.recordings.blowout_words import parse_blowouts
 from truck_blowout_sim.recordings.cdr import template
 from truck_blowout_sim.recordings.channels import BLOWOUT_EVENT, STRING, channels_for
+from truck_blowout_sim.recordings.shipped import find_recording
 
 ABOUT = "Plays a recording onto the simulator's command topics and blows its tires on time."
 
@@ -55,8 +57,10 @@ class Player:
             raise InputError("remap and map are both given", file="parameter", where="remap",
                              expected="the mapping file alone; it names topics, too")  # fmt: skip
         recording = read_recording(
-            values["recording"], remap=remap or None, mapping=values["map"] or None
-        )
+            find_recording(values["recording"]), remap=remap or None,
+            mapping=values["map"] or None, also=filter(None, values["also"]),
+            blow=parse_blowouts([word for word in values["blow"].split(",") if word.strip()]),
+        )  # fmt: skip
         self.playlist = Playlist(recording)
         self.start_s = recording.start_s + values["start_offset"]
         length_s = values["playback_duration"]

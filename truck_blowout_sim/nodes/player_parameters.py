@@ -6,10 +6,13 @@ from truck_blowout_sim.errors import InputError, quoted
 from truck_blowout_sim.nodes.parameters import Spec
 
 SPECS: tuple[Spec, ...] = (
-    Spec("recording", "", "Recording to play: rosbag2 folder, .mcap, .csv, .mat, or any log with a"
-         " mapping file."),
+    Spec("recording", "", "Recording to play: rosbag2 folder, .mcap, .csv, .mat, any log with a"
+         " mapping file, or the name of a shipped recording."),
     Spec("map", "", "Mapping file: what in a foreign log becomes which channel"
          " (docs/bring_your_own_log.md)."),
+    Spec("blow", "", "Blowouts that the recording does not mark, on its clock: `TIRE@SECONDS`,"
+         " several joined by commas."),
+    Spec("also", [""], "Further files of the same test."),
     Spec("rate", 1.0, "Recorded seconds a second; of simulated time under `use_sim_time`, else of"
          " wall time.", "", 0.01, 1000),
     Spec("loop", False, "Begin again at the end."),

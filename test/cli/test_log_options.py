@@ -1,0 +1,103 @@
+"""Every verb that reads logs reads them alike: by name, with a mapping, with blowouts, in parts."""
+
+from __future__ import annotations
+
+import inspect
+import json
+from collections.abc import Callable
+from importlib import import_module
+from pathlib import Path
+
+import pytest
+
+from truck_blowout_sim.cli.main import VERBS, main
+from truck_blowout_sim.cli.reading import LogOptions
+from truck_blowout_sim.errors import InputError
+
+SHIPPED = "test_2013_steer_blowout"
+READING = ("inspect", "import", "export", "compare", "diagnose", "calibrate", "plot", "view")
+
+MAP = """\
+channels:
+  steering_wheel_angle_rad: {from: Wheel, unit: deg}
+  tractor_vx_mps: {from: Speed, unit: km/h}
+"""
+
+
+@pytest.fixture
+def log(tmp_path: Path) -> Path:
+    """Somebody else's log of a second, without a blowout."""
+    rows = "\n".join(f"{0.01 * i:.2f},{i / 10:.1f},72.0" for i in range(100))
+    path = tmp_path / "theirs.csv"
+    path.write_text(f"Time,Wheel,Speed\n{rows}\n")
+    (tmp_path / "map.yaml").write_text(MAP)
+    return path
+
+
+def options(log: Path, *blow: str) -> LogOptions:
+    return LogOptions(mapping=log.parent / "map.yaml", blow=blow)
+
+
+@pytest.mark.parametrize("verb", READING)
+def test_verbs_that_read_logs_take_the_same_options(verb: str) -> None:
+    command = import_module(f"truck_blowout_sim.cli.{VERBS[verb][0]}").command
+    assert {"mapping", "blow", "also", "namespace"} <= set(inspect.signature(command).parameters)
+
+
+def test_a_blowout_is_marked_where_it_is_seen(log: Path, tmp_path: Path,
+                                              capsys: pytest.CaptureFixture[str]) -> None:
+    page, words = tmp_path / "seen.html", [str(log), "-m", str(tmp_path / "map.yaml")]
+    assert main(["view", *words, "--blow", "steer_left@0.4", "-o", str(page)]) == 0
+    assert main(["inspect", *words, "--blow", "steer_left@0.4"]) == 0
+    assert "blowout of steer_left at 0.4 s" in capsys.readouterr().out
+    assert "steer_left" in page.read_text()
+    assert main(["plot", *words, "--blow", "steer_left@7", "-o", str(tmp_path)]) == 2
+    assert "expected an instant of theirs, 0 s to 0.99 s" in capsys.readouterr().err
+
+
+def test_a_shipped_recording_is_found_by_name(tmp_path: Path,
+                                              capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["export", SHIPPED, "-o", str(tmp_path / "test.csv"), "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)["blowouts"][0]["tires"] == ["steer_left"]
+    assert main(["inspect", f"{SHIPPED}s"]) == 2
+    assert SHIPPED in capsys.readouterr().err
+
+
+def test_a_mapping_applies_to_the_runs_that_it_fits(log: Path) -> None:
+    ours, theirs = options(log).read_all([SHIPPED, log])
+    assert "read under its own names" in ours.notes[-1]
+    assert theirs["tractor_vx_mps"].value[0] == pytest.approx(20.0)
+
+
+def test_a_mapping_that_fits_no_run_is_an_error(log: Path) -> None:
+    with pytest.raises(InputError, match="no column 'Wheel'"):
+        options(log).read_all([SHIPPED])
+    log.write_text(log.read_text().replace("Wheel", "Wheels"))
+    with pytest.raises(InputError, match="no column 'Wheel'"):
+        options(log).read_all([SHIPPED, log])
+
+
+def test_of_several_runs_those_are_marked_that_mark_nothing(log: Path) -> None:
+    ours, theirs = options(log, "steer_right@0.5").read_all([SHIPPED, log])
+    assert [b.tires for b in ours.blowouts] == [("steer_left",)]
+    assert [(b.tires, b.time_s) for b in theirs.blowouts] == [(("steer_right",), 0.5)]
+
+
+def test_of_one_run_the_named_tire_is_moved() -> None:
+    (ours,) = LogOptions(blow=("steer_left@1.5",)).read_all([SHIPPED])
+    assert [(b.tires, b.time_s) for b in ours.blowouts] == [(("steer_left",), 1.5)]
+
+
+def test_runs_of_one_name_are_told_apart() -> None:
+    assert len({run.name for run in LogOptions().read_all([SHIPPED, SHIPPED + ".csv"])}) == 2
+
+
+@pytest.mark.parametrize(("read", "said"), [
+    (lambda log: LogOptions(also=(log,)).read_all([log, log]), "--also with 2 recordings"),
+    (lambda log: options(log, "none").read(log), "--blow 'none'"),
+    (lambda log: options(log, "steer_left@soon").read(log), "'soon' is not a number"),
+    (lambda log: options(log, "steer_lift@0.1").read(log), "steer_left .the nearest"),
+])  # fmt: skip
+def test_what_cannot_be_is_one_line(read: Callable[[Path], object], said: str, log: Path) -> None:
+    with pytest.raises(InputError, match=said):
+        read(log)

@@ -1,0 +1,34 @@
+"""Blowouts as a person writes them: `TIRE@SECONDS`."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+from truck_blowout_sim.errors import InputError, quoted
+from truck_blowout_sim.recordings.recording import Blowout
+
+
+def parse_blowouts(words: Sequence[str]) -> list[Blowout]:
+    """``TIRE@SECONDS`` words as blowouts; tires that burst together are joined by ``+``.
+
+    Raises:
+        InputError: a word of another form.
+    """
+    events = []
+    for word in words:
+        tires, sign, text = word.partition("@")
+        if not (tires and sign):
+            raise InputError(f"--blow {quoted(word)}", expected="TIRE@SECONDS")
+        events.append(Blowout(_number(text, f"--blow {quoted(word)}"), tuple(tires.split("+"))))
+    return events
+
+
+def _number(text: str, where: str) -> float:
+    try:
+        value = float(text)
+    except ValueError:
+        raise InputError(f"{where}: {quoted(text)} is not a number") from None
+    if not math.isfinite(value):
+        raise InputError(f"{where}: {quoted(text)} is not finite", expected="a finite number")
+    return value
