@@ -36,14 +36,16 @@ DOOR, TELL, ASK, TIME, TRUCK, DATA = (
 )  # fmt: skip
 
 HOUSE = (
-    Room(1.2, 9.45, 3.9, 1.1, "cli", "the terminal: one verb, one file", DOOR),
-    Room(5.3, 9.45, 3.9, 1.1, "nodes", "ROS 2: simulator, player", DOOR),
-    Room(1.2, 8.15, 8.0, 1.1, "proof", "the diagnosis on trial: sealed cases, scores", ASK),
-    Room(1.2, 6.85, 8.0, 1.1, "report", "figures and pages, from finished results", TELL),
-    Room(1.2, 5.55, 8.0, 1.1, "diagnosis", "what the model lacks: locate, name, fit", ASK),
-    Room(1.2, 4.25, 8.0, 1.1, "comparison", "model against recording: errors, ratings", TIME),
-    Room(1.2, 2.95, 5.3, 1.1, "simulation", "time: a truck to step, scenarios, drivers", TIME),
-    Room(6.7, 2.95, 2.5, 1.1, "motion", "where its parts were", TIME),
+    Room(1.2, 10.75, 3.0, 1.1, "cli", "the terminal", DOOR),
+    Room(4.4, 10.75, 2.5, 1.1, "nodes", "ROS 2", DOOR),
+    Room(7.1, 10.75, 2.1, 1.1, "fmu", "FMI 3.0", DOOR),
+    Room(1.2, 9.45, 8.0, 1.1, "proof", "tests the diagnosis on sealed cases", ASK),
+    Room(1.2, 8.15, 8.0, 1.1, "report", "figures and pages of finished results", TELL),
+    Room(1.2, 6.85, 8.0, 1.1, "diagnosis", "what the model lacks: locate, name, fit", ASK),
+    Room(1.2, 5.55, 8.0, 1.1, "comparison", "model against recording: errors, ratings", TIME),
+    Room(1.2, 4.25, 3.9, 1.1, "simulation", "a truck to step, scenarios, drivers", TIME),
+    Room(5.3, 4.25, 3.9, 1.1, "motion", "pose of every part over time", TIME),
+    Room(1.2, 2.95, 8.0, 1.1, "display", "frames, robot description, arrows of forces", TIME),
     Room(1.2, 1.65, 3.9, 1.1, "vehicle", "what a truck is: YAML with units", TRUCK),
     Room(1.2, 0.35, 3.9, 1.1, "physics", "what a truck does: one compiled step", TRUCK),
     Room(5.3, 0.35, 3.9, 2.4, "recordings", "what was measured:\nchannels, bags, CSV, .mat", DATA),
@@ -61,11 +63,11 @@ ANNEX = Room(
 
 def main() -> None:
     """Draw the picture into docs/."""
-    figure = plt.figure(figsize=(11.5, 9.5))
+    figure = plt.figure(figsize=(11.5, 10.4))
     axes = figure.add_axes((0, 0, 1, 1))
-    axes.set(xlim=(0, 14.3), ylim=(-1.55, 11.9))
+    axes.set(xlim=(0, 14.3), ylim=(-1.55, 13.2))
     axes.axis("off")
-    axes.add_patch(Polygon([(0.9, 10.7), (5.2, 11.75), (9.5, 10.7)], color="#8d6e5a"))
+    axes.add_patch(Polygon([(0.9, 12.0), (5.2, 13.05), (9.5, 12.0)], color="#8d6e5a"))
     for room in (*HOUSE, ANNEX):
         draw_room(axes, room)
     draw_rule(axes)
@@ -91,9 +93,9 @@ def draw_room(axes: Axes, room: Room) -> None:
 
 def draw_rule(axes: Axes) -> None:
     """Draw the arrow down the left side: the one rule of the house."""
-    arrow(axes, (0.65, 10.5), (0.65, 0.35))
+    arrow(axes, (0.65, 11.8), (0.65, 0.35))
     axes.text(
-        0.35, 5.4, "imports go down only", rotation=90, ha="center", va="center", size=11, color=INK
+        0.35, 6.0, "imports go down only", rotation=90, ha="center", va="center", size=11, color=INK
     )
 
 
@@ -103,7 +105,7 @@ def draw_wall(axes: Axes) -> None:
     axes.text(10.1, 6.1, "No import crosses this wall.", size=10, color="#b03a2e", va="center")
     axes.text(
         10.1, 5.1,
-        "Only recordings do: the diagnosis\nmust find what was concealed\nfrom them alone.",
+        "Only recordings cross it: the diagnosis\nfinds the concealed effect from\nthem alone.",
         size=10, color=INK, va="center",
     )  # fmt: skip
     arrow(axes, (10.6, 1.2), (9.25, 1.2))
@@ -112,7 +114,7 @@ def draw_wall(axes: Axes) -> None:
 def draw_run(axes: Axes) -> None:
     """Write the path of one run's data below the house."""
     stations = "YAML", "Vehicle", "parameters", "step × n", "Recording", "bag · comparison · page"
-    axes.text(1.2, -0.35, "One run, as its data see it:", size=10, color=INK, va="center")
+    axes.text(1.2, -0.35, "The data of one run:", size=10, color=INK, va="center")
     x = 1.2
     for station in stations:
         width = 0.5 + 0.125 * len(station)

@@ -87,6 +87,31 @@ def test_playing_moves_time_and_the_camera_goes_along(browser: Browser) -> None:
     assert abs(moved) < 1.0
 
 
+FRAMES_ASKED_FOR = """new Promise(done => {
+  const ask = window.requestAnimationFrame; let count = 0;
+  window.requestAnimationFrame = f => { count += 1; return ask(f); };
+  %s;
+  setTimeout(() => { window.requestAnimationFrame = ask; done(count); }, 400);
+})"""
+
+
+def test_a_paused_page_asks_for_no_frames(browser: Browser) -> None:
+    browser.evaluate("app.play(false), app.seek(1) || true")
+    browser.wait_for("!app.due")
+    assert browser.evaluate(FRAMES_ASKED_FOR % "") == 0
+    # the camera follows in the first frame, which asks for at most one more
+    assert 1 <= browser.evaluate(FRAMES_ASKED_FOR % "app.seek(1.5)") <= 2
+    assert browser.evaluate(FRAMES_ASKED_FOR % "app.seek(0), app.play(true)") > 2
+    browser.evaluate("app.play(false) || true")
+
+
+def test_a_paused_page_draws_while_the_camera_moves(browser: Browser) -> None:
+    browser.wait_for("!app.due")
+    wheel = "document.getElementById('scene').dispatchEvent(new WheelEvent('wheel', {deltaY: 200}))"
+    assert browser.evaluate(FRAMES_ASKED_FOR % wheel) >= 1
+    browser.wait_for("!app.due")
+
+
 def test_plots_read_the_channel_at_the_cursor_in_the_chosen_units(browser: Browser) -> None:
     words = browser.evaluate(
         "app.seek(2) || (app.plots.panels.find(p => p.channels[0] === 'tractor_vx_mps')"

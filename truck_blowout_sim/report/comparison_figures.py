@@ -193,8 +193,8 @@ def _pressure_panels(figure: Figure, comparison: Comparison, axles: list[str]) -
             series = comparison.model[name]
             axes.plot(series.time_s, series.value / PSI_PA, color=MODEL, linestyle=line,
                       label=f"model, {side}")  # fmt: skip
-        mark_events(axes, event_times(comparison))
-        axes.legend(loc="best", ncols=2)
+        mark_events(axes, event_times(comparison), height=0.15)  # pressures begin at 0
+        axes.legend(loc="best", ncols=2, frameon=True, framealpha=1.0, edgecolor="none")
     panels[-1].set_xlabel("time (s)")
 
 

@@ -153,12 +153,14 @@ def new_axes(size: tuple[float, float] = WIDE, *, x: str = "time (s)", y: str = 
     return figure, axes
 
 
-def mark_events(axes: Axes, times_s: tuple[float, ...], words: str = "blowout") -> None:
-    """Thin upright lines with a word at the top."""
+def mark_events(axes: Axes, times_s: tuple[float, ...], words: str = "blowout",
+                height: float = 0.0) -> None:
+    """Thin upright lines with a word on their left, at a height as a share of the panel."""
     for time_s in times_s:
         axes.axvline(time_s, color=EVENT, linewidth=1.0, linestyle=(0, (4, 3)), zorder=1)
-        axes.annotate(words, (time_s, 1.0), xycoords=("data", "axes fraction"), xytext=(3, -2),
-                      textcoords="offset points", va="top", color=EVENT, fontsize=8)  # fmt: skip
+        axes.annotate(words, (time_s, height), xycoords=("data", "axes fraction"), xytext=(-3, 3),
+                      textcoords="offset points", ha="right", va="bottom", color=EVENT,
+                      fontsize=8)  # fmt: skip
 
 
 def _darken(figure: Figure) -> None:

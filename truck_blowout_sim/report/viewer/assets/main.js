@@ -21,7 +21,7 @@ class App {
     addEventListener('resize', () => { this.resize(); this.plots.redraw(); });
     new ResizeObserver(() => this.resize()).observe($('stage'));
     this.resize();
-    requestAnimationFrame(now => this.loop(now));
+    this.wake();
   }
 
   _scene() {
@@ -141,6 +141,7 @@ class App {
     if (on && this.t >= this.end - 1e-3) this.t = this.start;
     $('play').textContent = on ? '❚❚' : '▶';
     this.before = performance.now();
+    if (on) this.wake();
   }
 
   seek(t, byHand) {
@@ -207,6 +208,17 @@ class App {
     r.render(this.scene, this.eye.camera);
   }
 
+  // A change of the scene asks for one frame; without changes no frame runs and no time is spent.
+  get stale() { return this._stale; }
+
+  set stale(is) { this._stale = is; if (is) this.wake(); }
+
+  wake() {
+    if (this.due) return;
+    this.due = true;
+    requestAnimationFrame(now => { this.due = false; this.loop(now); });
+  }
+
   loop(now) {
     if (this.playing) {
       const passed = Math.min((now - this.before) / 1000, 0.25);
@@ -217,7 +229,7 @@ class App {
     }
     this.eye.controls.update();
     if (this.stale && !this.filming) { this.stale = false; this.draw(); }
-    requestAnimationFrame(later => this.loop(later));
+    if (this.playing) this.wake();
   }
 
   // Slow machines draw fewer pixels instead of fewer pictures.
