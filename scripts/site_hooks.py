@@ -1,17 +1,20 @@
-"""Hooks of the documentation site: notebooks become pages, links out of docs/ lead to the sources.
+"""Hooks of the documentation site: notebooks become pages, links out of docs/ become names.
 
 mkdocs calls these by name (mkdocs.yml, `hooks`). A notebook is shown with the outputs it was saved
-with; pictures are put into the page, so that it needs no other file.
+with; pictures are put into the page, so that it needs no other file. Linked files of keys are shown
+on the page.
 """
 
 from __future__ import annotations
 
 import json
 import re
+from pathlib import Path
 from typing import Any
 
 # The theme's help for searching pages that are opened from the disk comes from a server elsewhere.
 ELSEWHERE = re.compile(r'<script src="https?://[^"]*"></script>')
+KEYS = re.compile(r"^- \[(.+)\]\((reference/keys/\w+\.yaml)\)$", re.MULTILINE)
 OUTSIDE = re.compile(r"\]\(\.\./((?:README|CONTRIBUTING|CHANGELOG|QUALITY_DECLARATION)\.md)\)")
 
 
@@ -35,8 +38,14 @@ def on_files(files: Any, config: Any) -> Any:  # noqa: ANN401
 
 
 def on_page_markdown(markdown: str, page: Any, config: Any, files: Any) -> str:  # noqa: ANN401
-    """Pages beside docs/ are not part of the site: name them instead of linking."""
-    return OUTSIDE.sub(r"](#)", markdown)
+    """Show the linked files of keys on the page; name pages beside docs/ instead of linking."""
+    folder = Path(config["docs_dir"])
+
+    def shown(link: re.Match[str]) -> str:
+        keys = (folder / link[2]).read_text(encoding="utf-8")
+        return f"### {link[1]}\n\n```yaml\n{keys}```\n"
+
+    return OUTSIDE.sub(r"](#)", KEYS.sub(shown, markdown))
 
 
 def on_post_page(output: str, page: Any, config: Any) -> str:  # noqa: ANN401

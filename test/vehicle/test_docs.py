@@ -11,19 +11,21 @@ import pytest
 from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.resources import config_dir
 from truck_blowout_sim.vehicle import load_vehicle, pack
-from truck_blowout_sim.vehicle.reference import reference_markdown
+from truck_blowout_sim.vehicle.reference import key_files
 
 PAGE = Path(__file__).resolve().parents[2] / "docs" / "vehicle_files.md"
 TAGS = re.compile(r"\b(F\d+)\b")
 
 
 def test_the_reference_is_up_to_date() -> None:
-    assert PAGE.read_text(encoding="utf-8").endswith(reference_markdown())
+    for name, text in key_files().items():
+        path = f"reference/keys/{name}.yaml"
+        assert (PAGE.parent / path).read_text(encoding="utf-8") == text
+        assert f"]({path})" in PAGE.read_text(encoding="utf-8")
 
 
 def test_the_examples_load(write: Callable[..., Path]) -> None:
-    words = PAGE.read_text(encoding="utf-8").split("## All keys")[0]
-    examples = re.findall(r"```yaml\n(.*?)```", words, re.DOTALL)
+    examples = re.findall(r"```yaml\n(.*?)```", PAGE.read_text(encoding="utf-8"), re.DOTALL)
     assert len(examples) == 3
     for example in examples:
         pack(load_vehicle(write(example)))

@@ -1,7 +1,7 @@
-"""The reference of all scenario keys, as Markdown, from the schema itself.
+"""The reference of all scenario keys, as a commented YAML file, from the schema itself.
 
-`python -m truck_blowout_sim.simulation.reference docs/scenario_files.md` brings that page up to
-date; without a file it prints. A test holds the page against the schema.
+`python -m truck_blowout_sim.simulation.reference docs/reference/keys` brings the file up to date. A
+test holds it against the schema.
 """
 
 from __future__ import annotations
@@ -10,25 +10,14 @@ import sys
 from pathlib import Path
 
 from truck_blowout_sim.simulation.scenario_schema import ScenarioSpec
-from truck_blowout_sim.vehicle.reference import key_block, key_line
-
-TITLE = "## All keys"
+from truck_blowout_sim.vehicle.reference import key_file, key_line, write_files
 
 
-def reference_markdown() -> str:
+def scenario_keys() -> str:
     """Every key of a scenario file."""
     last = ["values:", key_line("  <name>", "number, optional: a vehicle parameter, packed name")]
-    return "\n".join([TITLE, "", *key_block(ScenarioSpec, last)]) + "\n"
-
-
-def write_into(page: Path) -> None:
-    """Replace the reference at the end of a page by the present one."""
-    words, _, _ = page.read_text(encoding="utf-8").partition(TITLE)
-    page.write_text(words + reference_markdown(), encoding="utf-8")
+    return key_file("a scenario file (config/scenarios)", ScenarioSpec, last)
 
 
 if __name__ == "__main__":
-    for name in sys.argv[1:]:
-        write_into(Path(name))
-    if not sys.argv[1:]:
-        sys.stdout.write(reference_markdown())
+    write_files(Path(sys.argv[1]), {"scenario": scenario_keys()})

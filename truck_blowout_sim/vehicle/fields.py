@@ -1,7 +1,7 @@
 """How a section of a vehicle file is described: a frozen dataclass whose fields carry a rule.
 
 The dataclass is at once the schema a file is checked against, the typed value the package works
-with, and the row of the reference in `docs/vehicle_files.md`. A field without default is required.
+with, and the line of the reference in `docs/reference/keys`. A field without default is required.
 """
 
 # ruff: noqa: ANN401 (as dataclasses.field does, these stand in for a value of any type)

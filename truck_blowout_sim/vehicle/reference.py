@@ -1,13 +1,13 @@
-"""The reference of all keys, as Markdown, from the schema itself.
+"""The reference of all keys, as commented YAML files, from the schema itself.
 
-`python -m truck_blowout_sim.vehicle.reference docs/vehicle_files.md` brings that page up to date;
-without a file it prints. A test holds the page against the schema.
+`python -m truck_blowout_sim.vehicle.reference docs/reference/keys` brings the files up to date. A
+test holds them against the schema.
 """
 
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from math import isfinite, isinf
 from pathlib import Path
 from typing import Any
@@ -20,13 +20,13 @@ from truck_blowout_sim.vehicle.schema.vehicle import VehicleSpec
 from truck_blowout_sim.vehicle.single_track.rules import RulesSpec
 from truck_blowout_sim.vehicle.single_track.schema import SingleTrackSpec
 
-FILES = {
-    "Vehicle (`config/vehicles`)": VehicleSpec,
-    "Single track (section `single_track` of a vehicle)": SingleTrackSpec,
-    "Rules of thumb (`config/single_track`)": RulesSpec,
-    "Tire (`config/tires`)": TireSpec,
-    "Blowout (`config/blowout`)": BlowoutSpec,
-    "Road (`config/roads`)": RoadSpec,
+FILES: dict[str, tuple[str, type[Any]]] = {
+    "vehicle": ("a vehicle file (config/vehicles)", VehicleSpec),
+    "single_track": ("the section single_track of a vehicle file", SingleTrackSpec),
+    "rules_of_thumb": ("a file of config/single_track", RulesSpec),
+    "tire": ("a tire file (config/tires)", TireSpec),
+    "blowout": ("a blowout file (config/blowout)", BlowoutSpec),
+    "road": ("a road file (config/roads)", RoadSpec),
 }
 BLOCKS = {
     "WorldParams": "world",
@@ -45,24 +45,22 @@ BLOCKS = {
 COMMENT_COLUMN = 34  # where comments begin, if the key is shorter
 
 
-def reference_markdown() -> str:
-    """Every key of every file as commented YAML, then every parameter only `effects:` reaches."""
-    lines: list[str] = []
-    for title, section in FILES.items():
-        lines += [f"### {title}", "", *key_block(section), ""]
-    lines += ["### Parameters that only `effects:` sets", "", "With their neutral values:", "",
-              "```yaml"]
-    lines += [
+def key_files() -> dict[str, str]:
+    """Text of a YAML file by its name: every key of every file, and what only `effects:` sets."""
+    files = {name: key_file(about, section) for name, (about, section) in FILES.items()}
+    effects = [
         f"{BLOCKS[block.__name__]}.{name}: {'never' if isinf(value) else f'{value:g}'}"
         for block, values in NEUTRAL.items()
         for name, value in values.items()
     ]
-    return "\n".join([*lines, "```"]) + "\n"
+    head = "# Parameters that only the section effects sets, with their neutral values."
+    return files | {"effects": "\n".join([head, *effects]) + "\n"}
 
 
-def key_block(section: type[Any], more: Sequence[str] = ()) -> list[str]:
-    """A fenced block of YAML with every key of a section, and further lines."""
-    return ["```yaml", *key_lines(section, "", "", {}), *more, "```"]
+def key_file(about: str, section: type[Any], more: Sequence[str] = ()) -> str:
+    """Every key of a section as commented YAML, and further lines."""
+    head = f"# Every key of {about}: what it accepts and what it means."
+    return "\n".join([head, *key_lines(section, "", "", {}), *more]) + "\n"
 
 
 def key_lines(section: type[Any], prefix: str, indent: str,
@@ -116,14 +114,12 @@ def _bounds(rule: Rule) -> str:
     return ", ".join(parts) or "number"
 
 
-def write_into(page: Path) -> None:
-    """Replace the reference at the end of a page by the present one."""
-    words, _, _ = page.read_text(encoding="utf-8").partition(f"### {next(iter(FILES))}")
-    page.write_text(words + reference_markdown(), encoding="utf-8")
+def write_files(folder: Path, files: Mapping[str, str]) -> None:
+    """Write every text as a YAML file of its name into a folder."""
+    folder.mkdir(parents=True, exist_ok=True)
+    for name, text in files.items():
+        (folder / f"{name}.yaml").write_text(text, encoding="utf-8")
 
 
 if __name__ == "__main__":
-    for name in sys.argv[1:]:
-        write_into(Path(name))
-    if not sys.argv[1:]:
-        sys.stdout.write(reference_markdown())
+    write_files(Path(sys.argv[1]), key_files())
