@@ -23,7 +23,6 @@ HEAD = """# Commands
 done; 2 bad usage or bad input, in one line; 1 an internal failure (`--traceback` shows where).
 This page is written from the programs' own help.
 """
-TABLE = ("| argument or option | default | meaning |", "|---|---|---|")
 
 
 SHARED_BY = 3  # verbs that have an option in the same words: it stands once, at the end
@@ -34,7 +33,7 @@ def command_reference() -> str:
     count = Counter(_row(p) for command in commands.values() for p in _options(command))
     shared = sorted(row for row, verbs in count.items() if verbs >= SHARED_BY)
     pages = [_verb(verb, command, shared) for verb, command in commands.items()]
-    last = ["\n## Shared options\n", *TABLE, *shared]
+    last = ["\n## Shared options\n", *shared]
     return HEAD + "".join(pages) + "\n".join(last) + "\n"
 
 
@@ -51,7 +50,7 @@ def _verb(verb: str, command: Any, shared: Sequence[str]) -> str:  # noqa: ANN40
     about = (command.help or "").strip().split("\n\n")
     rows = {_row(p): p for p in _options(command)}
     also = [f"`{p.opts[0]}`" for row, p in rows.items() if row in shared]
-    lines = [f"\n## {verb}\n", *(f"{part}\n" for part in about), *TABLE]
+    lines = [f"\n## {verb}\n", *(f"{part}\n" for part in about)]
     lines += [row for row in rows if row not in shared]
     lines += [f"\nAnd [shared options](#shared-options): {', '.join(also)}."] if also else []
     return "\n".join(lines) + "\n"
@@ -61,8 +60,9 @@ def _row(parameter: Any) -> str:  # noqa: ANN401
     option = parameter.param_type_name == "option"
     words = [*parameter.opts, *parameter.secondary_opts] if option else [parameter.name.upper()]
     name = ", ".join(f"`{word}`" for word in words)
-    about = (getattr(parameter, "help", "") or "").replace("|", "\\|")
-    return f"| {name} | {_default(parameter) if option else ''} | {' '.join(about.split())} |"
+    about = " ".join((getattr(parameter, "help", "") or "").split())
+    default = _default(parameter) if option else ""
+    return f"- {name}: {about}" + (f" Default: {default}." if default else "")
 
 
 def _default(parameter: Any) -> str:  # noqa: ANN401
