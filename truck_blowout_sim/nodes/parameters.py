@@ -125,12 +125,13 @@ def check_changes(
 
 
 def markdown(specs: Sequence[Spec]) -> str:
-    """The rows as a table for the documentation."""
-    lines = ["| parameter | default | unit | meaning |", "|---|---|---|---|"]
+    """The rows as a list for the documentation."""
+    live = any(spec.live for spec in specs)
+    lines = ["A parameter marked *live* can be changed while the node runs.", ""] if live else []
     for spec in specs:
-        live = " Can be changed while running." if spec.live else ""
         default = "`''`" if spec.default == "" else f"`{_yaml(spec.default)}`"
-        lines.append(f"| `{spec.name}` | {default} | {spec.unit} | {spec.text}{live} |")
+        marks = ", ".join([" ".join(filter(None, (default, spec.unit))), *["*live*"] * spec.live])
+        lines.append(f"- `{spec.name}` ({marks}): {spec.text}")
     return "\n".join(lines) + "\n"
 
 
