@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import random
+import struct
 from pathlib import Path
 
 import numpy as np
@@ -69,6 +70,57 @@ def test_version_7_3_is_read_by_h5py(tmp_path: Path) -> None:
     rules = Rules(channels={"tractor_vx_mps": Source("log.speed", "km/h")})
     read = read_recording(path, mapping=rules)
     np.testing.assert_allclose(read["tractor_vx_mps"].time_s, TIME)
+
+
+def element(kind: int, content: bytes) -> bytes:
+    return struct.pack("<II", kind, len(content)) + content + b"\0" * (-len(content) % 8)
+
+
+def mat_object(name: str, of: str) -> bytes:
+    """A variable as MATLAB 5 to 7.2 files hold an object: name, type system, class, a reference."""
+    parts = [element(6, struct.pack("<II", 17, 0)), element(1, name.encode()),
+             element(1, b"MCOS"), element(1, of.encode())]  # fmt: skip
+    return element(14, b"".join(parts))
+
+
+@pytest.mark.parametrize(("of", "way_out"), [
+    ("table", "T = drive; s = table2struct"), ("timetable", "timetable2table"),
+    ("timeseries", "t = drive.Time"), ("Simulink.Bus", "save the vectors inside drive"),
+])  # fmt: skip
+def test_an_object_of_matlab_is_named_with_the_way_out(
+    tmp_path: Path, of: str, way_out: str
+) -> None:
+    path = tmp_path / "log.mat"
+    scipy.io.savemat(path, {"speed": 72.0 + TIME})
+    vectors = path.read_bytes()
+    path.write_bytes(vectors + mat_object("drive", of))
+    (note,) = open_log(path).notes
+    assert "variable drive is an object" in note
+    assert way_out in note
+    path.write_bytes(vectors[:128] + mat_object("drive", of))
+    with pytest.raises(InputError, match="variable drive is an object") as caught:
+        open_log(path)
+    assert way_out in str(caught.value)
+
+
+def test_structure_arrays_and_cells_of_version_7_3_are_followed(tmp_path: Path) -> None:
+    h5py = pytest.importorskip("h5py")
+    path = tmp_path / "log.mat"
+    with h5py.File(path, "w", userblock_size=512) as file:
+        held = [file.create_dataset(f"#refs#/{k}", data=(k + TIME)[None, :]) for k in range(3)]
+        array = file.create_group("log/Y")
+        data = array.create_dataset("Data", (2, 1), dtype=h5py.ref_dtype)
+        data[:, 0] = [one.ref for one in held[:2]]
+        cells = file.create_dataset("cells", (1, 1), dtype=h5py.ref_dtype)
+        cells.attrs["MATLAB_class"] = np.bytes_("cell")
+        cells[0, 0] = held[2].ref
+        table = file.create_dataset("drive", data=np.arange(6, dtype=np.uint32)[None, :])
+        table.attrs["MATLAB_class"] = np.bytes_("table")
+        table.attrs["MATLAB_object_decode"] = np.int32(3)
+    found = open_log(path)
+    assert list(found.names) == ["cells{1}", "log.Y(1).Data", "log.Y(2).Data"]
+    np.testing.assert_allclose(found.column("log.Y(2).Data").values, 1 + TIME)
+    assert "variable drive is an object of class table" in found.notes[0]
 
 
 @pytest.fixture(scope="module")

@@ -24,6 +24,11 @@ from truck_blowout_sim.recordings.mapping.vocabulary import channel_hinted
     ("Art_H", "articulation_rad"), ("AVy_L1", "hub_speed_steer_left_radps"),
     ("AVy_R5", "hub_speed_trailer_2_right_radps"), ("throttle_percent", "throttle"),
     ("trailer_brake_kpa_abs", "brake_pressure_trailer_pa"), ("Satellites", ""),
+    ("Latitude", "tractor_latitude_rad"), ("GPS_Lon", "tractor_longitude_rad"),
+    ("/gnss/fix:latitude", "tractor_latitude_rad"), ("/gnss/fix:altitude", "tractor_altitude_m"),
+    ("WhlSpd_RearRight", "hub_speed_drive_1_right_radps"),
+    ("wheel_speed_fl", "hub_speed_steer_left_radps"), ("Wheel speed", ""),
+    ("BrkPrs", "brake_pressure_pa"), ("Brake pressure front", "brake_pressure_steer_pa"),
     ("EngineSpeed", ""), ("steer_axle_rpm", ""), ("Note", ""),
 ])  # fmt: skip
 def test_names(name: str, channel: str) -> None:

@@ -11,7 +11,7 @@ from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 
 from truck_blowout_sim.cli.outputs import FORCE, JSON, claim, say
-from truck_blowout_sim.cli.reading import AS_IT_IS, LogOptions, reads_logs, say_notes
+from truck_blowout_sim.cli.reading import AS_IT_IS, LogOptions, check_brakes, reads_logs, say_notes
 
 if TYPE_CHECKING:
     from truck_blowout_sim.diagnosis.calibrate import Calibration
@@ -59,6 +59,7 @@ def command(
     loaded = load_vehicle(vehicle)
     runs, unseen = (logs.read_all(names, loaded) for names in (recordings, holdout))
     say_notes(*runs, *unseen)
+    check_brakes(loaded, *runs, *unseen)
     if not as_json:
         say_roles({"fits": runs, "only predicts": unseen})
     with _progress() as bar:

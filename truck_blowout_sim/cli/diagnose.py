@@ -14,7 +14,7 @@ from rich.progress import BarColumn, Progress, TaskID, TextColumn, TimeElapsedCo
 
 from truck_blowout_sim.cli.failures import interruptible
 from truck_blowout_sim.cli.outputs import FORCE, JSON, claim, say
-from truck_blowout_sim.cli.reading import AS_IT_IS, LogOptions, reads_logs, say_notes
+from truck_blowout_sim.cli.reading import AS_IT_IS, LogOptions, check_brakes, reads_logs, say_notes
 
 if TYPE_CHECKING:
     from truck_blowout_sim.diagnosis import Diagnosis
@@ -90,6 +90,7 @@ def command(
     train = logs.read_all(recordings, loaded)
     base, hold = (logs.without_blowouts().read_all(runs, loaded) for runs in (baseline, holdout))
     say_notes(*train, *base, *hold)
+    check_brakes(loaded, *train, *base, *hold)
     if not as_json:
         _say_roles(train, base, hold)
     output.mkdir(parents=True, exist_ok=True)

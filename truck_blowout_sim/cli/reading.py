@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any, get_type_hints
 import typer
 
 from truck_blowout_sim.errors import InputError
-from truck_blowout_sim.recordings import Recording, read_recording
+from truck_blowout_sim.recordings import INPUT_NAMES, Recording, read_recording
 from truck_blowout_sim.recordings.blowout_words import parse_blowouts
 from truck_blowout_sim.recordings.mapping.finish import with_blowouts
 from truck_blowout_sim.recordings.shipped import find_recording
@@ -155,6 +155,24 @@ def reads_logs(command: Callable[..., None]) -> Callable[..., None]:
     wrapped.__signature__ = signature.replace(parameters=parameters)  # type: ignore[attr-defined]
     wrapped.__annotations__ = {p.name: p.annotation for p in parameters}
     return wrapped
+
+
+def check_brakes(vehicle: Vehicle, *recordings: Recording) -> None:
+    """Refuse brake pressures that the vehicle's brakes never have: another unit, or vehicle.
+
+    Raises:
+        InputError: there are some.
+    """
+    from truck_blowout_sim.simulation.plausible import too_much_pressure
+
+    for recording in recordings:
+        for name in INPUT_NAMES:
+            if name.startswith("brake_pressure_") and name in recording:
+                words = too_much_pressure(vehicle, float(recording[name].value.max(initial=0.0)))
+                if words:
+                    raise InputError(f"{name}: {words}", file=recording.name,
+                                     expected="pressures of this vehicle's brakes; or a vehicle"
+                                     " file with `brakes: hydraulic`")  # fmt: skip
 
 
 def say_notes(*recordings: Recording) -> None:

@@ -59,8 +59,9 @@ class Simulator:
         self.timing = timing_of(values, following=following)
         vehicle = load_vehicle(values["vehicle"])
         self.plant = Plant(
-            vehicle, values["step_s"], initial_state(values), InputBank(inputs_of(values))
-        )
+            vehicle, values["step_s"], initial_state(values),
+            InputBank(inputs_of(values, vehicle.spec.brakes)),
+        )  # fmt: skip
         self.schedule = BlowSchedule(blow_schedule.parse(values["blow"], self.plant.parts))
         folder = Path(values["record_folder"] or ".").absolute()
         self.recorder = Recorder(self._say, {"vehicle": vehicle.name}, folder)

@@ -10,6 +10,7 @@ from truck_blowout_sim.nodes.inputs import Input
 from truck_blowout_sim.nodes.outputs import GROUPS
 from truck_blowout_sim.nodes.parameters import Spec
 from truck_blowout_sim.simulation import InitialState
+from truck_blowout_sim.simulation.plausible import MOST_BRAKE_PA
 
 DEFAULT_VEHICLE = "international_9400i_trailmobile"
 
@@ -19,10 +20,12 @@ DEFAULT_VEHICLE = "international_9400i_trailmobile"
 _COMMANDS = {
     "steering_wheel_angle_rad": ("steering_wheel_angle", "rad", -20.0, 20.0),
     "throttle": ("throttle", "", 0.0, 1.0),
-    "brake_pressure_steer_pa": ("brake_pressure/steer", "Pa", 0.0, 1.0e6),
-    "brake_pressure_drive_pa": ("brake_pressure/drive", "Pa", 0.0, 1.0e6),
-    "brake_pressure_trailer_pa": ("brake_pressure/trailer", "Pa", 0.0, 1.0e6),
+    "brake_pressure_steer_pa": ("brake_pressure/steer", "Pa", 0.0, 0.0),
+    "brake_pressure_drive_pa": ("brake_pressure/drive", "Pa", 0.0, 0.0),
+    "brake_pressure_trailer_pa": ("brake_pressure/trailer", "Pa", 0.0, 0.0),
 }
+# What is taken as control pressure where `max` is left at 0.
+_MOST_PA = {"air": 1.0e6, "hydraulic": MOST_BRAKE_PA["hydraulic"]}
 
 _GENERAL = (
     Spec("vehicle", DEFAULT_VEHICLE, "Name of a shipped vehicle, or path of a vehicle file."),
@@ -77,11 +80,13 @@ _RATES = tuple(
 
 def _input_specs(name: str) -> tuple[Spec, ...]:
     topic, unit, low, high = _COMMANDS[name]
+    by_brakes = "" if high else "; 0: by the vehicle's brakes"
     return (
         Spec(f"inputs.{name}.min", low, f"Smallest value taken on `{topic}`.", unit, live=False),
-        Spec(f"inputs.{name}.max", high, f"Largest value taken on `{topic}`.", unit, live=False),
+        Spec(f"inputs.{name}.max", high, f"Largest value taken on `{topic}`{by_brakes}.", unit,
+             live=False),
         Spec(f"inputs.{name}.safe_value", 0.0, f"What applies before the first message on `{topic}`"
-             " and after its timeout.", unit, low, high, True),
+             " and after its timeout.", unit, low, high or _MOST_PA["hydraulic"], True),
         Spec(f"inputs.{name}.timeout_s", -1.0, "Timeout of this input alone; -1: as"
              " `input_timeout_s`; 0: never.", "s", -1, 3600, True),
     )  # fmt: skip
@@ -102,7 +107,8 @@ def inputs_markdown() -> str:
     """The parameters of the inputs as a table for the documentation, one row an input."""
     rows = ["| `<input>` | topic | `min` | `max` | unit |", "|---|---|---|---|---|"]
     for name, (topic, unit, low, high) in _COMMANDS.items():
-        rows.append(f"| `{name}` | `{topic}` | {low:g} | {high:g} | {unit} |")
+        most = f"{high:g}" if high else " or ".join(f"{p:g} ({k})" for k, p in _MOST_PA.items())
+        rows.append(f"| `{name}` | `{topic}` | {low:g} | {most} | {unit} |")
     return "\n".join(rows) + "\n"
 
 
@@ -119,14 +125,19 @@ def initial_state(values: Values) -> InitialState:
     )
 
 
-def inputs_of(values: Values) -> list[Input]:
-    """The five guarded inputs."""
+def inputs_of(values: Values, brakes: str = "air") -> list[Input]:
+    """The five guarded inputs.
+
+    Args:
+        values: parameters.
+        brakes: what is in the vehicle's brake lines; bounds pressures whose `max` is 0.
+    """
     return [
         Input(
             name=name,
             topic=command[0],
             low=values[f"inputs.{name}.min"],
-            high=values[f"inputs.{name}.max"],
+            high=values[f"inputs.{name}.max"] or command[3] or _MOST_PA[brakes],
             timeout_s=timeout_of(values, name),
             safe_value=values[f"inputs.{name}.safe_value"],
         )

@@ -37,6 +37,8 @@ INPUT_NAMES = (
 
 # A pressure sensor's zero may sit a little below the atmosphere: half a percent of 1 MPa.
 LOWEST_GAUGE_PA = -5000.0
+# Gauges of hydraulic brake lines measure up to 400 bar.
+HIGHEST_BRAKE_PA = 4.0e7
 
 
 @dataclass(frozen=True)

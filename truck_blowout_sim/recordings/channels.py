@@ -21,6 +21,7 @@ from truck_blowout_sim.recordings.channel import (
     DEFAULT_TIRES,
     FLOAT64,
     FLUID_PRESSURE,
+    HIGHEST_BRAKE_PA,
     IMU,
     INPUT_NAMES,
     JOINT_STATE,
@@ -118,7 +119,7 @@ def _control_pressure(circuit: str) -> Channel:
     # std_msgs/Float64 has no convention for pressures: the command topics are gauge.
     return _input(
         f"brake_pressure_{circuit}_pa", "Pa", f"brake_pressure/{circuit}",
-        f"control pressure of the {circuit} circuit, gauge", LOWEST_GAUGE_PA, 2.0e6,
+        f"control pressure of the {circuit} circuit, gauge", LOWEST_GAUGE_PA, HIGHEST_BRAKE_PA,
         "brake pressure gauges",
     )  # fmt: skip
 
@@ -202,10 +203,11 @@ def _pressure(kind: str, part: str) -> Channel:
                     f"in the brake chamber of hub {part}"),
     }[kind]  # fmt: skip
     group = {"tire": "tire_pressure", "chamber": "brake_chamber"}[kind]
+    highest = HIGHEST_BRAKE_PA if kind == "chamber" else 5.0e6
     place = Place(topic, FLUID_PRESSURE, "fluid_pressure", part, offset=ATMOSPHERE_PA)
     return Channel(
         name, "Pa", f"gauge pressure {words}", group, f"{kind} gauge {part}",
-        LOWEST_GAUGE_PA, 5.0e6, place, part=part,
+        LOWEST_GAUGE_PA, highest, place, part=part,
     )  # fmt: skip
 
 

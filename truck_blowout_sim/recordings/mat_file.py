@@ -5,8 +5,8 @@ little that is needed is read here: real numeric arrays, texts, and what structu
 of them, of MATLAB 5 to 7.2 files.
 
 References: MathWorks, MAT-File Format (level 5): header, data elements, array subelements.
-Known limits: no MATLAB 4; 7.3 is HDF5 and read elsewhere; objects (table, timeseries) are only
-named.
+Known limits: no MATLAB 4; 7.3 is HDF5 and read elsewhere; objects (table, timetable,
+timeseries) are only named.
 Validated with: test/recordings/test_mat_format.py, against `scipy.io.savemat`, fuzzed.
 """
 
@@ -140,7 +140,7 @@ def _variable(content: bytes, order: str, depth: int = 0) -> Variable:
         (flags,) = struct.unpack_from(order + "I", next(parts)[1])
         array_class = flags & 0xFF
         if array_class == _OBJECT_CLASS:
-            return Variable(next(parts)[1].decode("ascii"), None, "an object (table, timeseries …)")
+            return _object(parts)
         shape = np.frombuffer(next(parts)[1], dtype=order + "i4").astype(np.int64)
         name = next(parts)[1].decode("ascii")
         if array_class in (_CELL_CLASS, _STRUCTURE_CLASS):
@@ -158,6 +158,22 @@ def _variable(content: bytes, order: str, depth: int = 0) -> Variable:
     except ValueError as error:
         raise _DamagedError(str(error)) from None
     return _numeric(name, shape, kind, numbers, order)
+
+
+def _object(parts: Iterator[tuple[int, bytes]]) -> Variable:
+    """Name and class of a MATLAB object; its content is in a form that MathWorks does not publish.
+
+    Name, type system ("MCOS") and class stand as texts.
+    """
+    name = next(parts)[1].decode("ascii")
+    next(parts, None)
+    _, packed = next(parts, (0, b""))
+    return Variable(name, None, f"an object{f' of class {c}' if (c := _word(packed)) else ''}")
+
+
+def _word(packed: bytes) -> str:
+    text = packed.split(b"\0")[0].decode("ascii", "replace")
+    return text if text.isidentifier() else ""
 
 
 def _inside(

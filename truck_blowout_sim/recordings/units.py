@@ -48,6 +48,8 @@ _TABLE: dict[str, dict[str, tuple[float, float, str]]] = {
     "angle": {
         "rad": (1.0, 0.0, "radian radians"),
         "deg": (_DEG, 0.0, "° degree degrees grad degs"),
+        "arcmin": (_DEG / 60.0, 0.0, "' minutes_of_arc"),
+        "arcsec": (_DEG / 3600.0, 0.0, '"'),
         "mrad": (1e-3, 0.0, ""),
         "rev": (2 * math.pi, 0.0, "turn turns"),
     },

@@ -1,7 +1,8 @@
 """Whether a run is one that a truck can do, and why one left the range of the model.
 
 References: nothing is measured here; each limit lies well beyond what road trucks do or are
-allowed (steering stops near 45 deg, brake systems cut out near 0.9 MPa, governed below 40 m/s).
+allowed (steering stops near 45 deg, compressors cut out near 0.9 MPa, hydraulic units of cars reach
+15 to 20 MPa, governed below 40 m/s).
 Validated with: test/simulation/test_ending.py.
 """
 
@@ -17,11 +18,11 @@ from truck_blowout_sim.physics.layout import INPUT, N_INPUTS
 from truck_blowout_sim.simulation.drive import Drive
 from truck_blowout_sim.simulation.ending import Ending
 from truck_blowout_sim.simulation.pilot import PILOT
-from truck_blowout_sim.vehicle import Packed, pack
+from truck_blowout_sim.vehicle import Packed, Vehicle, pack
 
 _MOST_SPEED_MPS = 60.0
 _MOST_ROAD_WHEEL_RAD = math.radians(60.0)
-_MOST_BRAKE_PA = 1.2e6
+MOST_BRAKE_PA = {"air": 1.2e6, "hydraulic": 2.5e7}
 _MOST_CHANGE = 5.0  # times, of a parameter against the vehicle's file
 # Explicit steps follow a spring only while the phase they advance a step is small.
 _MOST_PHASE_RAD = 0.5
@@ -37,9 +38,17 @@ def implausible(packed: Packed, drive: Drive) -> tuple[str, ...]:
     most = drive.inputs[:, INPUT.brake_pressure_steer_pa:N_INPUTS].max(initial=0.0)
     if drive.pilot.size:
         most = max(most, drive.pilot[PILOT.react_brake_pa])
-    if most > _MOST_BRAKE_PA:
-        found.append(f"a control pressure of {most / 1e3:.0f} kPa")
+    if words := too_much_pressure(packed.vehicle, float(most)):
+        found.append(words)
     return tuple(found)
+
+
+def too_much_pressure(vehicle: Vehicle, control_pa: float) -> str:
+    """A clause on a control pressure that the vehicle's brakes never have; empty below it."""
+    kind = vehicle.spec.brakes
+    if control_pa <= MOST_BRAKE_PA[kind]:
+        return ""
+    return f"a control pressure of {control_pa / 1e3:.0f} kPa with {kind} brakes"
 
 
 class DivergedError(InputError):

@@ -40,7 +40,7 @@ def drive_from(recording: Recording, vehicle: Vehicle, *, step_s: float = 0.001,
     Raises:
         InputError: no steering, no speed to impose, or a blown tire the vehicle does not have.
     """
-    missing = set(recording.missing_inputs)
+    missing = set(recording.missing_inputs) - _not_at_work(vehicle)
     if "steering_wheel_angle_rad" in missing:
         raise InputError("steering_wheel_angle_rad was not recorded", file=recording.name,
                          expected="the hand wheel angle, without which no run can be driven")
@@ -105,6 +105,13 @@ def _channels(vehicle: Vehicle) -> set[str]:
     steered = [hub for hub in vehicle.hubs if vehicle.spec.axles[vehicle.axle_of_hub(hub)].steered]
     table = channels_for(vehicle.hubs, vehicle.tires, vehicle.units, steered)
     return {channel.name for channel in table}
+
+
+def _not_at_work(vehicle: Vehicle) -> set[str]:
+    """Brake pressures that reach no brake of this vehicle, as a trailer's of a car."""
+    at_work = {axle.circuit for axle in vehicle.spec.axles.values() if axle.brake is not None}
+    return {name for name in INPUT_NAMES if name.startswith("brake_pressure_")
+            and name.removeprefix("brake_pressure_").removesuffix("_pa") not in at_work}
 
 
 def _speed(recording: Recording, times_s: Floats) -> Floats:

@@ -10,16 +10,17 @@ from truck_blowout_sim.simulation.inputs import Inputs
 
 _WINDOW_S = 1.0
 _FIRST_INPUTS_S = 0.2
+_MOVING_MPS = 1.0
 
 
 def initial_state(recording: Recording) -> InitialState:
     """Initial state at the recording's first input sample.
 
-    Channels that were not recorded leave their part at zero (lateral motion, pose) ; without any
-    speed the truck starts from rest.
+    Channels that were not recorded leave their part at zero (lateral motion, pose); without any
+    speed the truck starts from rest. Without a heading it points along its path, if it moves.
     """
     start = start_time_s(recording)
-    yaw = _value(recording, "tractor_yaw_rad", start)
+    yaw = _heading(recording, start)
     return InitialState(
         speed_mps=max(_value(recording, "tractor_vx_mps", start), 0.0),
         lateral_speed_mps=_value(recording, "tractor_vy_mps", start),
@@ -37,6 +38,22 @@ def start_time_s(recording: Recording) -> float:
     """Time of the first input sample, or of the first sample where no input was recorded."""
     times = [recording[n].time_s[0] for n in INPUT_NAMES if n in recording and len(recording[n])]
     return float(min(times)) if times else recording.start_s
+
+
+def _heading(recording: Recording, start_s: float) -> float:
+    """Recorded heading, else the direction of the first second's path, as of a log of positions."""
+    places = [f"tractor_{axis}" for axis in ("x_m", "y_m")]
+    if "tractor_yaw_rad" in recording or not set(places) <= set(recording.channels):
+        return _value(recording, "tractor_yaw_rad", start_s)
+    east, north = (recording[name].between(start_s, start_s + _WINDOW_S) for name in places)
+    if min(len(east), len(north)) < 2:
+        return 0.0
+    speeds = [float(np.polyfit(s.time_s, s.value, 1)[0]) for s in (east, north)]
+    if np.hypot(speeds[0], speeds[1]) < _MOVING_MPS:
+        return 0.0
+    # a straight line through the second has the direction of its middle
+    turned = 0.5 * _WINDOW_S * _value(recording, "tractor_yaw_rate_radps", start_s)
+    return float(np.arctan2(speeds[1], speeds[0])) - turned
 
 
 def _value(recording: Recording, name: str, start_s: float) -> float:

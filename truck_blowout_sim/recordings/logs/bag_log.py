@@ -32,6 +32,7 @@ _ANGLES = ("roll", "pitch", "yaw")
 # unit by the end of a field's path in the standard messages (REP-103, sensor_msgs)
 _STANDARD_PACKAGES = ("sensor_msgs/", "nav_msgs/", "geometry_msgs/")
 _UNITS = (
+    ("latitude", "deg"), ("longitude", "deg"), ("altitude", "m"),
     ("fluid_pressure", "Pa absolute"), ("angular_velocity.", "rad/s"), ("angular.", "rad/s"),
     ("linear_acceleration.", "m/s2"), ("accel.linear.", "m/s2"), ("linear.", "m/s"),
     ("position.", "m"), ("orientation:", "rad"), ("position[", "rad"), ("velocity[", "rad/s"),

@@ -2,7 +2,8 @@
 
 Version 5 to 7.2 by the reader of this package, 7.3 (HDF5) by h5py, an extra.
 
-Known limits: objects (`table`, `timeseries`) are not read: save their vectors.
+Known limits: objects (`table`, `timetable`, `timeseries`) are not read, as their form is not
+public: a note says how to save their vectors.
 Validated with: test/recordings/test_logs_binary.py.
 """
 
@@ -23,6 +24,16 @@ VERSION_7_3 = b"MATLAB 7.3"
 HDF5 = b"\x89HDF\r\n\x1a\n"
 _HDF5_AT = 512
 _MOST_SAMPLES = 200_000_000
+_MOST_PARTS = 20_000
+_SAVE = "s = table2struct(T, 'ToScalar', true); save('log.mat', '-struct', 's')"
+_WAYS_OUT = {
+    "table": f"T = {{}}; {_SAVE}",
+    "timetable": f"T = timetable2table({{}}); T.(1) = seconds(T.(1)); {_SAVE}",
+    "duration": "t = seconds({}); save('log.mat', 't', '-append')",
+    "datetime": "t = posixtime({}); save('log.mat', 't', '-append')",
+    "timeseries": "t = {0}.Time; x = {0}.Data; save('log.mat', 't', 'x')",
+}
+_OF_OTHERS = "save the vectors inside {}"
 FloatArray = NDArray[np.float64]
 
 
@@ -60,7 +71,24 @@ def table_of(path: Path, held: dict[str, Variable]) -> Table:
         if values is not None:
             table.columns[name] = Column(values, _unit(name, texts))
         elif not variable.text and not variable.inside and variable.name:
-            table.notes.append(f"variable {name} is {variable.kind}: not read")
+            table.notes.append(f"variable {name} is {variable.kind}: not read{_way_out(variable)}")
+    return _checked(path, table)
+
+
+def _way_out(variable: Variable) -> str:
+    """What to do in MATLAB so that an object can be read."""
+    if not variable.kind.startswith("an object"):
+        return ""
+    words = _WAYS_OUT.get(variable.kind.rpartition(" ")[2], _OF_OTHERS)
+    return f"; in MATLAB: {words.format(variable.name)}"
+
+
+def _checked(path: Path, table: Table) -> Table:
+    """Refuse a file in which everything is an object, with the way out."""
+    objects = [note for note in table.notes if " is an object" in note]
+    if objects and not table.columns:
+        problem, _, way = objects[0].partition(": not read; ")
+        raise InputError(problem, file=path, expected=f"vectors or a structure; {way}")
     return table
 
 
@@ -83,31 +111,60 @@ def _open_hdf5(path: Path) -> Table:
     try:
         with h5py.File(path, "r") as file:
             found = dict(_datasets(file, h5py))
-            texts = {name: text for name, (_, text) in found.items() if text}
-            for name, (values, text) in found.items():
-                if values is not None and not text:
-                    table.columns[name] = Column(values, _unit(name, texts))
+            texts = {name: one.text for name, one in found.items() if one.text}
+            for name, one in found.items():
+                if one.values is not None:
+                    table.columns[name] = Column(one.values, _unit(name, texts))
+                elif one.kind.startswith("an object"):
+                    table.notes.append(f"variable {name} is {one.kind}: not read{_way_out(one)}")
     except Exception as error:  # noqa: BLE001 -- the library names damage in many ways
         words = str(error).splitlines()[0] if str(error) else type(error).__name__
         raise InputError(f"damaged: {words}", file=path, expected="a MATLAB 7.3 file") from None
-    return table
+    return _checked(path, table)
 
 
-def _datasets(group: Any, h5py: Any, prefix: str = "") -> Iterator[tuple[str, Any]]:  # noqa: ANN401
-    """Vectors and texts of a group and the groups inside it, by path."""
+def _datasets(group: Any, h5py: Any, prefix: str = "") -> Iterator[tuple[str, Variable]]:  # noqa: ANN401
+    """Vectors, texts and objects of a group and of what is inside it, by path."""
     for key, item in group.items():
-        name = f"{prefix}{key}"
         if key.startswith("#"):
             continue
         if isinstance(item, h5py.Group):
-            yield from _datasets(item, h5py, name + ".")
-        elif isinstance(item, h5py.Dataset) and item.dtype.kind in "iuf":
-            if item.size > _MOST_SAMPLES:
-                raise ValueError(f"{name} claims {item.size} numbers")
-            text = item.attrs.get("MATLAB_class", b"") == b"char"
-            values = np.asarray(item[()], dtype=np.float64)
-            letters = "".join(map(chr, values.ravel().astype(int))) if text else ""
-            yield name, (None if text else _vector(values), letters)
+            yield from _datasets(item, h5py, f"{prefix}{key}.")
+        elif isinstance(item, h5py.Dataset):
+            yield from _dataset(item, h5py, prefix, key)
+
+
+def _dataset(item: Any, h5py: Any, prefix: str, key: str) -> Iterator[tuple[str, Variable]]:  # noqa: ANN401
+    """One variable, or the entries of a cell array or structure array, which are references."""
+    name = f"{prefix}{key}"
+    if item.size > _MOST_SAMPLES:
+        raise ValueError(f"{name} claims {item.size} numbers")
+    kind = item.attrs.get("MATLAB_class", b"")
+    if "MATLAB_object_decode" in item.attrs and kind not in (b"function_handle", b"struct"):
+        yield name, Variable(name, None, f"an object of class {kind.decode('ascii', 'replace')}")
+    elif item.dtype.kind in "iuf":
+        text = kind == b"char"
+        values = np.asarray(item[()], dtype=np.float64)
+        letters = "".join(map(chr, values.ravel().astype(int))) if text else ""
+        yield name, Variable(name, None if text else _vector(values), "numbers", letters)
+    elif h5py.check_ref_dtype(item.dtype) is not None:
+        yield from _referenced(item, h5py, prefix, key)
+
+
+def _referenced(item: Any, h5py: Any, prefix: str, key: str) -> Iterator[tuple[str, Variable]]:  # noqa: ANN401
+    references = np.asarray(item[()]).ravel()
+    if references.size > _MOST_PARTS:
+        raise ValueError(f"{prefix}{key} claims {references.size} entries")
+    cell = item.attrs.get("MATLAB_class", b"") == b"cell"
+    for entry, reference in enumerate(references, 1):
+        # as in version 5: cells{2}, log(2).speed
+        before, last = (prefix, f"{key}{{{entry}}}") if cell else (
+            f"{prefix.removesuffix('.')}({entry}).", key)  # fmt: skip
+        held = item.file[reference] if reference else None
+        if isinstance(held, h5py.Group):
+            yield from _datasets(held, h5py, f"{before}{last}.")
+        elif isinstance(held, h5py.Dataset) and h5py.check_ref_dtype(held.dtype) is None:
+            yield from _dataset(held, h5py, before, last)
 
 
 def _vector(values: FloatArray | None) -> FloatArray | None:

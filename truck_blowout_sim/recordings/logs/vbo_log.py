@@ -2,7 +2,6 @@
 
 References: Racelogic VBOX file format: [header], [column names], [data]; time is UTC as HHMMSS.SS,
 latitude and longitude are minutes (west positive), velocity is km/h.
-Known limits: latitude and longitude are not projected.
 Validated with: test/recordings/test_logs_text.py.
 """
 
@@ -15,9 +14,11 @@ from truck_blowout_sim.recordings.logs.csv_log import fill, text_of
 from truck_blowout_sim.recordings.logs.log import Table
 from truck_blowout_sim.recordings.units import find_unit
 
+KIND = "VBOX .vbo"
 # what the format itself says, where the header gives no unit
 _UNITS = {"time": "hhmmss", "velocity": "km/h", "heading": "deg", "height": "m",
-          "vert-vel": "km/h", "longacc": "g", "latacc": "g"}  # fmt: skip
+          "vert-vel": "km/h", "longacc": "g", "latacc": "g", "lat": "arcmin", "long": "arcmin",
+          "latitude": "arcmin", "longitude": "arcmin"}  # fmt: skip
 
 
 def open_vbo(path: Path) -> Table:
@@ -41,7 +42,7 @@ def open_vbo(path: Path) -> Table:
     if len(rows) < max(2, len(sections["data"]) - 2):
         raise InputError(f"{len(rows)} of {len(sections['data'])} rows are whole", file=path,
                          where="section [data]", expected=f"{len(names)} cells a row")  # fmt: skip
-    table = Table(path, "VBOX .vbo", {})
+    table = Table(path, KIND, {})
     fill(table, names, units, rows, places, ".")
     return table
 

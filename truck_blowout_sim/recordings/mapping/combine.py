@@ -20,8 +20,9 @@ from truck_blowout_sim.recordings.checks import check_values
 from truck_blowout_sim.recordings.logs.bag_log import HEADER, RECEIVE, lateness_s
 from truck_blowout_sim.recordings.logs.log import Column
 from truck_blowout_sim.recordings.mapping.opened import Opened
-from truck_blowout_sim.recordings.mapping.plausible import beyond, reads_like
+from truck_blowout_sim.recordings.mapping.plausible import beyond, hydraulic, reads_like
 from truck_blowout_sim.recordings.mapping.rules import Rules, Source
+from truck_blowout_sim.recordings.mapping.stand_ins import StandInError, resolved, stand_ins
 from truck_blowout_sim.recordings.names import Parts, parts_of
 from truck_blowout_sim.recordings.recording import Recording, Series
 from truck_blowout_sim.recordings.units import SI_QUANTITIES, Unit, find_unit, unit_for
@@ -57,7 +58,7 @@ def combine(
             no truck has.
     """
     parts = _parts(files, rules, tires, hubs)
-    table = by_name(parts.table())
+    table = by_name((*parts.table(), *stand_ins()))
     made = Mapped()
     for opened in files:
         _take_native(opened, made)
@@ -67,11 +68,22 @@ def combine(
                          nearest(name, table, "a channel of docs/recordings.md"))  # fmt: skip
         made.channels[name] = _mapped(files, rules, source, table[name], made)
     _tell_unused(files, made)
+    channels, origin, notes = _resolved(made, rules)
     main = files[0]
     blowouts = tuple(b for opened in files if opened.native for b in opened.native.blowouts)
-    metadata = {**main.metadata, **rules.metadata}
-    return Recording(main.name, made.channels, blowouts, metadata,
-                     (*(n for f in files for n in f.notes), *made.notes))  # fmt: skip
+    metadata = {**main.metadata, **origin, **rules.metadata}
+    return Recording(main.name, channels, blowouts, metadata,
+                     (*(n for f in files for n in f.notes), *made.notes, *notes))  # fmt: skip
+
+
+def _resolved(
+    made: Mapped, rules: Rules
+) -> tuple[dict[str, Series], dict[str, str], tuple[str, ...]]:
+    try:
+        return resolved(made.channels)
+    except StandInError as error:
+        key = rules.channels[error.name].key if error.name in rules.channels else ""
+        raise _error(rules, key, str(error), error.expected) from None
 
 
 def _parts(files: list[Opened], rules: Rules, tires: Iterable[str], hubs: Iterable[str]) -> Parts:
@@ -116,6 +128,8 @@ def _mapped(
         raise InputError("holds no number", file=opened.path, where=where, expected="samples")
     numbers, values, times = column.values[there], values[there], times[there]
     _check_size(opened.path, where, channel, (numbers, unit), values, times)
+    if note := hydraulic(channel, values):
+        made.notes.append(note)
     times, values = _in_order(opened.path, where, times, values, made)
     check_values(channel, values, file=opened.path, where=lambda i: f"{where}, at {times[i]:g} s")
     if channel.name.endswith("_yaw_rad"):
@@ -151,7 +165,20 @@ def _unit(rules: Rules, source: Source, column: Column, channel: Channel, name: 
     if not source.unit and find_unit(text) is None:
         raise _error(rules, source.key, f"the log's unit {quoted(text)} of column {quoted(name)}"
                      " is not known here", f"unit: … beside it, of {quantity}")  # fmt: skip
+    if channel.group == "hub_speed" and (unit := find_unit(text)) and unit.quantity == "speed":
+        return _of_a_wheel(rules, source, unit)
+    if source.radius_m:
+        raise _error(rules, f"{source.key}.radius_m", f"{channel.name} is in {text}",
+                     "a radius only for wheel speeds in km/h and the like")  # fmt: skip
     return unit_for(text, quantity, file=rules.file or "mapping", where=f"key {source.key}")
+
+
+def _of_a_wheel(rules: Rules, source: Source, unit: Unit) -> Unit:
+    """Spin speed of a wheel whose logger multiplies it by a radius."""
+    if not source.radius_m:
+        raise _error(rules, source.key, f"a wheel speed in {unit.name}",
+                     "radius_m: beside it, the wheel radius that the logger multiplies by")
+    return Unit(unit.name, "angular rate", unit.factor / source.radius_m)
 
 
 def _times(opened: Opened, rules: Rules, name: str, column: Column, made: Mapped) -> FloatArray:

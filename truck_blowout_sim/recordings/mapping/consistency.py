@@ -3,6 +3,7 @@
     yaw rate      = d(heading)/dt
     speed         = length of d(position)/dt
     lateral force = speed * yaw rate (steady)
+    yaw rate      = turning of the path, in sign
     upward force  = 9.81 m/s2 in the mean
 
 References: planar kinematics of a rigid body; ISO 8855.
@@ -68,6 +69,9 @@ def _ratios(recording: Recording) -> Iterator[tuple[str, str, float]]:
         if speed is not None and {"x_m", "y_m"} <= have.keys():
             moved = np.hypot(np.gradient(have["x_m"], times), np.gradient(have["y_m"], times))
             yield from _mean_pair(unit, "vx_mps", "its position", speed, moved)
+            if rate is not None and np.nanmin(moved) > _MOVING_MPS:
+                yield from _sign(unit, "yaw_rate_radps", "the turning of its path", rate,
+                                 _path_rate(have["x_m"], have["y_m"], times))  # fmt: skip
         if "ay_mps2" in have and rate is not None and speed is not None:
             yield from _pair(unit, "ay_mps2", "speed times yaw rate", have["ay_mps2"], speed * rate)
         up = f"{unit}_az_mps2"
@@ -84,6 +88,22 @@ def _pair(unit: str, stem: str, other: str, one: FloatArray, reference: FloatArr
         return
     if abs(float(np.corrcoef(a, b)[0, 1])) > _ALIKE:
         yield f"{unit}_{stem}", other, float(np.sum(a * b) / np.sum(b * b))
+
+
+def _path_rate(x_m: FloatArray, y_m: FloatArray, times: FloatArray) -> FloatArray:
+    course = np.unwrap(np.arctan2(np.gradient(y_m, times), np.gradient(x_m, times)))
+    return np.asarray(np.gradient(course, times), dtype=np.float64)
+
+
+def _sign(unit: str, stem: str, other: str, one: FloatArray, reference: FloatArray
+          ) -> Iterator[tuple[str, str, float]]:  # fmt: skip
+    """1 or -1 where the two go together over a second; noise of positions spoils more than that."""
+    second = np.full(round(1.0 / _STEP_S), _STEP_S)
+    a, b = (np.convolve(values, second, mode="valid") for values in (one, reference))
+    if a.size >= _FEWEST and np.std(a) > 0.0 and np.std(b) > 0.0:
+        together = float(np.corrcoef(a, b)[0, 1])
+        if abs(together) > _ALIKE:
+            yield f"{unit}_{stem}", other, math.copysign(1.0, together)
 
 
 def _mean_pair(unit: str, stem: str, other: str, one: FloatArray, reference: FloatArray

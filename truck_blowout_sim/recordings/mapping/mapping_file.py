@@ -149,8 +149,8 @@ def _time(node: _Node) -> TimeRule:
 def _source(node: _Node) -> Source:
     if isinstance(node.value, str):
         return Source(node.value, key=node.key)
-    node.keys(("from", "unit", "sign", "offset", "file"))
-    sign, offset = node.get("sign"), node.get("offset")
+    node.keys(("from", "unit", "sign", "offset", "file", "radius_m"))
+    sign, offset, radius = (node.get(key) for key in ("sign", "offset", "radius_m"))
     return Source(
         column=node.get("from").text(),
         unit=_optional_text(node.get("unit")),
@@ -158,6 +158,7 @@ def _source(node: _Node) -> Source:
         offset=0.0 if offset.value is None else offset.number(),
         file=_optional_text(node.get("file")),
         key=node.key,
+        radius_m=0.0 if radius.value is None else radius.number(_wheel, "metres, 0.1 to 2"),
     )
 
 
@@ -195,6 +196,10 @@ def _mount(node: _Node) -> Mount:
 
 def _optional_text(node: _Node) -> str:
     return "" if node.value is None else node.text()
+
+
+def _wheel(radius_m: float) -> bool:
+    return 0.1 <= radius_m <= 2.0
 
 
 def _near(length_m: float) -> bool:

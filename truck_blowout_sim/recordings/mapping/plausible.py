@@ -2,7 +2,8 @@
 
 References: bounds from the machine, not from data: 60 m/s is beyond any truck's top speed; a hand
 wheel turns 2 to 3 times each way; a truck that spins or rolls over stays below 4 rad/s in yaw;
-compressed-air systems open their relief valve below 1.3 MPa (SAE J1849, FMVSS 121).
+compressed-air systems open their relief valve below 1.3 MPa (SAE J1849, FMVSS 121); hydraulic units
+of cars reach 15 to 20 MPa (ECE R13-H systems).
 Validated with: test/recordings/test_mapping.py.
 """
 
@@ -20,6 +21,8 @@ FloatArray = NDArray[np.float64]
 
 _MOST = {
     "steering_wheel_angle_rad": 25.0,
+    "latitude_rad": 1.5708,
+    "longitude_rad": 6.2832,
     "throttle": 1.05,
     "vx_mps": 60.0,
     "vy_mps": 25.0,
@@ -32,11 +35,12 @@ _MOST = {
     "ay_mps2": 300.0,
     "az_mps2": 300.0,
     "hub_speed": 300.0,
-    "brake_pressure": 1.5e6,
-    "brake_chamber": 1.5e6,
+    "brake_pressure": 2.5e7,
+    "brake_chamber": 2.5e7,
     "tire_pressure": 2.0e6,
     "articulation_rad": 3.5,
 }
+AIR_BRAKES_PA = 1.5e6
 # What most of an ordinary drive stays below: a unit that brings the numbers there is likely meant.
 _USUAL: Mapping[str, tuple[float, float]] = {
     "speed": (0.5, 45.0), "angular rate": (0.002, 1.5), "angle": (0.001, 12.0),
@@ -52,6 +56,15 @@ def beyond(channel: Channel, values: FloatArray) -> int | None:
         return None
     wrong = np.flatnonzero(np.abs(values) > most)
     return int(wrong[0]) if wrong.size else None
+
+
+def hydraulic(channel: Channel, values: FloatArray) -> str:
+    """A note on a brake pressure that air brakes do not have; empty where it is lower."""
+    most = float(np.max(values, initial=0.0))
+    if not channel.name.startswith("brake_") or most <= AIR_BRAKES_PA:
+        return ""
+    return (f"{channel.name} reaches {most / 1e5:.0f} bar: hydraulic brakes have that; with air"
+            " brakes the unit is another one")
 
 
 def most_of(name: str) -> float | None:

@@ -8,15 +8,17 @@ Validated with: test/recordings/test_proposing.py, test/recordings/test_bring_yo
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from truck_blowout_sim.recordings.channels import Channel, by_name, channels_for
+from truck_blowout_sim.recordings.channels import UNITS, Channel, by_name, channels_for
 from truck_blowout_sim.recordings.logs.log import Column, Log
+from truck_blowout_sim.recordings.logs.vbo_log import KIND as VBO_KIND
 from truck_blowout_sim.recordings.mapping.plausible import most_of
+from truck_blowout_sim.recordings.mapping.stand_ins import stand_ins
 from truck_blowout_sim.recordings.mapping.vocabulary import channel_hinted
 from truck_blowout_sim.recordings.units import (
     GRAVITY_MPS2,
@@ -32,6 +34,7 @@ _DOWNWARD = ("vy_mps", "y_m", "yaw_rad", "yaw_rate_radps", "pitch_rad", "pitch_r
              "ay_mps2", "az_mps2")  # fmt: skip
 _MOSTLY = 0.3  # correlation that a sign needs
 _COMPASS_DEG = 90.0
+_TRUCK_WHEEL_M = 0.5  # rolling radius of 11R22.5 and 295/75R22.5
 
 
 @dataclass(frozen=True)
@@ -41,7 +44,7 @@ class Proposal:
     Attributes:
         column, channel: full names.
         unit: empty where the log states it.
-        sign, offset: as in a mapping file.
+        sign, offset, radius_m: as in a mapping file.
         why: what each part was guessed from.
     """
 
@@ -51,6 +54,7 @@ class Proposal:
     sign: float = 1.0
     offset: float = 0.0
     why: tuple[str, ...] = ()
+    radius_m: float = 0.0
 
 
 def propose(log: Log, taken: Mapping[str, object] | None = None) -> list[Proposal]:
@@ -60,7 +64,7 @@ def propose(log: Log, taken: Mapping[str, object] | None = None) -> list[Proposa
         log: the columns.
         taken: channels that are there already.
     """
-    table = by_name(channels_for())
+    table = by_name((*channels_for(), *stand_ins()))
     best: dict[str, tuple[tuple[float, int], Proposal, Column]] = {}
     for at, name in enumerate(log.names):
         channel = table.get(channel_hinted(name))
@@ -74,8 +78,20 @@ def propose(log: Log, taken: Mapping[str, object] | None = None) -> list[Proposa
         if channel.name not in best or rank > best[channel.name][0]:
             best[channel.name] = (rank, found, column)
     order = {name: k for k, name in enumerate(table)}
-    picked = sorted(best.values(), key=lambda entry: order[entry[1].channel])
-    return _with_signs([(proposal, column) for _, proposal, column in picked])
+    picked = sorted((best[name] for name in _of_one_kind(best)), key=lambda e: order[e[1].channel])
+    signed = _with_signs([(proposal, column) for _, proposal, column in picked])
+    return [_west_positive(one) for one in signed] if log.kind == VBO_KIND else signed
+
+
+def _of_one_kind(found: Collection[str]) -> list[str]:
+    """Names without half positions, and without latitudes where there are positions in meters."""
+    kept = list(found)
+    for unit in UNITS:
+        globe = [f"{unit}_{stem}" for stem in ("latitude_rad", "longitude_rad", "altitude_m")]
+        plane = {f"{unit}_x_m", f"{unit}_y_m"} & set(found)
+        if plane or not set(globe[:2]) <= set(found):
+            kept = [name for name in kept if name not in globe]
+    return kept
 
 
 def unit_by_size(numbers: FloatArray, channel: str, quantity: str) -> str:
@@ -93,6 +109,8 @@ def unit_by_size(numbers: FloatArray, channel: str, quantity: str) -> str:
         return next((name for most, name in limits if high < most), "Pa")
     if quantity == "ratio":
         return "%" if high > (most_of(channel) or 1.05) else "1"
+    if channel.endswith(("latitude_rad", "longitude_rad")):
+        return "deg" if high <= 180.0 else "arcmin"
     limits_by = {"speed": 45.0, "angular rate": 1.2, "angle": _angle_limit(channel)}
     si, other = units_of(quantity)[:2]
     return other if high > limits_by.get(quantity, np.inf) else si
@@ -109,6 +127,8 @@ def _of_column(name: str, column: Column, channel: Channel) -> Proposal | None:
     quantity = SI_QUANTITIES[channel.unit]
     why = ["channel from the name"]
     stated = find_unit(column.unit)
+    if channel.group == "hub_speed":
+        return _of_wheel(name, stated or _unit_in_name(name), column, channel)
     if stated is not None and stated.quantity != quantity:
         return None
     told = column.values[np.isfinite(column.values)]
@@ -122,6 +142,27 @@ def _of_column(name: str, column: Column, channel: Channel) -> Proposal | None:
         unit = in_name.name if in_name else unit_by_size(told, channel.name, quantity)
         why.append(f"unit from {'the name' if in_name else 'the size of the numbers'}")
     return Proposal(name, channel.name, unit, why=tuple(why))
+
+
+def _of_wheel(name: str, unit: Unit | None, column: Column, channel: Channel) -> Proposal | None:
+    """A wheel speed: only with a unit, as its size tells none; in km/h with a radius."""
+    why: tuple[str, ...] = ("channel from the name",)
+    if unit is None or not np.isfinite(column.values).any():
+        return None
+    stated = "" if find_unit(column.unit) else unit.name
+    if unit.quantity == "angular rate":
+        return Proposal(name, channel.name, stated, why=why)
+    if unit.quantity != "speed":
+        return None
+    why = (*why, "radius of a 22.5 in truck tire: take the one that the logger multiplies by")
+    return Proposal(name, channel.name, stated, why=why, radius_m=_TRUCK_WHEEL_M)
+
+
+def _west_positive(proposal: Proposal) -> Proposal:
+    if not proposal.channel.endswith("longitude_rad"):
+        return proposal
+    why = (*proposal.why, "sign: the format counts west positive")
+    return replace(proposal, sign=-1.0, why=why)
 
 
 def _unit_in_name(name: str) -> Unit | None:
@@ -163,8 +204,7 @@ def _with_signs(pairs: list[tuple[Proposal, Column]]) -> list[Proposal]:
         if "heading" in proposal.column.lower() and stem == "yaw_rad":
             sign, offset = -1.0, -_COMPASS_DEG
             why.append("sign and offset: a compass heading, clockwise from north")
-        out.append(Proposal(proposal.column, proposal.channel, proposal.unit, sign, offset,
-                            tuple(why)))  # fmt: skip
+        out.append(replace(proposal, sign=sign, offset=offset, why=tuple(why)))
     return out
 
 

@@ -22,6 +22,7 @@ class Source:
         sign: 1 or -1.
         offset: in the unit of the column, added before the conversion.
         file: of several files, the one it is in; empty: any.
+        radius_m: of a wheel speed in km/h and the like, the radius that the logger multiplies by.
         key: where this stands in the mapping file, for an error.
     """
 
@@ -31,6 +32,7 @@ class Source:
     offset: float = 0.0
     file: str = ""
     key: str = ""
+    radius_m: float = 0.0
 
 
 @dataclass(frozen=True)

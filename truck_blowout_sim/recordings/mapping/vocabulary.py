@@ -22,6 +22,8 @@ EXACT = {
     "swa": "steering_wheel_angle_rad", "lws angle": "steering_wheel_angle_rad",
     "speed": "vx_mps", "r": "yaw_rate_radps", "pbk con": "brake_pressure_drive_pa",
     "x": "x_m", "y": "y_m", "easting": "x_m", "northing": "y_m",
+    "lat": "latitude_rad", "long": "longitude_rad", "lon": "longitude_rad",
+    "lng": "longitude_rad", "altitude": "altitude_m", "alt": "altitude_m", "height": "altitude_m",
 }  # fmt: skip
 
 _CARSIM_AXLES = ("steer", "drive_1", "drive_2", "trailer_1", "trailer_2")
@@ -31,6 +33,14 @@ WHEELS = {
     for side in ("left", "right")
 }
 """CarSim's wheel speeds, axles counted from the front."""
+
+_WHEEL_SPEED = re.compile(r"wh?(ee)?l ?(sp(ee)?d|rpm|rate|vel\w*)|\b(sp(ee)?d|rpm) wh?(ee)?l\b")
+_CORNERS = (
+    (re.compile(r"\b(f ?l|l ?f|front \w*? ?left|left front)\b"), "steer_left"),
+    (re.compile(r"\b(f ?r|r ?f|front \w*? ?right|right front)\b"), "steer_right"),
+    (re.compile(r"\b(r ?l|l ?r|rear \w*? ?left|left rear)\b"), "drive_1_left"),
+    (re.compile(r"\b(r ?r|rear \w*? ?right|right rear)\b"), "drive_1_right"),
+)
 
 # words of a name, the most telling first; a name of several words is tried as a whole
 PATTERNS = tuple(
@@ -64,11 +74,14 @@ PATTERNS = tuple(
         (r"pitch( ?angle)?$", "pitch_rad"),
         (r"(position x|pos ?x|utm ?e\w*|easting|x ?pos\w*)$", "x_m"),
         (r"(position y|pos ?y|utm ?n\w*|northing|y ?pos\w*)$", "y_m"),
+        (r"latitude|breitengrad|^(gps|gnss|pos\w*) lat$", "latitude_rad"),
+        (r"longitude|laengengrad|^(gps|gnss|pos\w*) (long?|lng)$", "longitude_rad"),
         (r"art h\b|articulation|hitch ang\w*|knickwinkel", "articulation_rad"),
         (r"brake? ?.*(pres\w*|druck).*(trl|trailer)|(trl|trailer) ?brake?",
          "brake_pressure_trailer_pa"),
         (r"brake? ?.*(pres\w*|druck).*(front|steer)", "brake_pressure_steer_pa"),
-        (r"brake? ?.*(pres\w*|druck)", "brake_pressure_drive_pa"),
+        (r"brake? ?.*(pres\w*|druck).*(rear|drive)", "brake_pressure_drive_pa"),
+        (r"br(a?ke?)? ?.*(pres\w*|prs|druck)|(master|line) ?cyl\w* ?pres\w*", "brake_pressure_pa"),
     )
 )
 _CAMEL = re.compile(r"(?<=[a-z])(?=[A-Z])|(?<=[A-Z])(?=[A-Z][a-z])")
@@ -88,6 +101,9 @@ def channel_hinted(name: str) -> str:
     as_is = " ".join(re.sub(r"[^0-9A-Za-z]+", " ", name).lower().split())
     if as_is in WHEELS:
         return WHEELS[as_is]
+    if _WHEEL_SPEED.search(words):
+        return next((f"hub_speed_{hub}_radps" for corner, hub in _CORNERS if corner.search(words)),
+                    "")  # fmt: skip
     trailer = bool(TRAILER.search(words.replace("_", " ")) or TRAILER.search(name.lower()))
     bare = TRAILER.sub("", words).strip()
     short = TRAILER.sub("", as_is).strip()

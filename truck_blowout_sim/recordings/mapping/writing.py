@@ -59,6 +59,8 @@ def _entry(proposal: Proposal) -> str:
         parts.append(f"sign: {proposal.sign:g}")
     if proposal.offset:
         parts.append(f"offset: {proposal.offset:g}")
+    if proposal.radius_m:
+        parts.append(f"radius_m: {proposal.radius_m:g}")
     return f"  {proposal.channel}: {{{', '.join(parts)}}}  # GUESS: {'; '.join(proposal.why)}\n"
 
 

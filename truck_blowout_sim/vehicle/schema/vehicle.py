@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from truck_blowout_sim.vehicle.fields import section, sections, text
+from truck_blowout_sim.vehicle.fields import choice, section, sections, text
 from truck_blowout_sim.vehicle.schema.axle import AxleSpec
 from truck_blowout_sim.vehicle.schema.body import FifthWheelSpec, UnitSpec
 from truck_blowout_sim.vehicle.schema.controls import (
@@ -16,6 +16,8 @@ from truck_blowout_sim.vehicle.schema.controls import (
     DrivelineSpec,
     SteeringSpec,
 )
+
+BRAKES = ("air", "hydraulic")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -40,6 +42,9 @@ class VehicleSpec:
     road: str = text("road file it stands on unless a scenario says otherwise")
     driveline: DrivelineSpec = section(DrivelineSpec, "engine and driveline")
     abs: AbsSpec = section(AbsSpec, "anti-lock control")
+    brakes: str = choice(
+        "what is in the brake lines: says how high control pressures may be", BRAKES, default="air"
+    )
     circuits: CircuitsSpec = section(CircuitsSpec, "brake circuits")
     steering: SteeringSpec | None = section(SteeringSpec, "steering", optional=True)
     fifth_wheel: FifthWheelSpec | None = section(FifthWheelSpec, "fifth wheel", optional=True)

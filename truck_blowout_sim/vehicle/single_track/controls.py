@@ -31,6 +31,7 @@ def put_controls(draft: Draft, spec: SingleTrackSpec, units: Sequence[UnitPlan])
     _put_driveline(draft, spec, units)
     _take(draft, "abs", shipped)
     draft.put("abs.mode", "slip_threshold" if spec.kind == "truck" else "off", "not stated")
+    draft.put("brakes", "air" if spec.kind == "truck" else "hydraulic")
     circuits = {"steer": units[0].rules, "drive": units[0].rules, "trailer": units[-1].rules}
     for circuit, rules in circuits.items():
         draft.rule(f"circuits.{circuit}.delay_s", rules, "brake_delay_s")
