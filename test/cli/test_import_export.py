@@ -46,6 +46,14 @@ def test_there_and_back(tmp_path: Path, log: Path) -> None:
     assert two.metadata["test"] == "by hand"
 
 
+def test_a_plain_csv_begins_with_its_header(tmp_path: Path, log: Path) -> None:
+    assert cli("export", log, "-o", tmp_path / "plain.csv", "--plain").returncode == 0
+    lines = (tmp_path / "plain.csv").read_text().splitlines()
+    assert lines[0] == "time_s,throttle,blowout,tractor_vx_mps,tire_pressure_steer_left_pa"
+    assert len(lines) == 4
+    assert read_recording(tmp_path / "plain.csv").blowouts == read_recording(log).blowouts
+
+
 def test_bad_input_is_one_line_and_status_2_and_nothing_is_left(tmp_path: Path, log: Path) -> None:
     log.write_text(CSV.replace("19.5", "nan"))
     done = cli("import", log, "-o", tmp_path / "bag")
@@ -68,6 +76,7 @@ def test_bad_input_is_one_line_and_status_2_and_nothing_is_left(tmp_path: Path, 
         ("import", "log.csv", "-o", "log.csv/bag"),
         ("export", "log.csv", "-o", "/proc/no/such.csv"),
         ("export", "log.csv", "-o", "x.csv", "--thesis-variables"),
+        ("export", "log.csv", "-o", "x.mat", "--plain"),
         ("import", "log.csv"),
     ],
 )

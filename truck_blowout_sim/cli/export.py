@@ -25,6 +25,10 @@ def command(
         False, "--thesis-variables", help="Of a .mat: only the variables of the thesis's script "
         "(time_e, vx_e, …: mph, deg/s, ft, SAE axes), not every channel."
     ),
+    plain: bool = typer.Option(
+        False, "--plain", help="Of a .csv: without the lines of metadata before the header, for "
+        "PlotJuggler and spreadsheets."
+    ),
     force: bool = FORCE,
     as_json: bool = JSON,
 ) -> None:
@@ -33,15 +37,17 @@ def command(
     recording = logs.read(bag)
     say_notes(recording)
     if thesis_variables:
-        _check_thesis(output)
+        _check_ending(output, ".mat", "--thesis-variables")
         left_out = len(recording.channels) - len(THESIS_CHANNELS & set(recording.channels))
         typer.echo(f"note: {left_out} channels have no variable in the thesis and are left out",
                    err=True)  # fmt: skip
         recording = recording.only_channels(sorted(THESIS_CHANNELS))
-    write_recording(recording, output, thesis_variables=thesis_variables)
+    if plain:
+        _check_ending(output, ".csv", "--plain")
+    write_recording(recording, output, thesis_variables=thesis_variables, plain=plain)
     report(recording, output, as_json)
 
 
-def _check_thesis(output: Path) -> None:
-    if output.suffix.lower() != ".mat":
-        raise InputError("--thesis-variables", file=output, expected="an output ending in .mat")
+def _check_ending(output: Path, ending: str, option: str) -> None:
+    if output.suffix.lower() != ending:
+        raise InputError(option, file=output, expected=f"an output ending in {ending}")

@@ -17,25 +17,28 @@ from truck_blowout_sim.recordings.recording import Recording
 _NS = 1_000_000_000
 
 
-def write_csv(recording: Recording, path: Path) -> None:
+def write_csv(recording: Recording, path: Path, *, plain: bool = False) -> None:
     """Write a recording; instants that agree to the nanosecond share a row.
+
+    Args:
+        plain: without the lines of metadata, so that the header is the first line.
 
     Raises:
         KeyError: a channel that is not in the table.
         StorageError: the file cannot be written; an older file of that name is then untouched.
     """
     with replacing(path) as temporary:
-        temporary.write_text(csv_text(recording), encoding="utf-8")
+        temporary.write_text(csv_text(recording, plain=plain), encoding="utf-8")
 
 
-def csv_text(recording: Recording) -> str:
-    """The file's text."""
+def csv_text(recording: Recording, *, plain: bool = False) -> str:
+    """The file's text; `plain`: from the header on."""
     out = io.StringIO()
     parts = parts_of(recording.channels)
     metadata = dict(recording.metadata)
     _declare(metadata, TIRE_NAMES_KEY, parts.tires, DEFAULT_TIRES)
     _declare(metadata, HUB_NAMES_KEY, parts.hubs, DEFAULT_HUBS)
-    for key, value in metadata.items():
+    for key, value in () if plain else metadata.items():
         out.write(f"# {' '.join(key.split())}: {' '.join(value.split())}\n")
     table = [channel.name for channel in parts.table()]
     unknown = set(recording.channels) - set(table)

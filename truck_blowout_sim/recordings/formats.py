@@ -57,6 +57,7 @@ def write_recording(
     path: str | os.PathLike[str],
     *,
     thesis_variables: bool = False,
+    plain: bool = False,
     beside: Iterable[Extra] = (),
 ) -> Path:
     """Write a recording in the format that the path's ending names; a folder is a rosbag2 bag.
@@ -67,6 +68,7 @@ def write_recording(
         recording: what is written; every channel, in every format.
         path: a folder, or a file ending in ``.mcap``, ``.csv`` or ``.mat``.
         thesis_variables: of a ``.mat``: only the variables of the thesis's appendix A.
+        plain: of a ``.csv``: without the lines of metadata before the header.
         beside: of a bag: further messages, in order of time.
 
     Returns:
@@ -81,7 +83,7 @@ def write_recording(
     if suffix in ("", ".mcap"):
         write_bag(recording, path, beside)
     elif suffix == ".csv":
-        write_csv(recording, path)
+        write_csv(recording, path, plain=plain)
     elif suffix == ".mat":
         write = write_thesis_mat if thesis_variables else write_mat
         write(recording, path)

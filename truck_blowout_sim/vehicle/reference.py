@@ -42,7 +42,7 @@ BLOCKS = {
 }
 
 
-COMMENT_COLUMN = 34  # where comments begin, if the key is shorter
+COMMENT_COLUMN = 30  # where comments begin, if the key is shorter
 
 
 def key_files() -> dict[str, str]:
