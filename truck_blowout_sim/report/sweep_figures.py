@@ -20,7 +20,7 @@ _LONG_LABEL = 9  # characters from which labels are written slanted
 def outcome_picture(name: str, title: str, values: Floats, labels: Mapping[str, list[str]],
                     at: Mapping[str, Integers], *, rate: bool) -> Picture:
     """An outcome against each key: boxes over the runs at each value, or the share of runs."""
-    keys = list(labels)
+    keys = [key for key in labels if len(labels[key]) > 1] or list(labels)
     columns = min(len(keys), _MOST_COLUMNS)
     rows = -(-len(keys) // columns)
     figure = new_figure((_PANEL_IN[0] * max(columns, 2), _PANEL_IN[1] * rows + 0.3))
@@ -46,8 +46,8 @@ def outcome_picture(name: str, title: str, values: Floats, labels: Mapping[str, 
         panel.set_xlabel(key)
     figure.supylabel(title, fontsize=9.5)
     caption = ("Share of the runs at each value of a key, over all values of the others." if rate
-               else "Runs at each value of a key, over all values of the others: median, middle "
-               "half (box), 5 to 95 % (whiskers).")
+               else "Runs at each value of a key, over all values of the others: median, "
+               "quartiles (box), 5 to 95 % (whiskers).")
     return Picture(name, title, caption, figure)
 
 
@@ -84,7 +84,7 @@ def pair_picture(name: str, title: str, values: Floats, keys: tuple[str, str],
 
 @styled
 def share_picture(keys: Sequence[str], shares: Mapping[str, Mapping[str, float]]) -> Picture:
-    """How much of each outcome's differences every key explains."""
+    """Share of each outcome's variance that every key explains."""
     figure = new_figure((7.4, 0.42 * len(shares) + 1.4))
     axes = figure.add_subplot()
     left = np.zeros(len(shares))
@@ -95,8 +95,8 @@ def share_picture(keys: Sequence[str], shares: Mapping[str, Mapping[str, float]]
     axes.set_yticks(range(len(shares)), list(shares), fontsize=8.5)
     axes.invert_yaxis()
     axes.set_xlim(0.0, 100.0)
-    axes.set_xlabel("share of the differences between runs (%)")
+    axes.set_xlabel("share of the variance between runs (%)")
     figure.legend(loc="outside upper left", ncols=2, fontsize=8)
-    return Picture("shares", "What explains the differences",
+    return Picture("shares", "What explains the outcomes",
                    "Variance of the mean at each value of a key over the variance of all runs. "
-                   "What is missing to 100 % comes of keys that act together.", figure)
+                   "The rest to 100 % is due to keys that act together.", figure)

@@ -74,7 +74,7 @@ class Findings:
 
 
 def findings(batch: Batch, keys: Sequence[str]) -> Findings:
-    """What the runs come to, key by key."""
+    """Outcomes of the runs, key by key."""
     status = batch.column("status")
     good = np.array([s != _FAILED for s in status])
     outcomes = {o.name: o.factor * _values(batch, o.name)[good] for o in OUTCOMES}
@@ -90,7 +90,7 @@ def findings(batch: Batch, keys: Sequence[str]) -> Findings:
 
 
 def sentences(found: Findings) -> list[str]:
-    """What the runs say, one sentence an outcome."""
+    """One sentence per outcome."""
     said = []
     for outcome in OUTCOMES:
         values, shares = found.outcomes[outcome.name], found.shares[outcome.name]
@@ -100,12 +100,12 @@ def sentences(found: Findings) -> list[str]:
         if outcome.rate:
             start = f"{outcome.title}: {values.mean():.0f} %"
         else:
-            start = (f"{outcome.title}: {np.median(values):.3g} {outcome.unit} in the middle, "
-                     f"{low:.3g} to {high:.3g} {outcome.unit} in all")
+            start = (f"{outcome.title}: median {np.median(values):.3g} {outcome.unit}, "
+                     f"range {low:.3g} to {high:.3g} {outcome.unit}")
         ranked = sorted(shares.items(), key=lambda item: -item[1])
-        parts = [f"{key} explains {100.0 * share:.0f} %" for key, share in ranked[:2]
-                 if share >= 0.05]
-        said.append(start + (f"; of the differences {', '.join(parts)}" if parts else "") + ".")
+        parts = [f"{key} explains {100.0 * share:.0f} % of the variance"
+                 for key, share in ranked[:2] if share >= 0.05]
+        said.append(start + (f"; {', '.join(parts)}" if parts else "") + ".")
     return said
 
 
