@@ -24,7 +24,7 @@ from rclpy.node import Node
 from truck_blowout_sim.nodes.adapters.commands import ForeignCommands
 from truck_blowout_sim.nodes.adapters.rear_axle import Motion, RearAxle
 from truck_blowout_sim.nodes.clock import NS
-from truck_blowout_sim.nodes.qos import publisher, reliable, state, subscription
+from truck_blowout_sim.nodes.qos import publisher, reliable, subscription
 
 if TYPE_CHECKING:
     from truck_blowout_sim.nodes.simulator_node import Simulator
@@ -45,8 +45,8 @@ def attach(node: Node, simulator: Simulator) -> bool:
     except ImportError:
         return False
     vehicle = AutowareVehicle(node, simulator, msg)
-    subscription(node, Control, COMMAND, vehicle.take, state())
-    subscription(node, msg.GearCommand, GEAR_COMMAND, vehicle.take_gear, state())
+    subscription(node, Control, COMMAND, vehicle.take, reliable(1))
+    subscription(node, msg.GearCommand, GEAR_COMMAND, vehicle.take_gear, reliable(1))
     node.create_service(srv.ControlModeCommand, MODE_REQUEST, vehicle.change_mode)
     simulator.outputs.also(vehicle.report)
     return True
