@@ -103,7 +103,7 @@ def _located(location: Mapping[str, Any]) -> list[tuple[str, str]]:
         rows.append(("body", location["body"]))
     wrench = location["wrench"]
     if wrench:
-        rows.append(("force that is missing", f"{wrench['fx_n']:.0f} N forward,"
+        rows.append(("missing force", f"{wrench['fx_n']:.0f} N forward,"
                      f" {wrench['fy_n']:.0f} N to the left, {wrench['mz_nm']:.0f} N m in yaw"))
     return rows
 
@@ -162,7 +162,7 @@ def _overlay(story: Story, *, amended: bool) -> Picture:
     panels[-1].set_xlabel("time (s)")
     title = "Before and after" if amended else "Record and model"
     return Picture("amended" if amended else "mismatch", title,
-                   "Below each: model less record.", figure)  # fmt: skip
+                   "Below each panel: model minus record.", figure)  # fmt: skip
 
 
 def _mark(axes: Axes, comparison: Comparison) -> None:

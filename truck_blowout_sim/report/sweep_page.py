@@ -159,7 +159,7 @@ def write_sweep_report(batch: Batch, keys: Sequence[str], title: str, command: s
 
 
 def _worst(batch: Batch, keys: Sequence[str]) -> list[list[str]]:
-    """The runs that went farthest: rolled over first, then by load transfer."""
+    """The most severe runs: rolled over first, then by load transfer."""
     transfer = _values(batch, "peak_load_transfer")
     over = _values(batch, "rolled_over")
     order = [k for k in np.lexsort((-np.nan_to_num(transfer), -np.nan_to_num(over)))

@@ -96,7 +96,7 @@ def speed_error(data: ThesisData, stated: str) -> Figure:
     figure, (axes,) = canvas(stated)
     axes.axhspan(-0.6, 0.6, label="stated: within 0.6 mph", **BAND)
     _errors(axes, data, SPEED)
-    return _over_time(figure, axes, "speed of model less record (mph)")
+    return _over_time(figure, axes, "speed of model minus record (mph)")
 
 
 def lateral_speed(data: ThesisData, stated: str) -> Figure:
@@ -138,7 +138,7 @@ def position_error(data: ThesisData, stated: str) -> Figure:
     figure, (axes,) = canvas(stated)
     axes.axhspan(-1.6, 1.6, label="stated for TruckSim: about 1.6 ft", **BAND)
     _errors(axes, data, "tractor_x_m")
-    return _over_time(figure, axes, "distance of model less record (ft)")
+    return _over_time(figure, axes, "distance of model minus record (ft)")
 
 
 def chambers(data: ThesisData, stated: str) -> Figure:
