@@ -104,6 +104,15 @@ def test_the_same_runs_give_the_same_bytes(
     assert (tmp_path / "a.json").read_bytes() == (tmp_path / "b.json").read_bytes()
 
 
+def test_channels_of_parts_that_the_vehicle_lacks_are_told(
+    vehicle: Vehicle, simulated: Recording
+) -> None:
+    wheel = Series(simulated["tractor_vx_mps"].time_s, simulated["tractor_vx_mps"].value)
+    strange = simulated.with_channels({"hub_speed_front_left_radps": wheel})
+    notes = compare(strange, vehicle).notes
+    assert any("no such part: hub_speed_front_left_radps" in note for note in notes)
+
+
 def test_json_carries_si_and_display_units(vehicle: Vehicle, simulated: Recording) -> None:
     compared = compare(offset(simulated, "tractor_vx_mps", 0.44704), vehicle)
     found = json.loads(json.dumps(encode_comparison(compared)))

@@ -29,6 +29,8 @@ from truck_blowout_sim.recordings.mapping.vocabulary import channel_hinted
     ("WhlSpd_RearRight", "hub_speed_drive_1_right_radps"),
     ("wheel_speed_fl", "hub_speed_steer_left_radps"), ("Wheel speed", ""),
     ("BrkPrs", "brake_pressure_pa"), ("Brake pressure front", "brake_pressure_steer_pa"),
+    ("data.Vx", "tractor_vx_mps"), ("log.AVz_2", "trailer_yaw_rate_radps"),
+    ("log.trailer.AVz", "trailer_yaw_rate_radps"), ("log.speed.data", "tractor_vx_mps"),
     ("EngineSpeed", ""), ("steer_axle_rpm", ""), ("Note", ""),
 ])  # fmt: skip
 def test_names(name: str, channel: str) -> None:

@@ -23,7 +23,7 @@ from truck_blowout_sim.comparison.provenance import Marks, marks_of
 from truck_blowout_sim.comparison.resets import longest_run
 from truck_blowout_sim.comparison.words import labels_for
 from truck_blowout_sim.errors import InputError
-from truck_blowout_sim.recordings import Recording, read_recording
+from truck_blowout_sim.recordings import INPUT_NAMES, Recording, read_recording
 from truck_blowout_sim.recordings.shipped import find_recording
 from truck_blowout_sim.simulation.drive import execute
 from truck_blowout_sim.simulation.plausible import implausible
@@ -193,6 +193,9 @@ def _notes(recording: Recording, model: Recording) -> tuple[str, ...]:
         notes += (f"the record is {recording.metadata['origin']}",)
     if gravity_is_removed(recording):
         notes += ("accelerations are compared without gravity, as the recording gives them",)
+    strange = sorted(set(recording.channels) - set(model.channels) - set(INPUT_NAMES))
+    if strange:
+        notes += (f"not compared, this vehicle has no such part: {', '.join(strange)}",)
     return notes
 
 

@@ -97,6 +97,11 @@ def words_of(name: str) -> str:
 
 def channel_hinted(name: str) -> str:
     """Channel that a column's name hints at, empty if it hints at none."""
+    parents, dot, part = name.rpartition(".")
+    if dot and ":" not in name and (found := channel_hinted(part)):
+        # a field of a structure: its own name says most
+        of_trailer = TRAILER.search(words_of(parents)) and found.startswith("tractor_")
+        return found.replace("tractor_", "trailer_", 1) if of_trailer else found
     words = words_of(name)
     as_is = " ".join(re.sub(r"[^0-9A-Za-z]+", " ", name).lower().split())
     if as_is in WHEELS:
