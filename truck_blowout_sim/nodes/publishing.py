@@ -19,7 +19,11 @@ def message_class(ros_type: str) -> type[Any]:
         ModuleNotFoundError: the message package is not installed.
     """
     package, kind, name = ros_type.split("/")
-    return getattr(import_module(f"{package}.{kind}"), name)
+    module = import_module(f"{package}.{kind}")
+    if not hasattr(module, name):
+        # a folder of definitions that stands in the working folder looks like a package
+        raise ModuleNotFoundError(f"{package} holds no {name}", name=package)
+    return getattr(module, name)
 
 
 def make_publishers(
