@@ -98,6 +98,18 @@ def test_encoded_rows_are_what_rosbags_would_have_written() -> None:
             assert (message.header.stamp.sec, message.header.stamp.nanosec) == (5, 7)
 
 
+@pytest.mark.parametrize("topics", [
+    ("tractor/odometry",), ("trailer/imu", "tractor/yaw_rate"), ("joint_states",),
+    ("tires/steer_left/pressure", "trailer/odometry"), ("no_such_topic",),
+])  # fmt: skip
+def test_some_topics_alone_are_filled_alike(topics: tuple[str, ...]) -> None:
+    table = [c for c in channels_for() if c.place]
+    encoder, values = RowEncoder(table), np.random.default_rng(2).uniform(-1, 1, len(table))
+    every = encoder.messages(7_000_000_005, values)
+    some = encoder.only(topics).messages(7_000_000_005, values)
+    assert some == {topic: every[topic] for topic in topics if topic in every}
+
+
 def test_what_was_not_measured_says_so() -> None:
     names = ("tractor_x_m", "tractor_yaw_rad", "tractor_yaw_rate_radps", "tractor_ay_mps2",
              "hub_speed_steer_left_radps")  # fmt: skip

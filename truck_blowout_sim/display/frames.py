@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from truck_blowout_sim.display.model import Joint, joints_of
 from truck_blowout_sim.display.prepared import Prepared
-from truck_blowout_sim.recordings.angles import quaternion
+from truck_blowout_sim.recordings.angles import quaternion_of
 from truck_blowout_sim.recordings.cdr import blank
 from truck_blowout_sim.vehicle import Vehicle
 from truck_blowout_sim.vehicle.places import hitch_of
@@ -67,8 +67,7 @@ class MovingFrames:
         """
         units, values = len(self._places), self._values
         values[:units, :3] = outputs[self._places]
-        roll, pitch, yaw = outputs[self._angles].T
-        values[:units, 3:] = quaternion(roll, pitch, yaw)
+        values[:units, 3:] = quaternion_of(outputs[self._angles])
         position = joints[self._joints]
         travel = np.where(self._slides, position, 0.0)
         half = np.where(self._slides, 0.0, 0.5 * position)

@@ -60,8 +60,10 @@ class OutputTopics:
         self._blowouts = BlowoutAnnouncer(node, recorder, lambda: plant.now_ns)
         self._types = {**self._table.types, **TYPES, CLOCK: CLOCK_TYPE}
         self._names = {topic: node.resolve_topic_name(topic) for topic in self._types}
-        self._read: dict[str, bool] = {}
-        self._read_batches: list[Batch] = []
+        self._read: frozenset[str] = frozenset()
+        self._read_batches: tuple[Batch, ...] = ()
+        self._read_display = False
+        self._no_display = np.zeros(len(self._table.display.channels))
         self._look_at_s = 0.0
         self._others: list[Callable[[int], None]] = []
         self._tick = 0
@@ -94,9 +96,8 @@ class OutputTopics:
         now_ns = self._plant.now_ns
         if due or frames or arrows:
             outputs = self._plant.outputs()
-            elapsed_s = (now_ns - self._last_ns) / NS if self._last_ns is not None else 0.0
-            self._last_ns = now_ns
-            display = self._table.display.values(outputs, elapsed_s)
+            shown = frames or self._recorder.active or self._read_display
+            display = self._display(now_ns, outputs) if shown else self._no_display
             values = self._table.values(outputs, display)
             for batch in due:
                 for topic, data in batch.encoder.messages(now_ns, values).items():
@@ -140,6 +141,11 @@ class OutputTopics:
         self._last_ns = None
         self._blowouts.restart()
 
+    def _display(self, now_ns: int, outputs: FloatArray) -> FloatArray:
+        elapsed_s = (now_ns - self._last_ns) / NS if self._last_ns is not None else 0.0
+        self._last_ns = now_ns
+        return self._table.display.values(outputs, elapsed_s)
+
     def _make_scene_publishers(self, node: Node, *, tf: bool) -> dict[str, Publisher[Any]]:
         topics = [ROBOT_DESCRIPTION, TIRE_FORCES, *((TF, TF_STATIC) if tf else ())]
         made, missing = {}, dict[str, list[str]]()
@@ -164,24 +170,22 @@ class OutputTopics:
         return bool(every) and (everything or self._tick % every == 0)
 
     def _wanted(self, topic: str) -> bool:
-        return self._recorder.active or self._read.get(topic, False)
+        return self._recorder.active or topic in self._read
 
     def _look_for_readers(self) -> None:
         """Which topics are read; asking at every tick would cost as much as publishing."""
         now_s = monotonic()
         if now_s >= self._look_at_s:
             self._look_at_s = now_s + _LOOK_FOR_READERS_EVERY_S
-            self._read = {
-                topic: made.get_subscription_count() > 0
-                for topic, made in self._publishers.items()
-            }  # fmt: skip
-            self._read_batches = [
-                batch for batch in self._table.batches
-                if any(self._read.get(slot.topic) for slot in batch.encoder.slots)
-            ]  # fmt: skip
+            read = frozenset(topic for topic, made in self._publishers.items()
+                             if made.get_subscription_count() > 0)  # fmt: skip
+            if read != self._read:
+                self._read = read
+                self._read_batches = self._table.read_by(read)
+                self._read_display = self._table.needs_display(self._read_batches)
 
     def _send(self, topic: str, now_ns: int, data: bytes) -> None:
-        if self._read.get(topic):
+        if topic in self._read:
             self._publishers[topic].publish(data)
         if self._recorder.active:
             self._write(topic, now_ns, data)

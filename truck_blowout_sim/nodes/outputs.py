@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -98,6 +98,17 @@ class OutputTable:
             Batch(period, groups, _encoder(rows, groups, variances))
             for period, groups in _by_period(every).items()
         )
+
+    def read_by(self, topics: Collection[str]) -> tuple[Batch, ...]:
+        """The batches with those of their messages that somebody reads; empty ones left out."""
+        cut = (replace(batch, encoder=batch.encoder.only(topics)) for batch in self.batches)
+        return tuple(batch for batch in cut if batch.encoder.slots)
+
+    def needs_display(self, batches: Sequence[Batch]) -> bool:
+        """Whether a message of these batches holds a joint that only displays need."""
+        first = len(self._columns) - len(self.display.channels)
+        shown = range(first, len(self._columns))
+        return any(batch.encoder.fills_from(shown) for batch in batches)
 
     @property
     def types(self) -> dict[str, str]:

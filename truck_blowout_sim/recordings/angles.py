@@ -15,14 +15,25 @@ FloatArray = NDArray[np.float64]
 
 def quaternion(roll_rad: FloatArray, pitch_rad: FloatArray, yaw_rad: FloatArray) -> FloatArray:
     """Quaternion (x, y, z, w) along the last axis, of Rz(yaw) Ry(pitch) Rx(roll)."""
-    cr, sr = np.cos(roll_rad / 2), np.sin(roll_rad / 2)
-    cp, sp = np.cos(pitch_rad / 2), np.sin(pitch_rad / 2)
-    cy, sy = np.cos(yaw_rad / 2), np.sin(yaw_rad / 2)
-    x = cy * cp * sr - sy * sp * cr
-    y = cy * sp * cr + sy * cp * sr
-    z = sy * cp * cr - cy * sp * sr
-    w = cy * cp * cr + sy * sp * sr
-    return np.stack((x, y, z, w), axis=-1)
+    return quaternion_of(np.stack((roll_rad, pitch_rad, yaw_rad), axis=-1))
+
+
+def quaternion_of(angles_rad: FloatArray) -> FloatArray:
+    """Quaternions (x, y, z, w) of (roll, pitch, yaw) along the last axis.
+
+    Few calls of numpy: for a handful of angles they cost more than the arithmetic.
+    """
+    half = angles_rad / 2
+    c, s = np.cos(half), np.sin(half)
+    cr, cp, cy = c[..., 0], c[..., 1], c[..., 2]
+    sr, sp, sy = s[..., 0], s[..., 1], s[..., 2]
+    cycp, sysp, cysp, sycp = cy * cp, sy * sp, cy * sp, sy * cp
+    out = np.empty((*half.shape[:-1], 4))
+    out[..., 0] = cycp * sr - sysp * cr
+    out[..., 1] = cysp * cr + sycp * sr
+    out[..., 2] = sycp * cr - cysp * sr
+    out[..., 3] = cycp * cr + sysp * sr
+    return out
 
 
 def angles(xyzw: FloatArray) -> dict[str, FloatArray]:

@@ -15,13 +15,14 @@ Validated with: test/recordings/test_bag_writer.py, against `rosbags` and `mcap-
 from __future__ import annotations
 
 import struct
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
+from copy import copy
 from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
 
-from truck_blowout_sim.recordings.angles import quaternion
+from truck_blowout_sim.recordings.angles import quaternion_of
 from truck_blowout_sim.recordings.cdr import template, walk
 from truck_blowout_sim.recordings.channel import JOINT_STATE, Channel, Place
 from truck_blowout_sim.recordings.covariance import covariance_entries
@@ -121,10 +122,44 @@ class RowEncoder:
 
     def messages(self, time_ns: int, values: Sequence[float] | FloatArray) -> dict[str, bytes]:
         """Serialised messages of one instant by relative topic, e.g. to publish them."""
-        row = self.encode(np.array([time_ns]), np.asarray(values, dtype=np.float64)[None, :])
+        row = self._template.copy()
+        extended = self._extended(np.asarray(values, dtype=np.float64)[None, :])[0]
+        numbers = extended[self._index] * self._sign + self._offset
+        row[self._number_bytes] = numbers.astype("<f8", copy=False).view(np.uint8)
+        if self._stamps:
+            stamp = np.array(divmod(time_ns, 1_000_000_000), dtype="<u4")
+            row[self._stamp_bytes] = stamp.view(np.uint8)
         data = row.tobytes()
         skip = RECORD_HEADER.size
         return {s.topic: data[s.start + skip : s.start + s.size] for s in self.slots}
+
+    def only(self, topics: Collection[str]) -> RowEncoder:
+        """An encoder of the same channels that fills some of the topics; made quickly.
+
+        Its `messages` are those of this encoder; its rows are not for a bag.
+        """
+        out = copy(self)
+        out.slots = tuple(slot for slot in self.slots if slot.topic in topics)
+        inside = [(slot.start, slot.start + slot.size) for slot in out.slots]
+        kept = [at for at in range(len(self._index)) if _within(self._sources.at[at], inside)]
+        index = self._index[kept]
+        # angles that no quaternion of these topics needs are not turned into one
+        first = len(self.channels) + 1
+        angles = sorted({(int(i) - first) // 4 for i in index if i >= first})
+        moved = {first + 4 * angle + k: first + 4 * new + k
+                 for new, angle in enumerate(angles) for k in range(4)}  # fmt: skip
+        out._angles = [self._angles[angle] for angle in angles]
+        out._angle_index = self._angle_index[angles]
+        out._index = np.array([moved.get(int(i), int(i)) for i in index], dtype=np.intp)
+        out._sign, out._offset = self._sign[kept], self._offset[kept]
+        out._number_bytes = self._number_bytes.reshape(-1, 8)[kept].ravel()
+        out._stamps = [at for at in self._stamps if _within(at, inside)]
+        out._stamp_bytes = np.array(out._stamps, dtype=np.intp)[:, None] + np.arange(8)
+        return out
+
+    def fills_from(self, columns: Collection[int]) -> bool:
+        """Whether a number of these columns goes into a message."""
+        return not set(columns).isdisjoint(self._index.tolist())
 
     def _by_topic(self) -> dict[str, dict[str, tuple[int, Place]]]:
         topics: dict[str, dict[str, tuple[int, Place]]] = {}
@@ -199,9 +234,7 @@ class RowEncoder:
         out = np.zeros((n, k + 1 + 4 * len(self._angles)))
         out[:, :k] = values
         if self._angles:
-            padded = out[:, : k + 1]
-            roll, pitch, yaw = np.moveaxis(padded[:, self._angle_index], 2, 0)
-            out[:, k + 1 :] = quaternion(roll, pitch, yaw).reshape(n, -1)
+            out[:, k + 1 :] = quaternion_of(out[:, self._angle_index]).reshape(n, -1)
         return out
 
     def _freeze(self) -> None:
@@ -216,6 +249,10 @@ class RowEncoder:
         self._stamp_bytes = np.array(self._stamps, dtype=np.intp)[:, None] + eight
         angle_index = np.array(self._angles, dtype=np.intp).reshape(-1, 3)
         self._angle_index = np.where(angle_index < 0, len(self.channels), angle_index)
+
+
+def _within(at: int, places: Sequence[tuple[int, int]]) -> bool:
+    return any(start <= at < end for start, end in places)
 
 
 def _joint_names(fields: Mapping[str, object]) -> tuple[str, ...]:
