@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
-from truck_blowout_sim.recordings.mapping.proposing import unit_by_size
+from truck_blowout_sim.recordings.logs.log import Column, Table
+from truck_blowout_sim.recordings.mapping.proposing import propose, unit_by_size
 from truck_blowout_sim.recordings.mapping.vocabulary import channel_hinted
 
 
@@ -51,3 +54,12 @@ def test_names(name: str, channel: str) -> None:
 ])  # fmt: skip
 def test_units_by_size(numbers: list[float], channel: str, quantity: str, unit: str) -> None:
     assert unit_by_size(np.array(numbers), channel, quantity) == unit
+
+
+@pytest.mark.parametrize(("name", "unit"), [
+    ("/can/swa_deg:data", "deg"), ("SteerAngle_rad", "rad"), ("/can/swa:data", "deg"),
+])  # fmt: skip
+def test_a_unit_in_the_name_goes_before_the_size(name: str, unit: str) -> None:
+    column = Column(np.array([-30.0, 30.0]))
+    (found,) = propose(Table(Path("log"), "bag (MCAP)", {name: column}))
+    assert found.unit == unit

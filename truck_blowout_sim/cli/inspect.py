@@ -17,6 +17,8 @@ from truck_blowout_sim.cli.reading import AS_IT_IS, LogOptions, reads_logs
 from truck_blowout_sim.recordings import Recording
 from truck_blowout_sim.recordings.shipped import find_recording
 
+_EPOCH_S = 1e8  # times since 1970 are above
+
 if TYPE_CHECKING:
     from truck_blowout_sim.recordings.mapping.inventory import Inventory, Line
 
@@ -80,7 +82,9 @@ def _plain(found: Inventory) -> dict[str, object]:
 
 def _print(found: Inventory) -> None:
     console = Console() if sys.stdout.isatty() else Console(width=140)
-    span = "" if found.start_s is None else f", {found.start_s:.6g} s to {found.end_s:.6g} s"
+    digits = "6g" if abs(found.start_s or 0.0) < _EPOCH_S else "3f"
+    span = ("" if found.start_s is None
+            else f", {found.start_s:.{digits}} s to {found.end_s:.{digits}} s")  # fmt: skip
     clock = f", time: {found.time_column} [{found.time_unit}]" if found.time_column else ""
     console.print(f"{found.file}: {found.kind}{span}{clock}", markup=False, highlight=False,
                   soft_wrap=True)  # fmt: skip

@@ -166,8 +166,8 @@ def _west_positive(proposal: Proposal) -> Proposal:
 
 
 def _unit_in_name(name: str) -> Unit | None:
-    """A unit at the end of a name: ``speed_kmh``, ``SWA_deg``, ``wheel_rpm[0]``."""
-    words = re.split(r"[:. _]", name.partition("[")[0])
+    """A unit at the end of a name: ``speed_kmh``, ``/can/swa_deg:data``, ``wheel_rpm[0]``."""
+    words = re.split(r"[:./ _]", name.partition("[")[0].removesuffix(":data"))
     for text in (words[-1], "/".join(words[-2:]), " ".join(words[-2:])):
         # one letter may be an axis or an index
         if len(words) > 1 and len(text) > 1 and find_unit(text) is not None:
