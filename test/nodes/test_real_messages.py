@@ -17,6 +17,7 @@ pytest.importorskip("rclpy", reason="rclpy is not installed")
 from geometry_msgs.msg import AccelWithCovarianceStamped
 from nav_msgs.msg import Odometry
 from rclpy.action.client import ActionClient
+from std_srvs.srv import Trigger
 
 START_MPS = 15.0
 WAIT_S = 30.0
@@ -141,6 +142,8 @@ def test_simulation_interfaces_pause_step_and_reset(simulator: Any, client: Any)
     from simulation_interfaces.action import SimulateSteps
     from simulation_interfaces.msg import Result, SimulationState, SimulatorFeatures
 
+    client.call(Trigger, "/truck/reset")
+    client.call(Trigger, "/truck/resume")
     found = client.call(srv.GetSimulatorFeatures, "/truck/get_simulator_features")
     assert SimulatorFeatures.STEP_SIMULATION_ACTION in found.features.features
     pause = srv.SetSimulationState.Request(state=SimulationState(state=2))
@@ -150,9 +153,17 @@ def test_simulation_interfaces_pause_step_and_reset(simulator: Any, client: Any)
     seen = client.listen(Odometry, "/truck/tractor/odometry")
     client.meet("/truck/simulator")
     steps = srv.StepSimulation.Request(steps=5)
-    answer = client.call(srv.StepSimulation, "/truck/step_simulation", steps)
-    assert answer.result.result == Result.RESULT_OK
-    client.until(lambda: len(seen) >= 5, what="five outputs")
+
+    def step() -> int:
+        answer = client.call(srv.StepSimulation, "/truck/step_simulation", steps)
+        assert answer.result.result == Result.RESULT_OK
+        client.spin(0.1)
+        return len(seen)
+
+    # the reader may be found a moment after its node
+    client.until(step, WAIT_S, "outputs of a step")
+    seen.clear()
+    client.until(lambda: step() >= 5, WAIT_S, "the outputs of every period")
     action = ActionClient(client.node, SimulateSteps, "/truck/simulate_steps")
     client.until(action.server_is_ready, what="the action")
     told: list[int] = []
