@@ -11,6 +11,7 @@ from diagnostic_msgs.msg import DiagnosticArray
 from std_msgs.msg import Float64
 
 from truck_blowout_sim.nodes.inputs import Input
+from truck_blowout_sim.nodes.simulator_parameters import SPECS, inputs_of
 
 S = 1_000_000_000
 
@@ -117,3 +118,11 @@ def test_node_applies_the_safe_value_after_the_timeout(simulator: Any, client: A
     assert "throttle" in late["message"]
     assert float(late["throttle age_s"]) > 0.5
     assert late["steering_wheel_angle age_s"] == "never"
+
+
+def test_pressures_are_bounded_by_the_kind_of_brakes() -> None:
+    values: dict[str, Any] = {spec.name: spec.default for spec in SPECS}
+    highest = {kind: inputs_of(values, kind)[-1].high for kind in ("air", "hydraulic")}
+    assert highest == {"air": 1.0e6, "hydraulic": 2.5e7}
+    stated = values | {"inputs.brake_pressure_trailer_pa.max": 5.0e5}
+    assert inputs_of(stated, "hydraulic")[-1].high == 5.0e5
