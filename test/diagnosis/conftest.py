@@ -30,9 +30,9 @@ NOISE = {
     "_roll_rad": 3e-4, "_radps": 0.05,
 }  # fmt: skip
 FEW = {
-    "tractor_mass", "trailer_mass", "trailer_cg_forward", "steer_cornering", "drive_cornering",
-    "trailer_cornering", "steering_zero", "steering_stiffness", "rolling_resistance",
-    "roll_steer_trailer", "toe_trailer", "brake_gain_trailer_2_left", "brake_gain_trailer_2_right",
+    "tractor_mass", "trailer_mass", "trailer_cg_forward", "steered_cornering", "driven_cornering",
+    "towed_cornering", "steering_zero", "steering_stiffness", "rolling_resistance",
+    "towed_roll_steer", "towed_toe", "brake_gain_trailer_2_left", "brake_gain_trailer_2_right",
 }  # fmt: skip
 
 Changes = Mapping[str, float]

@@ -40,7 +40,7 @@ def found(truck: Packed, drive_it: Drives, few: Settings) -> Calibration:
 
 def test_numbers_that_differ_are_found_within_their_intervals(found: Calibration) -> None:
     by_name = {n.name: n for n in found.numbers}
-    for name, truth in (("trailer_mass", HEAVY - 1.0), ("steer_cornering", -0.05)):
+    for name, truth in (("trailer_mass", HEAVY - 1.0), ("steered_cornering", -0.05)):
         number = by_name[name]
         assert number.told
         low, high = number.ci90

@@ -22,7 +22,7 @@ from truck_blowout_sim.vehicle import Packed, load_vehicle, pack
 
 Drives = Callable[..., Recording]
 NAME = "international_9400i_trailmobile"
-FEW = ("trailer_mass", "trailer_cornering", "steering_zero", "rolling_resistance")
+FEW = ("trailer_mass", "towed_cornering", "steering_zero", "rolling_resistance")
 
 
 @dataclass(frozen=True)

@@ -9,6 +9,7 @@ import pytest
 import yaml
 
 from truck_blowout_sim.diagnosis.settings import Settings, load_settings
+from truck_blowout_sim.diagnosis.settings_file import settings_tree
 from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.resources import config_file, config_names
 from truck_blowout_sim.vehicle import Packed, load_vehicle, pack
@@ -36,8 +37,8 @@ def refusal(tmp_path: Path, truck: Packed) -> Callable[[Edit], str]:
 
 
 def test_an_unknown_key_is_refused_with_its_place(refusal: Callable[[Edit], str]) -> None:
-    assert "nuisances.drag_area" in (
-        line := refusal(lambda tree: tree["nuisances"]["drag_area"].update(sigmas=1.0)))
+    assert "sheet.drag_area" in (
+        line := refusal(lambda tree: tree["sheet"]["drag_area"].update(sigmas=1.0)))
     assert "'sigmas'" in line
     assert "expected one of" in line
     assert "channels._vx_mps" in refusal(lambda tree: tree["channels"]["_vx_mps"].update(flor=1.0))
@@ -48,16 +49,17 @@ def test_an_unknown_key_is_refused_with_its_place(refusal: Callable[[Edit], str]
 
 
 def test_a_missing_key_is_refused_with_its_name(refusal: Callable[[Edit], str]) -> None:
-    assert "'sigma'" in refusal(lambda tree: tree["nuisances"]["drag_area"].pop("sigma"))
+    assert "'for'" in refusal(lambda tree: tree["sheet"]["drag_area"].pop("for"))
     assert "'bin_s'" in refusal(lambda tree: tree["method"].pop("bin_s"))
     assert "'channels'" in refusal(lambda tree: tree.pop("channels"))
     assert "'floor'" in refusal(lambda tree: tree["channels"]["_vx_mps"].pop("floor"))
 
 
 def test_words_where_numbers_belong_are_refused(refusal: Callable[[Edit], str]) -> None:
-    assert "'much'" in refusal(lambda tree: tree["nuisances"]["drag_area"].update(sigma="much"))
+    assert "'much'" in refusal(
+        lambda tree: tree["sheet"]["drag_area"]["for"].update(truck="much"))
     assert "'multiply'" in refusal(
-        lambda tree: tree["nuisances"]["drag_area"].update(kind="multiply"))
+        lambda tree: tree["sheet"]["drag_area"].update(kind="multiply"))
     assert "'long'" in refusal(lambda tree: tree["method"]["bin_s"].update(value="long"))
 
 
@@ -67,16 +69,62 @@ def test_a_name_that_is_not_shipped_says_which_are(truck: Packed) -> None:
 
 
 @pytest.mark.parametrize("name", config_names("diagnosis"))
-def test_every_number_has_a_source_and_every_target_exists(name: str, truck: Packed) -> None:
-    tree = yaml.safe_load(config_file("diagnosis", name).read_text(encoding="utf-8"))
-    entries = [*tree["nuisances"].values(), *tree["channels"].values(), *tree["method"].values()]
+@pytest.mark.parametrize("vehicle", config_names("vehicles"))
+def test_every_number_has_a_source_and_every_target_exists(name: str, vehicle: str) -> None:
+    tree = settings_tree(config_file("diagnosis", name))
+    entries = [*tree["sheet"].values(), *tree["channels"].values(), *tree["method"].values()]
     assert all(entry["source"] for entry in entries)
-    found = load_settings(truck, name)
-    names = [n.name for n in found.nuisances]
+    names = [n.name for n in load_settings(pack(load_vehicle(vehicle)), name).nuisances]
     assert len(names) == len(set(names))
-    vehicles = [pack(load_vehicle(v)) for v in config_names("vehicles")]
-    named = {n.name for v in vehicles for n in load_settings(v, name).nuisances}
-    assert set(tree["nuisances"]) <= named, "no shipped vehicle has such a parameter"
+
+
+def test_a_role_is_refused_that_no_vehicle_can_have(refusal: Callable[[Edit], str]) -> None:
+    line = refusal(lambda tree: tree["sheet"]["toe"]["for"].update(floating=0.1))
+    assert "sheet.toe.for" in line
+    assert "'floating'" in line
+    assert "towed" in line
+
+
+def test_a_number_that_a_part_lacks_is_refused_by_name(refusal: Callable[[Edit], str]) -> None:
+    line = refusal(lambda tree: tree["sheet"]["toe"].update(targets=["axle.<axle>.toe_deg"]))
+    assert "sheet.toe" in line
+    assert "axle.drive_1.toe_deg" in line
+
+
+@pytest.mark.parametrize("vehicle", ["ferrari_250lm", "rigid_truck", "bmw_320i"])
+def test_every_axle_of_any_vehicle_has_numbers_of_its_own(vehicle: str) -> None:
+    packed = pack(load_vehicle(vehicle))
+    moved = {target for n in load_settings(packed).nuisances for target, _ in n.targets}
+    for tire in packed.vehicle.tires:
+        assert f"tire.{tire}.cornering_scale" in moved
+    for hub in packed.vehicle.hubs:
+        assert f"hub.{hub}.brake_gain" in moved
+    for unit in packed.vehicle.units:
+        assert f"unit.{unit}.mass_kg" in moved
+    assert "fifth_wheel.yaw_friction_nm" not in moved
+
+
+def test_a_file_takes_over_what_it_does_not_say(tmp_path: Path, truck: Packed) -> None:
+    path = tmp_path / "mine.yaml"
+    path.write_text("extends: default\nwithout: [caster]\n"
+                    "sheet: {mass: {for: {towing_unit: 0.5}, source: guessed}}\n"
+                    "method: {bin_s: {value: 0.2, source: coarse}}\n")
+    mine, usual = load_settings(truck, str(path)), load_settings(truck)
+    sigma = {n.name: n.sigma for n in mine.nuisances}
+    assert sigma["tractor_mass"] == 0.5
+    assert "caster" not in sigma
+    assert "trailer_mass" not in sigma, "the roles are those said here"
+    assert set(sigma) == {n.name for n in usual.nuisances} - {"caster", "trailer_mass"}
+    assert (mine.bin_s, mine.skip_s) == (0.2, usual.skip_s)
+    assert mine.channels == usual.channels
+
+
+def test_taking_over_what_the_other_file_lacks_is_refused(tmp_path: Path, truck: Packed) -> None:
+    path = tmp_path / "mine.yaml"
+    for said in ("sheet: {weight: {}}", "without: [weight]", "method: {weight: {value: 1}}"):
+        path.write_text(f"extends: default\n{said}\n")
+        with pytest.raises(InputError, match="'weight'"):
+            load_settings(truck, str(path))
 
 
 def test_every_nuisance_moves_its_targets_by_its_amount(truck: Packed) -> None:

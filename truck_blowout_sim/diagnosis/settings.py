@@ -2,28 +2,28 @@
 
 from __future__ import annotations
 
-import fnmatch
 import math
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field, fields
 from pathlib import Path
 from typing import Any
 
-import yaml
-
 from truck_blowout_sim.diagnosis.case.nuisance import Nuisance
+from truck_blowout_sim.diagnosis.case.roles import ROLES, Part, parts_of
 from truck_blowout_sim.diagnosis.effects import LIBRARY
+from truck_blowout_sim.diagnosis.settings_file import check_keys, number_at, settings_tree
 from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.resources import config_file
 from truck_blowout_sim.vehicle import Packed
 
-_TOP_KEYS = {"nuisances", "brake_gain_sigma", "channels", "method"}
+_TOP_KEYS = {"sheet", "channels", "method"}
+_MAY_BE_SAID = {"extends", "without", "harder", "forms"}
 _KINDS = ("scale", "add")
 _ONLY = ("", "blowout", "brakes")
 _EVENT_FACTOR = 2.0  # more that an event must bring, because its instant was searched
 _CHANNEL_KEYS = {"floor", "relative", "bias", "gain", "most", "source"}
 _HARDER_KEYS = {"delta", "blown", "source"}
-_NUISANCE_KEYS = {"kind", "sigma", "step", "sign", "targets", "opposite", "only", "source"}
+_NUMBER_KEYS = {"for", "kind", "step", "sign", "times", "targets", "opposite", "only", "source"}
 
 
 @dataclass(frozen=True)
@@ -138,96 +138,82 @@ def load_settings(packed: Packed, name: str = "default") -> Settings:
     """Read the settings and expand them for one vehicle.
 
     Raises:
-        InputError: unknown or missing key, or no number where one belongs; says file and key.
+        InputError: unknown or missing key, no number where one belongs, a number that a part of the
+            vehicle lacks; says file and key.
     """
     path = config_file("diagnosis", name)
-    try:
-        tree = yaml.safe_load(path.read_text(encoding="utf-8"))
-    except (yaml.YAMLError, UnicodeDecodeError) as error:
-        raise InputError(f"not YAML: {error}", file=path) from None
-    _check(path, "", tree, {*_TOP_KEYS, "harder", "forms"}, _TOP_KEYS)
-    for part in ("nuisances", "channels"):
-        _check(path, part, tree[part], set(tree[part] or ()))
+    tree = settings_tree(path)
+    check_keys(path, "", tree, {*_TOP_KEYS, *_MAY_BE_SAID}, _TOP_KEYS)
+    for part in ("sheet", "channels"):
+        check_keys(path, part, tree[part], set(tree[part] or ()))
     method_keys = {f.name for f in fields(Settings)} - {
         "nuisances", "channels", "harder", "harder_blown", "forms", "without"}
-    _check(path, "method", tree["method"], method_keys, method_keys)
-    nuisances = [_nuisance(path, key, entry, packed) for key, entry in tree["nuisances"].items()]
-    nuisances += _brake_gains(packed, _number(path, "brake_gain_sigma", tree["brake_gain_sigma"],
-                                              "value"))
-    method: dict[str, Any] = {key: _number(path, f"method.{key}", entry, "value")
+    check_keys(path, "method", tree["method"], method_keys, method_keys)
+    nuisances = [number for key, entry in tree["sheet"].items()
+                 for number in _numbers(path, key, entry, packed)]
+    method: dict[str, Any] = {key: number_at(path, f"method.{key}", entry, "value")
                               for key, entry in tree["method"].items()}
     channels = {key: _rule(path, key, entry) for key, entry in tree["channels"].items()}
     for part in ("harder", "forms"):
-        _check(path, part, tree.get(part, {}), {effect.name for effect in LIBRARY})
+        check_keys(path, part, tree.get(part, {}), {effect.name for effect in LIBRARY})
     harder, blown = _thresholds(path, tree.get("harder", {}))
-    forms = {key: _number(path, f"forms.{key}", entry, "share")
+    forms = {key: number_at(path, f"forms.{key}", entry, "share")
              for key, entry in tree.get("forms", {}).items()}
-    return Settings(tuple(n for n in nuisances if n.targets), channels, harder=harder,
-                    harder_blown=blown, forms=forms, **method)
+    return Settings(tuple(nuisances), channels, harder=harder, harder_blown=blown, forms=forms,
+                    **method)
 
 
 def _thresholds(path: Path, tree: Mapping[str, Any]
                 ) -> tuple[Mapping[str, float], Mapping[str, float]]:
     """What effects must buy, usually and where a tire is lost."""
     for key, entry in tree.items():
-        _check(path, f"harder.{key}", entry, _HARDER_KEYS, {"delta"})
-    usual = {key: _number(path, f"harder.{key}", entry, "delta") for key, entry in tree.items()}
-    blown = {key: _number(path, f"harder.{key}", entry, "blown")
+        check_keys(path, f"harder.{key}", entry, _HARDER_KEYS, {"delta"})
+    usual = {key: number_at(path, f"harder.{key}", entry, "delta") for key, entry in tree.items()}
+    blown = {key: number_at(path, f"harder.{key}", entry, "blown")
              for key, entry in tree.items() if "blown" in entry}
     return usual, blown
 
 
-def _nuisance(path: Path, name: str, entry: Mapping[str, Any], packed: Packed) -> Nuisance:
-    """One nuisance with its wildcards expanded; without targets if the vehicle has none."""
-    where = f"nuisances.{name}"
-    _check(path, where, entry, _NUISANCE_KEYS, {"kind", "targets"})
+def _numbers(path: Path, key: str, entry: Mapping[str, Any], packed: Packed) -> list[Nuisance]:
+    """One number for each part of the vehicle in one of its roles."""
+    where = f"sheet.{key}"
+    check_keys(path, where, entry, _NUMBER_KEYS, {"for", "kind", "step", "targets"})
+    check_keys(path, f"{where}.for", entry["for"], set(ROLES))
     kind, only = entry["kind"], entry.get("only", "")
     if kind not in _KINDS or only not in _ONLY:
         wrong, known = (kind, _KINDS) if kind not in _KINDS else (only, _ONLY)
         raise InputError(f"{wrong!r}", file=path, where=where,
                          expected="one of " + ", ".join(k for k in known if k))
-    sign = _number(path, where, {"sign": 1.0, **entry}, "sign")
-    targets = [(n, sign) for pattern in entry["targets"] for n in _expand(packed, pattern)]
-    opposite = entry.get("opposite", ())
-    targets += [(n, -sign) for pattern in opposite for n in _expand(packed, pattern)]
-    return Nuisance(name, kind, _number(path, where, entry, "sigma"),
-                    _number(path, where, entry, "step"), tuple(targets), only)
+    sign = number_at(path, where, {"sign": 1.0, **entry}, "sign")
+    times = packed[_known(path, where, packed, entry["times"])] if "times" in entry else 1.0
+    step, found = number_at(path, where, entry, "step") * times, []
+    for role in entry["for"]:
+        sigma = number_at(path, f"{where}.for", entry["for"], role) * times
+        for part in parts_of(packed.vehicle, role):
+            targets = _targets(path, where, packed, part, entry["targets"], sign)
+            targets += _targets(path, where, packed, part, entry.get("opposite", ()), -sign)
+            # a share of nothing says nothing
+            if kind == "add" or any(packed[name] for name, _ in targets):
+                found.append(Nuisance(part.named(key), kind, sigma, step, tuple(targets), only))
+    return found
 
 
-def _brake_gains(packed: Packed, sigma: float) -> list[Nuisance]:
-    """One nuisance for the brake of each hub."""
-    return [Nuisance(f"brake_gain_{hub}", "scale", sigma, 0.05, ((f"hub.{hub}.brake_gain", 1.0),),
-                     "brakes") for hub in packed.vehicle.hubs]
+def _targets(path: Path, where: str, packed: Packed, part: Part, patterns: Collection[str],
+             sign: float) -> list[tuple[str, float]]:
+    """Packed names of a part that patterns stand for, each with its sign."""
+    return [(_known(path, where, packed, name), sign)
+            for pattern in patterns for name in part.expand(pattern)]
 
 
-def _expand(packed: Packed, pattern: str) -> list[str]:
-    """Packed names that match; none if the vehicle lacks them."""
-    return [n for n in packed.index if fnmatch.fnmatchcase(n, pattern)]
+def _known(path: Path, where: str, packed: Packed, name: str) -> str:
+    """A packed name that the vehicle has."""
+    if name not in packed.index:
+        raise InputError(f"this vehicle has no number {name}", file=path, where=where,
+                         expected="a packed parameter, or a role whose parts all have it")
+    return name
 
 
 def _rule(path: Path, name: str, entry: Mapping[str, Any]) -> ChannelRule:
     where = f"channels.{name}"
-    _check(path, where, entry, _CHANNEL_KEYS, {"floor", "relative"})
-    return ChannelRule(**{k: _number(path, where, entry, k) for k in entry if k != "source"})
-
-
-def _number(path: Path, where: str, entry: Mapping[str, Any], key: str) -> float:
-    """A finite number under ``key``."""
-    _check(path, where, entry, set(entry) if isinstance(entry, Mapping) else set(), {key})
-    value = entry[key]
-    if isinstance(value, bool) or not isinstance(value, (int, float)) or not math.isfinite(value):
-        raise InputError(f"{key} is {value!r}", file=path, where=where, expected="a number")
-    return float(value)
-
-
-def _check(path: Path, where: str, entry: object, known: set[str],
-           needed: Collection[str] = ()) -> None:
-    """A mapping with all needed keys and none but the known ones."""
-    if not isinstance(entry, Mapping):
-        raise InputError(f"{entry!r}", file=path, where=where, expected="keys with values")
-    if unknown := set(entry) - known:
-        raise InputError(f"unknown key {min(map(str, unknown))!r}", file=path, where=where,
-                         expected="one of " + ", ".join(sorted(known)))
-    if missing := set(needed) - set(entry):
-        raise InputError(f"key {min(missing)!r} is missing", file=path, where=where,
-                         expected="each of " + ", ".join(sorted(needed)))
+    check_keys(path, where, entry, _CHANNEL_KEYS, {"floor", "relative"})
+    return ChannelRule(**{k: number_at(path, where, entry, k) for k in entry if k != "source"})

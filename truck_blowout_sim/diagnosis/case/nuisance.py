@@ -7,7 +7,6 @@ from dataclasses import dataclass
 
 from truck_blowout_sim.vehicle import Packed
 
-_TIME = "_s"  # a delay or a lag is never negative
 _LEAST_SCALE = 0.1  # a number of the sheet never shrinks below this share
 
 
@@ -43,9 +42,8 @@ class Nuisance:
         return max(1.0 + here * self.sigma, _LEAST_SCALE)
 
     def values(self, packed: Packed, amount: float) -> Mapping[str, float]:
-        """Packed parameters at an amount, starting from ``packed``."""
+        """Packed parameters at an amount, starting from ``packed``, none beyond its bounds."""
         if self.kind == "scale":
-            return {n: packed[n] * max(1.0 + sign * amount, _LEAST_SCALE)
-                    for n, sign in self.targets}
-        moved = {n: packed[n] + sign * amount for n, sign in self.targets}
-        return {n: max(value, 0.0) if n.endswith(_TIME) else value for n, value in moved.items()}
+            scale = {n: max(1.0 + sign * amount, _LEAST_SCALE) for n, sign in self.targets}
+            return packed.within({n: packed[n] * by for n, by in scale.items()})
+        return packed.within({n: packed[n] + sign * amount for n, sign in self.targets})

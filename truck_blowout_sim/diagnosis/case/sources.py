@@ -5,12 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-import yaml
-
+from truck_blowout_sim.diagnosis.settings_file import settings_tree
 from truck_blowout_sim.resources import config_file
-
-_SECTIONS = ("nuisances", "sheet", "forms")
-_BRAKES = "brake_gain_sigma"
 
 
 class NumberSources(Mapping[str, str]):
@@ -23,12 +19,9 @@ class NumberSources(Mapping[str, str]):
     def __init__(self, tree: Mapping[str, Any]) -> None:
         self._sources = {
             key: str(entry.get("source", ""))
-            for section in _SECTIONS
-            for key, entry in (tree.get(section) or {}).items()
+            for key, entry in (tree.get("sheet") or {}).items()
             if isinstance(entry, Mapping)
         }
-        if isinstance(tree.get(_BRAKES), Mapping):
-            self._sources["brake_gain"] = str(tree[_BRAKES].get("source", ""))
 
     def __getitem__(self, name: str) -> str:
         if name in self._sources:
@@ -45,5 +38,4 @@ class NumberSources(Mapping[str, str]):
 
 def number_sources(settings: str) -> NumberSources:
     """Sources of a file of ``config/diagnosis``, by its name."""
-    text = config_file("diagnosis", settings).read_text(encoding="utf-8")
-    return NumberSources(yaml.safe_load(text) or {})
+    return NumberSources(settings_tree(config_file("diagnosis", settings)))

@@ -17,5 +17,5 @@ EFFECT = Effect(
     sentence="Axle {where} points {value} rad to the left of straight ahead.",
     equation="delta_{where} = {value} rad, at every speed",
     splits="straight driving of tractor and trailer apart: the crab angle of each",
-    absorbs="toe_{circuit}",
+    absorbs="{role}_toe",
 )

@@ -68,8 +68,8 @@ class Effect:
         at_limit: shown by turns near the limit of grip only.
         drags: slows the truck without holding back a wheel more than its law says.
         neutral: amount at which a vehicle is as given; 0 unless it lacks the part altogether.
-        absorbs: calibration number that means the same as this amount; ``{hub}`` and ``{circuit}``
-            are filled in.
+        absorbs: calibration number that means the same as this amount; ``{hub}`` and ``{role}``
+            (of the axle) are filled in.
     """
 
     name: str

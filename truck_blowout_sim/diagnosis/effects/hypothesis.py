@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
+from truck_blowout_sim.diagnosis.case.roles import role_of
 from truck_blowout_sim.diagnosis.effects import Effect
 from truck_blowout_sim.diagnosis.result.parts import Place
 from truck_blowout_sim.vehicle import Packed, Vehicle
@@ -30,8 +31,9 @@ class Hypothesis:
 
     def meaning(self, vehicle: Vehicle) -> str:
         """Calibration number that means the same as this hypothesis' amount; empty if none."""
-        axle = vehicle.spec.axles.get(self.place.axle or "")
-        return self.effect.absorbs.format(hub=self.place.hub, circuit=axle.circuit if axle else "")
+        axle = self.place.axle or ""
+        role = role_of(vehicle, axle) if axle in vehicle.spec.axles else ""
+        return self.effect.absorbs.format(hub=self.place.hub, role=role)
 
     def apply(self, packed: Packed, run: str, amount: float | None = None) -> Packed:
         """The truck with this hypothesis in force during ``run``."""

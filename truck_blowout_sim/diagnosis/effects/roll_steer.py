@@ -19,5 +19,5 @@ EFFECT = Effect(
              "what is modelled.",
     equation="delta_axle = (e + {value}) * (phi_body - phi_axle)",
     splits="the roll angle: the steer follows roll, not kingpin moment",
-    absorbs="roll_steer_{circuit}",
+    absorbs="{role}_roll_steer",
 )

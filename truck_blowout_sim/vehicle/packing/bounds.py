@@ -66,6 +66,17 @@ def check_value(block: type[Any], field: str, value: float, place: Place) -> Non
         raise place.error(f"{value:g} is out of bounds", f"{_bounds(rule, low, high)}: {rule.doc}")
 
 
+def nearest_allowed(block: type[Any], field: str, value: float) -> float:
+    """The value that a parameter can have and that is nearest to a given one."""
+    rule = rule_of(block, field)
+    if rule is None or rule.kind not in ("number", "switch"):
+        return value
+    low, high = (0.0, 1.0) if rule.kind == "switch" else (rule.low, rule.high)
+    if rule.open_low and value <= low:
+        return math.nextafter(low, math.inf)
+    return min(max(value, low), high)
+
+
 def number_of(block: type[Any], field: str, text: str, place: Place) -> float:
     """The number that a text stands for: a number, or a word such as ``linear`` or ``true``.
 

@@ -13,7 +13,11 @@ from truck_blowout_sim.physics import layout
 from truck_blowout_sim.physics.tires.lanes import MAX_TIRES, tire_offset
 from truck_blowout_sim.vehicle.document import Place
 from truck_blowout_sim.vehicle.packing import chassis, running_gear
-from truck_blowout_sim.vehicle.packing.bounds import check_value, may_be_infinite
+from truck_blowout_sim.vehicle.packing.bounds import (
+    check_value,
+    may_be_infinite,
+    nearest_allowed,
+)
 from truck_blowout_sim.vehicle.packing.names import (
     Names,
     names_of,
@@ -98,6 +102,15 @@ class Packed:
         for name, value in values.items():
             params[self.position(name)] = value
         return replace(self, params=params)
+
+    def within(self, values: Mapping[str, float]) -> Mapping[str, float]:
+        """The same values, each as near as the bounds of its key allow.
+
+        Raises:
+            InputError: no parameter of a name.
+        """
+        return {name: nearest_allowed(self.block(name), name.rpartition(".")[2], value)
+                for name, value in values.items()}
 
     def tire_states(self, field: int) -> NDArray[np.int64]:
         """Position in the state vector of one field of `TIRE_S`, for every tire."""
