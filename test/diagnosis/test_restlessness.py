@@ -49,6 +49,17 @@ def test_a_restless_channel_is_widened_in_every_run_with_its_columns(study_of: S
     np.testing.assert_allclose(factor * study.columns[rows], columns[rows])
 
 
-def test_a_calm_truck_and_one_without_baseline_keep_the_guess(study_of: Studies) -> None:
-    assert set(widths(study_of(baseline=True)).values()) == {1.0}
-    assert widths(study_of()) == {}
+@pytest.mark.parametrize("baseline", [True, False])
+def test_a_calm_truck_keeps_the_guess(study_of: Studies, baseline: bool) -> None:
+    assert set(widths(study_of(baseline=baseline)).values()) == {1.0}
+
+
+def test_training_runs_are_asked_where_no_baseline_is(study_of: Studies) -> None:
+    study = study_of()
+    run, = study.runs
+    k = run.channels.index(CHANNEL)
+    measured = run.measured.copy()
+    wave = np.sin(2.0 * np.pi * 0.33 * np.arange(measured.shape[0]) * study.settings.bin_s)
+    measured[:, k] += 4.0 * run.sigma[:, k] * wave
+    swinging = replace(study, runs=(replace(run, measured=measured),))
+    assert widths(swinging)[CHANNEL] > 2.0

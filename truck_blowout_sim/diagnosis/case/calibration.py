@@ -46,6 +46,7 @@ def calibrate(study: Study, rounds: int = 2, progress: Progress | None = None) -
     build_columns(study, progress)
     study.amounts = {number.name: 0.0 for number in study.settings.nuisances}
     if not study.baseline:
+        widen(study)
         return
     rows, n_sheet = row_ranges(study), len(study.settings.nuisances)
     kept = _moved(study, _asked_for(study, rounds), progress)

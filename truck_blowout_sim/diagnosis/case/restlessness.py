@@ -3,12 +3,13 @@
 The stated difference between good models is a first guess. What the fit leaves of a channel in the
 baseline runs, where nothing is missing, shows how far this model differs from this truck, and how
 long such a difference lasts: the long-run variance of the whitened residual, 1 where the guess is
-right. A channel that is more restless than the guess is widened by its root, in every run.
+right. A channel that is more restless than the guess is widened by its root, in every run. Without
+baseline runs the training runs are asked.
 
 References: Newey and West 1987 (long-run variance with a Bartlett window); Friston et al. 2002
 (estimated variance components in brain imaging).
-Known limits: without baseline runs the guess stays, because an effect at work is restless, too; a
-channel that is calmer than the guess is not narrowed.
+Known limits: without baseline runs an effect at work is restless, too, and hides in part; a channel
+that is calmer than the guess is not narrowed.
 Validated with: test/diagnosis/test_restlessness.py (noise of known colour; no false widening).
 """
 
@@ -37,13 +38,17 @@ def long_run_variance(series: Floats, lags: int) -> float:
 
 
 def widths(study: Study) -> Mapping[str, float]:
-    """Factor on the width of each channel that the baseline runs ask for, 1 or more."""
+    """Factor on the width of each channel that the baseline runs ask for, 1 or more.
+
+    Training runs are asked where there are none: an effect at work is restless, too, and hides in
+    part, but noise with a color of its own is no longer taken for one.
+    """
     residual = study.residual()
     projector = study.projector()
     left = residual - projector.explained(projector.amounts(residual))
     lags = round(_WINDOW_S / study.settings.bin_s)
     sums: dict[str, list[tuple[float, int]]] = {}
-    for i in study.baseline:
+    for i in study.baseline or study.train:
         run, rows = study.runs[i], row_ranges(study)[i]
         cube = left[rows].reshape(run.measured.shape)
         for k, name in enumerate(run.channels):
@@ -57,7 +62,7 @@ def widths(study: Study) -> Mapping[str, float]:
 
 
 def widen(study: Study) -> None:
-    """Widen every channel that the baseline runs show to be more restless than was guessed."""
+    """Widen every channel that the runs show to be more restless than was guessed."""
     factors = widths(study)
     if all(factor == 1.0 for factor in factors.values()):
         return
