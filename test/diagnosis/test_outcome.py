@@ -69,10 +69,14 @@ def material(study: Study, named: tuple[Ranked, ...] = (), *, faults: int = 0,
 @pytest.fixture
 def calm(study_of: Studies) -> Study:
     """A study of the true truck, as well explained as runs with nothing missing are."""
-    study = study_of()
-    level = study.projector().chi2(study.residual()) / study.columns.shape[0]
-    study.settings = replace(study.settings, expected_level=level, unknown_level=1.5 * level)
-    return study
+    return study_of()
+
+
+@pytest.fixture
+def pushed(study_of: Studies) -> Study:
+    """A study with a baseline, and a push in training that nothing named explains."""
+    return study_of({"unit.trailer.probe_fy_n": 20000.0, "unit.trailer.probe_start_s": 2.0,
+                     "unit.trailer.probe_end_s": 4.5}, baseline=True)
 
 
 def test_verdicts_follow_what_was_found(calm: Study, truck: Packed) -> None:
@@ -102,28 +106,26 @@ def test_what_beats_is_unknown_unless_what_was_named_says_more(calm: Study, truc
     assert "once per wheel turn" in answer(strong).sentence
 
 
-def test_what_calibration_had_swallowed_counts_as_explained(calm: Study, truck: Packed) -> None:
-    rows = calm.columns.shape[0]
-    calm.settings = replace(calm.settings, expected_level=0.0, unknown_level=0.0)
-    left = calm.projector().chi2(calm.residual())
+def test_training_that_keeps_more_than_baseline_is_unknown(pushed: Study, truck: Packed) -> None:
+    left = pushed.projector().chi2(pushed.residual())
     named = ranked(truck, "blown_tire_drag", 0.5, 0.1 * left)
-    assert rows > 0
-    assert decide(material(calm, (named,))) == "unknown"
-    assert decide(material(calm, (replace(named, evidence=2.0 * left),))) == "missing_physics"
+    assert decide(material(pushed)) == "unknown"
+    assert decide(material(pushed, (named,))) == "unknown"
+    swallowed = replace(named, evidence=2.0 * left)  # by what calibration ascribes to the sheet
+    assert decide(material(pushed, (swallowed,))) == "missing_physics"
 
 
-def test_what_a_corrected_instrument_leaves_is_nothing_unknown_but_a_force_is(calm: Study) -> None:
-    calm.settings = replace(calm.settings, expected_level=0.0, unknown_level=0.0)
-    assert decide(material(calm)) == "unknown"
-    assert decide(material(calm, faults=1)) == "sensor_artefact"
-    assert decide(material(calm, faults=1, unnamed=1e4)) == "unknown"
+def test_what_a_corrected_instrument_leaves_is_nothing_unknown_but_a_force_is(
+    pushed: Study
+) -> None:
+    assert decide(material(pushed, faults=1)) == "sensor_artefact"
+    assert decide(material(pushed, faults=1, unnamed=1e4)) == "unknown"
 
 
 def test_a_sheet_number_far_off_is_a_miscalibration_and_named(
     study_of: Studies, truck: Packed
 ) -> None:
     heavy = study_of({"unit.trailer.mass_kg": 1.14 * truck["unit.trailer.mass_kg"]})
-    heavy.settings = replace(heavy.settings, expected_level=1.0, unknown_level=2.0)
     one = material(heavy)
     assert decide(one) == "miscalibrated"
     name, amount = pulled(one)[0]

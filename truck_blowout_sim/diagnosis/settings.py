@@ -65,7 +65,7 @@ class Settings:
             ``harder_blown``: the same where a tire is lost in training, if that differs.
         forms: by effect, instead of ``form_share``, where laws of its kind differ more.
         keep_within: share of the evidence within which explanations count as aliases.
-        expected_level, unknown_level: sum of squares a row if nothing, if something is missing.
+        expected_level: sum of squares a row if nothing is missing.
         unknown_delta: what a wrench that nothing named explains must buy to be a missing effect.
         lag_delta, posture_delta: what one wheel's lag, a body's stand must buy to be told.
         beat_turn, beat_tone: score from which on something beats once per wheel turn, or steadily.
@@ -82,7 +82,6 @@ class Settings:
     accept_delta: float
     keep_within: float
     expected_level: float
-    unknown_level: float
     unknown_delta: float
     lag_delta: float
     posture_delta: float

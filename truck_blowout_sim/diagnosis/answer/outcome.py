@@ -14,6 +14,11 @@ from truck_blowout_sim.diagnosis.case.study import Study
 from truck_blowout_sim.diagnosis.fit.quantiles import NINETY
 from truck_blowout_sim.diagnosis.locate.beat import Beat
 from truck_blowout_sim.diagnosis.locate.lagging import Lag
+from truck_blowout_sim.diagnosis.locate.left_over import (
+    expected_squares,
+    keeps_more,
+    mean_squares,
+)
 from truck_blowout_sim.diagnosis.locate.posture import Posture
 from truck_blowout_sim.diagnosis.locate.restless import Restless
 from truck_blowout_sim.diagnosis.locate.wrench import Wrenches
@@ -134,19 +139,26 @@ def _moving_on(material: Material) -> Restless | None:
 
 
 def unexplained(material: Material) -> bool:
-    """Whether much is left, and what was named explains less than half of it."""
-    found, rules = material.found, material.study.settings
-    rows = material.study.columns.shape[0]
+    """Whether a force is left that nothing named explains, or more than baseline runs keep."""
+    study = material.study
     bought = _bought(material)
     unnamed = max((w.delta - 2.0 * w.degrees for w in material.unnamed), default=0.0)
-    excess = found.chi2_after + bought - rules.expected_level * rows
-    demand, calm = material.study.demand, material.study.calm
     # a faulty instrument, once corrected, leaves more of itself than two models differ by: then
     # only a force counts, and no smaller one than in turns
     sound = not material.gate.findings
-    left = sound and found.chi2_after > rules.unknown_level * demand * rows
-    needed = rules.unknown_delta * demand * (calm if sound else 1.0)
-    return (left and bought < 0.5 * excess) or unnamed > max(needed, bought)
+    needed = study.settings.unknown_delta * study.demand * (study.calm if sound else 1.0)
+    return unnamed > max(needed, bought) or (sound and _keeps_more(material, bought))
+
+
+def _keeps_more(material: Material, bought: float) -> bool:
+    """Whether training keeps more than baseline, and what was named explains less than half."""
+    study = material.study
+    squares = mean_squares(study, [r.hypothesis for r in material.found.named])
+    usual = expected_squares(study, squares)
+    if usual is None or not keeps_more(study, squares):
+        return False
+    excess = sum((squares[i] - usual) * study.runs[i].measured.size for i in study.train)
+    return bought < 0.5 * (excess + bought)
 
 
 def _bought(material: Material) -> float:

@@ -1,0 +1,59 @@
+"""Training keeps more than baseline where something is missing, and else by chance only."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from types import SimpleNamespace
+from typing import cast
+
+import numpy as np
+import pytest
+
+from truck_blowout_sim.diagnosis.case.study import Study
+from truck_blowout_sim.diagnosis.locate.left_over import (
+    chance_of_more,
+    expected_squares,
+    keeps_more,
+    mean_squares,
+)
+
+Studies = Callable[..., Study]
+
+
+def case(train: int, baseline: int) -> Study:
+    """A study of so many runs, baseline first."""
+    return cast(Study, SimpleNamespace(baseline=tuple(range(baseline)),
+                                       train=tuple(range(baseline, baseline + train))))
+
+
+def test_without_baseline_runs_no_level_says_that_something_is_missing() -> None:
+    assert chance_of_more(case(2, 0), (1e6, 1e6)) == 1.0
+    assert expected_squares(case(2, 0), (1e6, 1e6)) is None
+
+
+def test_alarms_are_as_rare_as_stated_where_runs_scatter_as_the_prior_says() -> None:
+    rng = np.random.default_rng(3)
+    study = case(3, 2)
+    alarms = [keeps_more(study, np.exp(0.4 * rng.standard_normal(5)).tolist())
+              for _ in range(4000)]
+    assert np.mean(alarms) == pytest.approx(0.02, abs=0.012)
+
+
+def test_tenfold_squares_are_more_and_a_common_level_is_not() -> None:
+    study = case(3, 2)
+    assert keeps_more(study, (0.3, 0.35, 3.0, 4.0, 3.5))
+    for level in (0.01, 1.0, 100.0):
+        assert not keeps_more(study, (0.9 * level, 1.1 * level, level, 1.2 * level, level))
+
+
+def test_more_runs_tell_a_smaller_difference() -> None:
+    few = chance_of_more(case(1, 1), (1.0, 3.0))
+    many = chance_of_more(case(4, 4), (1.0, 1.1, 0.9, 1.0, 3.0, 3.1, 2.9, 3.0))
+    assert many < 0.02 < few
+
+
+def test_squares_of_a_true_truck_are_alike_in_all_runs(study_of: Studies) -> None:
+    study = study_of(baseline=True)
+    baseline, train = mean_squares(study)
+    assert 0.3 < train / baseline < 3.0
+    assert expected_squares(study, (baseline, train)) == pytest.approx(baseline)

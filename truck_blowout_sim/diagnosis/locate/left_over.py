@@ -1,0 +1,65 @@
+"""Whether training keeps more than the same truck's baseline runs, where nothing is missing.
+
+Two good models of one truck differ more or less, depending on the truck and on how it is driven, so
+no level of what is left says that something is missing. But baseline runs show what this model
+leaves of this truck. The mean squares that each run keeps are compared as logarithms by Student's
+test; runs are few, so their scatter has a prior of its own.
+
+References: Student 1908; Gelman et al. 2013, ch. 3 (a scaled inverse chi-square prior).
+Known limits: says nothing without baseline runs; a manoeuvre much harder than the baseline's leaves
+more, too.
+Validated with: test/diagnosis/test_left_over.py.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from scipy.stats import t as student
+
+from truck_blowout_sim.diagnosis.case.study import Study, row_ranges
+from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
+
+_SCATTER = 0.4  # of the logarithm: what a model leaves differs by half from manoeuvre to manoeuvre
+_RUNS = 2.0  # as many runs is that prior worth
+_RATE = 0.02  # share of cases with nothing missing in which training may seem to keep more
+_LEAST = 1e-6
+
+
+def mean_squares(study: Study, named: Sequence[Hypothesis] = ()) -> tuple[float, ...]:
+    """Squares a row that each run of the case keeps, in units of the widths."""
+    residual = study.residual()
+    removed = study.projector(named).remove(residual)
+    found = []
+    for run, rows in zip(study.runs, row_ranges(study), strict=True):
+        seen = max(int(np.isfinite(run.measured).sum()), 1)
+        found.append(max(float(residual[rows] @ removed[rows]) / seen, _LEAST))
+    return tuple(found)
+
+
+def expected_squares(study: Study, squares: Sequence[float]) -> float | None:
+    """Squares a row that a run with nothing missing keeps; None without baseline runs."""
+    if not study.baseline:
+        return None
+    return float(np.exp(np.mean(np.log([squares[i] for i in study.baseline]))))
+
+
+def chance_of_more(study: Study, squares: Sequence[float]) -> float:
+    """Chance that training keeps so much more than baseline where nothing is missing.
+
+    1 without baseline runs.
+    """
+    if not study.baseline:
+        return 1.0
+    groups = [np.log([squares[i] for i in which]) for which in (study.train, study.baseline)]
+    degrees = sum(one.size - 1 for one in groups) + _RUNS
+    pooled = (sum(float(np.sum((one - one.mean()) ** 2)) for one in groups)
+              + _RUNS * _SCATTER**2) / degrees
+    spread = np.sqrt(pooled * sum(1.0 / one.size for one in groups))
+    return float(student.sf((groups[0].mean() - groups[1].mean()) / spread, degrees))
+
+
+def keeps_more(study: Study, squares: Sequence[float]) -> bool:
+    """Whether training keeps more than chance lets it."""
+    return chance_of_more(study, squares) <= _RATE
