@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field, fields
 from pathlib import Path
@@ -21,23 +20,19 @@ _MAY_BE_SAID = {"extends", "without", "harder", "forms"}
 _KINDS = ("scale", "add")
 _ONLY = ("", "blowout", "brakes")
 _EVENT_FACTOR = 2.0  # more that an event must bring, because its instant was searched
-_CHANNEL_KEYS = {"floor", "relative", "bias", "gain", "most", "source"}
+_CHANNEL_KEYS = {"floor", "relative", "bias", "gain", "source"}
 _HARDER_KEYS = {"delta", "blown", "source"}
 _NUMBER_KEYS = {"for", "kind", "step", "sign", "times", "targets", "opposite", "only", "source"}
 
 
 @dataclass(frozen=True)
 class ChannelRule:
-    """How far good models of one truck differ in a channel, and how a normal instrument errs.
-
-    ``most``: rms, in units of that difference, that runs with nothing missing leave at most.
-    """
+    """How far good models of one truck differ in a channel, and how a normal instrument errs."""
 
     floor: float
     relative: float
     bias: float = 0.0
     gain: float = 0.0
-    most: float = math.inf
 
 
 @dataclass(frozen=True)

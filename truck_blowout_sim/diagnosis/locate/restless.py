@@ -1,14 +1,12 @@
-"""A channel that moves on where everything named is in force: more than two models would differ.
+"""A channel that moves on where everything named is in force: more than baseline runs let it.
 
-The missing wrench (`locate.py`) weighs a force on a whole body; a small one that swings shows in
-one channel first. What everything named, and calibration, leave of each channel over the training
-runs is held against the most that trucks with nothing missing left there, in units of the
-difference that good models are allowed. Where the baseline runs are as restless, it is the model
-of this truck.
+The missing wrench (`wrench.py`) weighs a force on a whole body; a small one that swings shows in
+one channel first. What everything named, and calibration, leave of each channel in training is held
+against what they leave in the baseline runs of the same truck, by the test of `left_over.py`.
 
-References: none; the limits (`most` of each channel) are of cases with nothing missing.
-Known limits: says that something acts and where it shows, not what; channels without a limit, and
-cases in which an instrument was found faulty, are not judged.
+References: as `left_over.py`; Bonferroni 1936 (several channels are asked).
+Known limits: says that something acts and where it shows, not what; says nothing without baseline
+runs, and nothing where an instrument was found faulty.
 Validated with: test/diagnosis/test_restless.py (a load that swings is noticed, a calm truck not).
 """
 
@@ -22,6 +20,7 @@ from numpy.typing import NDArray
 
 from truck_blowout_sim.diagnosis.case.study import Study, row_ranges
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
+from truck_blowout_sim.diagnosis.locate.left_over import most_by_chance
 
 Floats = NDArray[np.float64]
 _UNITS = (("_mps2", "m/s2"), ("_mps", "m/s"), ("_radps", "rad/s"), ("_rad", "rad"))
@@ -35,8 +34,8 @@ class Restless:
 
     Attributes:
         body: unit whose channel it is.
-        left: root mean square of what is left, SI; ``usual``: the most that is left where nothing
-            is missing.
+        left: root mean square of what is left, SI; ``usual``: the most that chance leaves of it
+            beside these baseline runs.
         evidence: sum of squares beyond the usual.
     """
 
@@ -50,7 +49,7 @@ class Restless:
     def equation(self) -> str:
         """For an engineer."""
         unit = next((unit for end, unit in _UNITS if self.channel.endswith(end)), "")
-        return (f"rms({self.channel} - model) = {self.left:.3g} {unit}; nothing missing leaves "
+        return (f"rms({self.channel} - model) = {self.left:.3g} {unit}; baseline runs allow "
                 f"{self.usual:.3g} at most")
 
     @property
@@ -58,7 +57,7 @@ class Restless:
         """For a driver."""
         what = next((name for end, name in _NAMES if self.channel.endswith(end)), "motion")
         return (f"The {self.body}'s {what} moves in a way that no known effect explains, "
-                f"{self.left / self.usual:.1f} times as much as a truck with nothing missing.")
+                f"{self.left / self.usual:.1f} times as much as the baseline runs allow.")
 
     @property
     def next_test(self) -> str:
@@ -68,30 +67,34 @@ class Restless:
 
 
 def restless(study: Study, named: Sequence[Hypothesis]) -> Restless | None:
-    """The channel that is farthest beyond what is usual, if one is.
+    """The channel that is farthest beyond what baseline runs allow, if one is.
 
     Study's models have ``named`` in force.
     """
+    if not study.baseline:
+        return None
     clean = study.projector(named).remove(study.residual())
-    found = [one for name in dict.fromkeys(c for i in study.train for c in study.runs[i].channels)
-             if (one := _judge(study, clean, name)) is not None]
+    channels = [c for c in dict.fromkeys(c for i in study.train for c in study.runs[i].channels)
+                if c.endswith(tuple(end for end, _ in _NAMES))]
+    found = [one for name in channels
+             if (one := _judge(study, clean, name, len(channels))) is not None]
     return max(found, key=lambda one: one.evidence, default=None)
 
 
-def _judge(study: Study, clean: Floats, channel: str) -> Restless | None:
-    """A channel, if more of it is left than is usual and than the baseline runs have."""
-    rule = study.settings.rule(channel)
-    if rule is None or not np.isfinite(rule.most):
+def _judge(study: Study, clean: Floats, channel: str, asked: int) -> Restless | None:
+    """A channel, if more of it is left than baseline runs allow one of ``asked`` channels."""
+    train, base = ([_rms(_left(study, clean, channel, [i])[0]) ** 2 for i in which]
+                   for which in (study.train, study.baseline))
+    train, base = ([one for one in group if one > 0.0] for group in (train, base))
+    if not train or not base:
         return None
+    usual = float(np.sqrt(most_by_chance(train, base, asked)))
     left, width = _left(study, clean, channel, study.train)
-    still, _ = _left(study, clean, channel, study.baseline)
-    if not left.size:
-        return None
-    usual = max(rule.most * np.sqrt(study.demand), _rms(still))
-    if _rms(left) <= usual:
+    typical = float(np.exp(0.5 * np.mean(np.log(train))))
+    if typical <= usual:
         return None
     return Restless(channel.split("_", 1)[0], channel, _rms(left * width),
-                    _rms(left * width) * usual / _rms(left),
+                    _rms(left * width) * usual / typical,
                     float(left @ left - left.size * usual**2))
 
 
