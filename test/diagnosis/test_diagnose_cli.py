@@ -22,7 +22,8 @@ from truck_blowout_sim.vehicle import Packed, load_vehicle, pack
 
 Drives = Callable[..., Recording]
 NAME = "international_9400i_trailmobile"
-FEW = ("trailer_mass", "towed_cornering", "steering_zero", "rolling_resistance")
+FEW = {"mass": "towed_units", "cornering": "towed", "steering_zero": "steering",
+       "rolling_resistance": "truck", "brake_gain": "hubs"}
 
 
 @dataclass(frozen=True)
@@ -45,7 +46,8 @@ def case(tmp_path_factory: pytest.TempPathFactory, drive_it: Drives, truck: Pack
     write_recording(drive_it(weak, name="train"), folder / "train.csv")
     write_recording(drive_it(weak, seed=3, steer=-0.9, name="holdout"), folder / "holdout.csv")
     tree = yaml.safe_load(config_file("diagnosis", "default").read_text(encoding="utf-8"))
-    tree["nuisances"] = {n: tree["nuisances"][n] for n in FEW}
+    tree["sheet"] = {name: {**tree["sheet"][name], "for": {role: tree["sheet"][name]["for"][role]}}
+                     for name, role in FEW.items()}
     (folder / "few.yaml").write_text(yaml.safe_dump(tree), encoding="utf-8")
     status = main(["diagnose", str(folder / "train.csv"), "--holdout", str(folder / "holdout.csv"),
                    "--settings", str(folder / "few.yaml"), "--quick", "-o", str(folder / "out")])

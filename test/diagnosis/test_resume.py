@@ -163,7 +163,7 @@ def words(tmp_path_factory: pytest.TempPathFactory, drive_it: Drives, truck: Pac
     hub = "hub.trailer_2_left.brake_gain"
     write_recording(drive_it({hub: 0.3 * truck[hub]}, name="train"), folder / "train.csv")
     tree = yaml.safe_load(config_file("diagnosis", "default").read_text(encoding="utf-8"))
-    tree["nuisances"] = {n: tree["nuisances"][n] for n in ("trailer_mass", "steering_zero")}
+    tree["sheet"] = {n: tree["sheet"][n] for n in ("mass", "steering_zero", "brake_gain")}
     (folder / "few.yaml").write_text(yaml.safe_dump(tree), encoding="utf-8")
     return ["diagnose", str(folder / "train.csv"), "--settings", str(folder / "few.yaml"),
             "--quick"]
