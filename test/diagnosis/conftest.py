@@ -66,6 +66,12 @@ def drive_it(truck: Packed) -> Drives:
 
 
 @pytest.fixture(scope="session")
+def drive_of() -> Drives:
+    """The same of any vehicle: truck, changes, seed, hand wheel, name, brake pressure."""
+    return _recorded
+
+
+@pytest.fixture(scope="session")
 def study_of(truck: Packed, few: Settings, drive_it: Drives) -> Studies:
     """A calibrated case of changed trucks; each caller gets lists of his own."""
 
@@ -95,12 +101,13 @@ def study_of(truck: Packed, few: Settings, drive_it: Drives) -> Studies:
 
 
 def _recorded(truck: Packed, changes: Sequence[tuple[str, float]], seed: int, steer: float,
-              name: str) -> Recording:
+              name: str, brake_pa: float = 1.5e5) -> Recording:
+    """Any vehicle with changed parameters: straight, a lane change, then braking."""
     t = STEP_S * np.arange(round(LENGTH_S / STEP_S))
     inputs = np.zeros((t.size, len(INPUT_NAMES)))
     inputs[:, 0] = steer * np.where(t > 1.0, np.sin(2.0 * np.pi * 0.4 * (t - 1.0)), 0.0)
     inputs[:, 1] = 0.1 * (t < 4.5)
-    inputs[:, 2:] = (1.5e5 * np.clip(2.0 * (t - 4.8), 0.0, 1.0))[:, None]
+    inputs[:, 2:] = (brake_pa * np.clip(2.0 * (t - 4.8), 0.0, 1.0))[:, None]
     none = np.zeros(0, dtype=np.int64)
     drive = Drive(InitialState(speed_mps=20.0), STEP_S, 4, inputs, np.zeros(0), none, none)
     changed = truck.with_values(dict(changes))

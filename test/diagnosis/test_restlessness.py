@@ -24,9 +24,8 @@ def test_the_long_run_variance_is_that_of_the_sum(decay: float) -> None:
     assert found == pytest.approx(1.0 / (1.0 - decay) ** 2, rel=0.2)
 
 
-def restless(study: Study, by: float) -> Study:
-    """The study, one channel of its baseline swinging at a third of a hertz by so many sigmas."""
-    i, = study.baseline
+def restless(study: Study, i: int, by: float) -> Study:
+    """The study, one channel of run ``i`` swinging at a third of a hertz by so many sigmas."""
     run = study.runs[i]
     k = run.channels.index(CHANNEL)
     measured = run.measured.copy()
@@ -37,7 +36,8 @@ def restless(study: Study, by: float) -> Study:
 
 
 def test_a_restless_channel_is_widened_in_every_run_with_its_columns(study_of: Studies) -> None:
-    study = restless(study_of(holdout={}, baseline=True), 4.0)
+    calm = study_of(holdout={}, baseline=True)
+    study = restless(calm, calm.baseline[0], 4.0)
     factor = widths(study)[CHANNEL]
     assert factor > 2.0
     k = study.runs[0].channels.index(CHANNEL)
@@ -55,11 +55,5 @@ def test_a_calm_truck_keeps_the_guess(study_of: Studies, baseline: bool) -> None
 
 
 def test_training_runs_are_asked_where_no_baseline_is(study_of: Studies) -> None:
-    study = study_of()
-    run, = study.runs
-    k = run.channels.index(CHANNEL)
-    measured = run.measured.copy()
-    wave = np.sin(2.0 * np.pi * 0.33 * np.arange(measured.shape[0]) * study.settings.bin_s)
-    measured[:, k] += 4.0 * run.sigma[:, k] * wave
-    swinging = replace(study, runs=(replace(run, measured=measured),))
+    swinging = restless(study_of(), 0, 4.0)
     assert widths(swinging)[CHANNEL] > 2.0

@@ -139,7 +139,7 @@ def load_settings(packed: Packed, name: str = "default") -> Settings:
     tree = settings_tree(path)
     check_keys(path, "", tree, {*_TOP_KEYS, *_MAY_BE_SAID}, _TOP_KEYS)
     for part in ("sheet", "channels"):
-        check_keys(path, part, tree[part], set(tree[part] or ()))
+        check_keys(path, part, tree[part])
     method_keys = {f.name for f in fields(Settings)} - {
         "nuisances", "channels", "harder", "harder_blown", "forms", "without"}
     check_keys(path, "method", tree["method"], method_keys, method_keys)

@@ -26,7 +26,7 @@ def settings_tree(path: Path) -> dict[str, Any]:
         tree = yaml.safe_load(path.read_text(encoding="utf-8"))
     except (yaml.YAMLError, UnicodeDecodeError) as error:
         raise InputError(f"not YAML: {error}", file=path) from None
-    check_keys(path, "", tree, set(tree) if isinstance(tree, Mapping) else set())
+    check_keys(path, "", tree)
     if "extends" not in tree:
         return dict(tree)
     base = settings_tree(config_file("diagnosis", str(tree["extends"])))
@@ -46,23 +46,23 @@ def number_at(path: Path, where: str, entry: Mapping[str, Any], key: str) -> flo
     Raises:
         InputError: none; says file and key.
     """
-    check_keys(path, where, entry, set(entry) if isinstance(entry, Mapping) else set(), {key})
+    check_keys(path, where, entry, needed={key})
     value = entry[key]
     if isinstance(value, bool) or not isinstance(value, (int, float)) or not math.isfinite(value):
         raise InputError(f"{key} is {value!r}", file=path, where=where, expected="a number")
     return float(value)
 
 
-def check_keys(path: Path, where: str, entry: object, known: set[str],
+def check_keys(path: Path, where: str, entry: object, known: set[str] | None = None,
                needed: Collection[str] = ()) -> None:
-    """A mapping with all needed keys and none but the known ones.
+    """A mapping with all needed keys and none but the known ones; None: any are known.
 
     Raises:
         InputError: something else; says file, key and what was expected.
     """
     if not isinstance(entry, Mapping):
         raise InputError(f"{entry!r}", file=path, where=where, expected="keys with values")
-    if unknown := set(entry) - known:
+    if known is not None and (unknown := set(entry) - known):
         raise InputError(f"unknown key {min(map(str, unknown))!r}", file=path, where=where,
                          expected="one of " + ", ".join(sorted(known)))
     if missing := set(needed) - set(entry):

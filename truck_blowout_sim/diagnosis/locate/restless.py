@@ -83,33 +83,30 @@ def restless(study: Study, named: Sequence[Hypothesis]) -> Restless | None:
 
 def _judge(study: Study, clean: Floats, channel: str, asked: int) -> Restless | None:
     """A channel, if more of it is left than baseline runs allow one of ``asked`` channels."""
-    train, base = ([_rms(_left(study, clean, channel, [i])[0]) ** 2 for i in which]
+    parts, base = ([_left(study, clean, channel, i) for i in which
+                    if channel in study.runs[i].channels]
                    for which in (study.train, study.baseline))
-    train, base = ([one for one in group if one > 0.0] for group in (train, base))
-    if not train or not base:
+    train, still = ([square for left, _ in group if (square := _mean_square(left)) > 0.0]
+                    for group in (parts, base))
+    if not train or not still:
         return None
-    usual = float(np.sqrt(most_by_chance(train, base, asked)))
-    left, width = _left(study, clean, channel, study.train)
+    usual = float(np.sqrt(most_by_chance(train, still, asked)))
     typical = float(np.exp(0.5 * np.mean(np.log(train))))
     if typical <= usual:
         return None
-    return Restless(channel.split("_", 1)[0], channel, _rms(left * width),
-                    _rms(left * width) * usual / typical,
+    left, width = (np.concatenate(one) for one in zip(*parts, strict=True))
+    size = float(np.sqrt(_mean_square(left * width)))
+    return Restless(channel.split("_", 1)[0], channel, size, size * usual / typical,
                     float(left @ left - left.size * usual**2))
 
 
-def _left(study: Study, clean: Floats, channel: str, runs: Sequence[int]) -> tuple[Floats, Floats]:
-    """What is left of a channel over some runs, in units of its width, and these widths."""
-    left, width = [np.zeros(0)], [np.zeros(0)]
-    for i in runs:
-        run = study.runs[i]
-        if channel in run.channels:
-            k = run.channels.index(channel)
-            seen = np.isfinite(run.measured[:, k])
-            left.append(clean[row_ranges(study)[i]].reshape(run.measured.shape)[seen, k])
-            width.append(run.sigma[seen, k])
-    return np.concatenate(left), np.concatenate(width)
+def _left(study: Study, clean: Floats, channel: str, i: int) -> tuple[Floats, Floats]:
+    """What is left of a channel in one run, in units of its width, and these widths."""
+    run = study.runs[i]
+    k = run.channels.index(channel)
+    seen = np.isfinite(run.measured[:, k])
+    return clean[row_ranges(study)[i]].reshape(run.measured.shape)[seen, k], run.sigma[seen, k]
 
 
-def _rms(values: Floats) -> float:
-    return float(np.sqrt(np.mean(values**2))) if values.size else 0.0
+def _mean_square(values: Floats) -> float:
+    return float(np.mean(values**2)) if values.size else 0.0

@@ -58,20 +58,20 @@ def check_value(block: type[Any], field: str, value: float, place: Place) -> Non
         if value not in range(len(words)):
             raise place.error(f"{value:g} is no {field}", f"one of: {', '.join(words)}")
         return
-    rule = rule_of(block, field)
-    if rule is None or rule.kind not in ("number", "switch"):
+    bounded = _bounded(block, field)
+    if bounded is None:
         return
-    low, high = (0.0, 1.0) if rule.kind == "switch" else (rule.low, rule.high)
+    rule, low, high = bounded
     if value < low or value > high or (rule.open_low and value == low):
         raise place.error(f"{value:g} is out of bounds", f"{_bounds(rule, low, high)}: {rule.doc}")
 
 
 def nearest_allowed(block: type[Any], field: str, value: float) -> float:
     """The value that a parameter can have and that is nearest to a given one."""
-    rule = rule_of(block, field)
-    if rule is None or rule.kind not in ("number", "switch"):
+    bounded = _bounded(block, field)
+    if bounded is None:
         return value
-    low, high = (0.0, 1.0) if rule.kind == "switch" else (rule.low, rule.high)
+    rule, low, high = bounded
     if rule.open_low and value <= low:
         return math.nextafter(low, math.inf)
     return min(max(value, low), high)
@@ -117,6 +117,14 @@ def _rules_of(sections: tuple[type[Any], ...]) -> dict[str, Rule]:
 
 
 _RULES = {block: _rules_of(sections) for block, sections in SECTIONS.items()}
+
+
+def _bounded(block: type[Any], field: str) -> tuple[Rule, float, float] | None:
+    """The rule of a number or switch with its bounds; None where nothing bounds it."""
+    rule = rule_of(block, field)
+    if rule is None or rule.kind not in ("number", "switch"):
+        return None
+    return rule, *((0.0, 1.0) if rule.kind == "switch" else (rule.low, rule.high))
 
 
 def _bounds(rule: Rule, low: float, high: float) -> str:
