@@ -99,6 +99,8 @@ def without_gravity(values: dict[str, FloatArray]) -> dict[str, FloatArray]:
     """Accelerations in a level frame, as an inertial unit delivers them once tilt is known."""
     out = dict(values)
     for unit in ("tractor", "trailer"):
+        if f"{unit}_roll_rad" not in values:
+            continue  # a car tows nothing
         roll, pitch = values[f"{unit}_roll_rad"], values[f"{unit}_pitch_rad"]
         out[f"{unit}_ay_mps2"] = values[f"{unit}_ay_mps2"] - 9.81 * np.sin(roll) * np.cos(pitch)
         out[f"{unit}_ax_mps2"] = values[f"{unit}_ax_mps2"] + 9.81 * np.sin(pitch)
