@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import pytest
 
-from truck_blowout_sim.diagnosis import Diagnosis, diagnose
+from truck_blowout_sim.diagnosis import USUAL, Diagnosis, diagnose
 from truck_blowout_sim.recordings import Recording
 from truck_blowout_sim.vehicle import load_vehicle, pack
 
@@ -25,7 +26,7 @@ def told(drive_of: Drives, vehicle: str, weak: str | None) -> Diagnosis:
                     baseline=[drive_of(truck, (), 2, -wheel, "baseline", 0.8 * brake_pa)],
                     holdout=[drive_of(truck, changes, 3, -0.8 * wheel, "holdout",
                                       0.9 * brake_pa)],
-                    vehicle=vehicle, next_run=False)[0]
+                    vehicle=vehicle, effort=replace(USUAL, next_run=False))[0]
 
 
 @pytest.mark.parametrize("vehicle", sorted(GENTLE))

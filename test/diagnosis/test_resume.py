@@ -15,7 +15,7 @@ import numpy as np
 import pytest
 import yaml
 
-from truck_blowout_sim.diagnosis import diagnose, keeping
+from truck_blowout_sim.diagnosis import QUICK, diagnose, keeping
 from truck_blowout_sim.diagnosis.case.fingerprints import simulation_key
 from truck_blowout_sim.diagnosis.case.resume import Kept
 from truck_blowout_sim.diagnosis.case.runs import Run, prepare_run
@@ -217,5 +217,5 @@ def test_a_diagnosis_without_a_folder_keeps_nothing(
     words: list[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch, drive_it: Drives
 ) -> None:
     monkeypatch.chdir(tmp_path)
-    diagnose([drive_it()], settings=words[3], step_s=0.0025, most_effects=1)
+    diagnose([drive_it()], settings=words[3], effort=QUICK)
     assert os.listdir(tmp_path) == []

@@ -25,8 +25,7 @@ SEVERAL = ("--baseline", "--holdout")
 _FILES = ("diagnosis.json", "vehicle.yaml", "report.html")
 _KEPT = ".resume"  # in the output folder, until the answer is written
 _CONTINUES = "the same command continues from here"
-_QUICK_STEP_S, _QUICK_REFITS, _QUICK_PANELS = 0.0025, (3, 1), 3
-_THOROUGH_STEP_S = 0.001
+_QUICK_PANELS = 3
 _FAR = 3.0  # prior sigmas from the sheet, beyond which a number is told
 _OF_SENSITIVITIES = 25.0  # as many times as long take four effects
 SETTINGS: Any = typer.Option(
@@ -80,9 +79,7 @@ def command(
     as_json: bool = JSON,
 ) -> None:
     """Locate, name and fit what the model lacks to explain recordings."""
-    from truck_blowout_sim.diagnosis import diagnose, keeping
-    from truck_blowout_sim.diagnosis.case.study import REFITS
-    from truck_blowout_sim.diagnosis.diagnose import STEP_S
+    from truck_blowout_sim.diagnosis import diagnose, effort, keeping
     from truck_blowout_sim.vehicle import load_vehicle
 
     _claim(output, corrected, [*recordings, *baseline, *holdout, *logs.files], force)
@@ -94,16 +91,13 @@ def command(
     if not as_json:
         _say_roles(train, base, hold)
     output.mkdir(parents=True, exist_ok=True)
-    step_s = _QUICK_STEP_S if quick else _THOROUGH_STEP_S if thorough else STEP_S
+    level = effort.QUICK if quick else effort.THOROUGH if thorough else effort.USUAL
     with (_progress() as progress, keeping(output / _KEPT, _teller(progress)) as kept,
           interruptible(lambda: _CONTINUES if kept.begun else "")):
         task = progress.add_task("sensor gate", total=1.0)
         answer, values = diagnose(
             train, baseline=base, holdout=hold, vehicle=loaded, settings=settings,
-            impose_speed=impose_speed, step_s=step_s,
-            most_effects=1 if quick else 4 if thorough else 3,
-            refits=_QUICK_REFITS if quick else REFITS, profile=thorough,
-            coarse=quick, next_run=not quick, without=without, kept=kept,
+            impose_speed=impose_speed, effort=level, without=without, kept=kept,
             progress=_reporter(progress, task, thorough))
         progress.update(task, description="drawing", completed=1.0)
         _write(answer, loaded, vehicle, values, output, _QUICK_PANELS if quick else None)

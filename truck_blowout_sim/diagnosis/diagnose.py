@@ -15,9 +15,10 @@ from truck_blowout_sim.diagnosis.case.calibration import calibrate
 from truck_blowout_sim.diagnosis.case.fingerprints import case_parts
 from truck_blowout_sim.diagnosis.case.resume import Keeps
 from truck_blowout_sim.diagnosis.case.runs import Run, prepare_run
-from truck_blowout_sim.diagnosis.case.study import REFITS, Progress, Study, row_ranges
+from truck_blowout_sim.diagnosis.case.study import Progress, Study, row_ranges
 from truck_blowout_sim.diagnosis.case.usable import determined
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
+from truck_blowout_sim.diagnosis.effort import USUAL, Effort
 from truck_blowout_sim.diagnosis.locate.lagging import lagging_wheel
 from truck_blowout_sim.diagnosis.locate.periodic import find_beat
 from truck_blowout_sim.diagnosis.locate.posture import turned_body
@@ -44,16 +45,13 @@ from truck_blowout_sim.recordings import Recording
 from truck_blowout_sim.vehicle import Packed, Vehicle, load_vehicle, pack, write_vehicle
 
 Floats = NDArray[np.float64]
-STEP_S = 0.002  # residuals on 0.1 s bins do not change beyond a tenth of a sigma against 1 ms
 
 
 @determined
 def diagnose(recordings: Sequence[Recording], *, baseline: Sequence[Recording] = (),
              holdout: Sequence[Recording] = (),
              vehicle: Vehicle | str = "international_9400i_trailmobile", settings: str = "default",
-             most_effects: int = 3, refits: tuple[int, int] = REFITS, step_s: float = STEP_S,
-             coarse: bool = False, profile: bool = False, next_run: bool = True,
-             workers: int | None = None, impose_speed: bool | None = None,
+             effort: Effort = USUAL, workers: int | None = None, impose_speed: bool | None = None,
              without: Collection[str] = (), progress: Progress | None = None,
              kept: Keeps | None = None) -> tuple[Diagnosis, Mapping[str, float]]:
     """Diagnose recordings that a model does not reproduce.
@@ -64,14 +62,10 @@ def diagnose(recordings: Sequence[Recording], *, baseline: Sequence[Recording] =
         holdout: runs that are predicted only.
         vehicle: the model's vehicle, by name, path or loaded.
         settings: name of a file in ``config/diagnosis``.
-        most_effects: how many effects may be named; ``refits``: how many steady candidates are
-            fitted anew for each, and how many events.
-        coarse: simulate what is tried on the coarsest step that the settings allow.
-        profile: intervals of amounts by profile likelihood and block jackknife, not by curvature.
-        next_run: simulate which run would best tell apart what fits alike; else words only.
+        effort: how much work it may take; ``workers``: threads.
         impose_speed: follow the recorded speed; None: only where throttle or brakes are missing.
         without: effects that are known not to be the cause.
-        step_s: integration step; ``workers``: threads; ``progress``: called with (stage, share).
+        progress: called with (stage, share).
         kept: knows simulations made before, as :func:`keeping` does those of an interrupted call.
 
     Returns:
@@ -87,24 +81,25 @@ def diagnose(recordings: Sequence[Recording], *, baseline: Sequence[Recording] =
     packed = pack(loaded)
     gate = sensor_gate(list(recordings), list(baseline), vehicle_geometry(loaded))
     rules = replace(load_settings(packed, settings), without=known_names(without))
-    rules = replace(rules, trial_step_s=rules.coarsest_step_s) if coarse else rules
+    rules = replace(rules, trial_step_s=rules.coarsest_step_s) if effort.coarse else rules
     if kept is not None:
         kept.begin(case_parts({"train": recordings, "baseline": baseline, "holdout": holdout},
-                              packed, rules, (most_effects, refits, step_s, profile, impose_speed)))
-    case = _Case(recordings, baseline, holdout, packed, rules, step_s, impose_speed,
-                 workers or os.cpu_count() or 1, refits, kept)
+                              packed, rules, (effort, impose_speed)))
+    case = _Case(recordings, baseline, holdout, packed, rules, effort, impose_speed,
+                 workers or os.cpu_count() or 1, kept)
 
     def searched(gate: GateResult) -> tuple[Study, Found]:
         study = case.study(gate)
         calibrate(study, progress=progress)
-        return study, search(study, progress, most_effects)
+        return study, search(study, progress, effort.most_effects)
 
     study, found = searched(gate)
     believed = not_taken_back(gate, found)
-    if len(believed) < len(gate.findings) and not coarse:  # all anew: no quick answer has the time
+    # all anew, for which a quick answer has no time
+    if len(believed) < len(gate.findings) and not effort.coarse:
         gate = replace(gate, findings=believed)
         study, found = searched(gate)
-    material = _material(study, found, gate, loaded.name, (profile, next_run), progress)
+    material = _material(study, found, gate, loaded.name, effort, progress)
     told = answer(material)
     told, truck = _with_truck(told, material, case)
     return told, truck.values
@@ -119,10 +114,9 @@ class _Case:
     holdout: Sequence[Recording]
     packed: Packed
     rules: Settings
-    step_s: float
+    effort: Effort
     impose_speed: bool | None
     workers: int
-    refits: tuple[int, int]
     kept: Keeps | None
 
     def study(self, gate: GateResult) -> Study:
@@ -130,7 +124,7 @@ class _Case:
         study = Study((*(self._cut(r, "baseline", gate) for r in self.baseline),
                        *(self._cut(r, "train", gate) for r in self.recordings)),
                       tuple(self._cut(r, "holdout", gate) for r in self.holdout),
-                      self.packed, self.rules, self.workers, self.refits)
+                      self.packed, self.rules, self.workers, self.effort.refits)
         if self.kept is not None:
             study.simulated = self.kept.simulated
         return study
@@ -138,13 +132,12 @@ class _Case:
     def _cut(self, recording: Recording, role: Role, gate: GateResult) -> Run:
         findings = [f for f in gate.findings if f.in_baseline or role != "baseline"]
         return prepare_run(correct(recording, findings), role, self.packed, self.rules,
-                           step_s=self.step_s, impose_speed=self.impose_speed)
+                           step_s=self.effort.step_s, impose_speed=self.impose_speed)
 
 
 def _material(study: Study, found: Found, gate: GateResult, vehicle: str,
-              asked: tuple[bool, bool], progress: Progress | None) -> Material:
-    """Everything else an answer needs, once the search has ended; ``asked``: profile, next run."""
-    profile, next_run = asked
+              effort: Effort, progress: Progress | None) -> Material:
+    """Everything else an answer needs, once the search has ended."""
     sound = not gate.findings  # what was corrected shows no more how a body stands or moves
     named = [r.hypothesis for r in found.named]
     before = _wrenches(study, found.models_null, (), progress)
@@ -153,9 +146,10 @@ def _material(study: Study, found: Found, gate: GateResult, vehicle: str,
     law = plainest_law(worst, next(r for r in study.runs
                                    if r.recording.name == worst.history.recording))
     material = Material(study, found, gate, before, after, law, _timings(study, found), vehicle,
-                        _separation(study, found, progress) if next_run else None,
-                        _arms(study, found, progress) if profile else {}, find_beat(study, named),
-                        lagging_wheel(study, named), turned_body(study, named) if sound else None,
+                        _separation(study, found, progress) if effort.next_run else None,
+                        _arms(study, found, progress) if effort.profile else {},
+                        find_beat(study, named), lagging_wheel(study, named),
+                        turned_body(study, named) if sound else None,
                         restless(study, named) if sound else None)
     if unexplained(material):
         material = replace(material, law=checked(study, law, named))

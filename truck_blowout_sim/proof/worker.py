@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from dataclasses import replace
 from typing import Any
 
 from truck_blowout_sim.errors import InputError
@@ -16,7 +17,7 @@ def diagnose_case(case: Case, *, step_s: float, with_baselines: bool) -> dict[st
     A case on which the diagnosis fails is a result too: ``error`` says how, and it is not
     solved.
     """
-    from truck_blowout_sim.diagnosis import diagnose
+    from truck_blowout_sim.diagnosis import USUAL, diagnose
     from truck_blowout_sim.proof.baselines.compare import baseline_errors
     from truck_blowout_sim.proof.memory import Memory
     from truck_blowout_sim.proof.seal import folder_hash
@@ -29,9 +30,9 @@ def diagnose_case(case: Case, *, step_s: float, with_baselines: bool) -> dict[st
     try:
         train, baseline, holdout = ([read_recording(path) for path in case.recordings(role)]
                                     for role in ROLES)
-        answer, _ = diagnose(train, baseline=baseline, holdout=holdout, workers=1, step_s=step_s,
-                             without=case.without(), kept=memory,
-                             vehicle=case.vehicle(), next_run=False)  # not scored
+        answer, _ = diagnose(train, baseline=baseline, holdout=holdout, workers=1,
+                             effort=replace(USUAL, step_s=step_s, next_run=False),  # not scored
+                             without=case.without(), kept=memory, vehicle=case.vehicle())
         line["answer"] = answer.as_json()
         line["cpu_s"] = round(time.process_time() - cpu, 1)
         if with_baselines and case.vehicle() == VEHICLE:

@@ -17,6 +17,7 @@ from truck_blowout_sim.diagnosis.case.runs import Run, simulate_bins
 from truck_blowout_sim.diagnosis.case.trust import calm, demand
 from truck_blowout_sim.diagnosis.effects import Effect
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
+from truck_blowout_sim.diagnosis.effort import USUAL
 from truck_blowout_sim.diagnosis.fit.linear import Projector
 from truck_blowout_sim.diagnosis.settings import Settings
 from truck_blowout_sim.simulation.course import Course, drive_course
@@ -24,7 +25,6 @@ from truck_blowout_sim.vehicle import Packed
 
 Floats = NDArray[np.float64]
 Progress = Callable[[str, float], None]
-REFITS = (7, 2)
 _MOST_COURSES = 12  # driven trucks that are remembered, some 3 MB each
 FURTHEST = 3.0  # prior sigmas a number of the sheet may stray
 _START_SPEED_SIGMA_MPS = 0.02
@@ -55,7 +55,7 @@ class Study:
     packed: Packed
     settings: Settings
     workers: int = 2
-    refits: tuple[int, int] = REFITS
+    refits: tuple[int, int] = USUAL.refits
     models: list[Floats] = field(default_factory=list)
     columns: Floats = field(default_factory=lambda: np.zeros((0, 0)))
     holdout_models: list[Floats] = field(default_factory=list)
