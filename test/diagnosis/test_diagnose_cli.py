@@ -13,7 +13,7 @@ import yaml
 
 from truck_blowout_sim.cli.main import main
 from truck_blowout_sim.comparison import compare
-from truck_blowout_sim.diagnosis import diagnose, write_diagnosis
+from truck_blowout_sim.diagnosis import QUICK, diagnose, write_diagnosis
 from truck_blowout_sim.diagnosis.sensors import channel_noise
 from truck_blowout_sim.recordings import Recording, read_recording, write_recording
 from truck_blowout_sim.resources import config_file
@@ -77,7 +77,7 @@ def test_the_file_has_the_promised_keys(case: Case) -> None:
     assert set(answer["location"]) == {"channels", "interval_s", "body", "line_of_action_x_m",
                                        "line_of_action_ci90_m", "wrench"}
     assert set(answer["fit"]) == {"train", "holdout"}
-    assert 0.0 < answer["null_p_value"] < 0.01
+    assert 0.0 < answer["null_p_value"] < 0.02
     assert len(answer["alias_sets"]) == len(answer["effects"])
     assert answer["next_test"]
 
@@ -86,8 +86,8 @@ def test_the_same_inputs_give_the_same_bytes(case: Case, tmp_path: Path) -> None
     vehicle = load_vehicle(NAME)
     train, holdout = (read_recording(p, hubs=vehicle.hubs, tires=vehicle.tires)
                       for p in (case.train, case.holdout))
-    again, _ = diagnose([train], holdout=[holdout], settings=str(case.settings), step_s=0.0025,
-                        most_effects=1, refits=(3, 1), coarse=True, workers=1)
+    again, _ = diagnose([train], holdout=[holdout], settings=str(case.settings), effort=QUICK,
+                        workers=1)
     write_diagnosis(again, tmp_path / "again.json")
     assert (tmp_path / "again.json").read_bytes() == (case.folder / "diagnosis.json").read_bytes()
 

@@ -29,7 +29,7 @@ def test_a_push_is_found_on_its_body_in_its_time_along_its_line(
     other = next(b for b in found if b != body)
     right = found[body]
     assert right.delta > found[other].delta
-    assert right.delta > study.settings.accept_delta
+    assert right.delta > 2.0 * right.degrees
     history = right.history
     assert (history.body, history.recording) == (body, "run 1")
     during = (history.time_s > 2.4) & (history.time_s < 4.4)

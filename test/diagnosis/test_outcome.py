@@ -23,6 +23,7 @@ from truck_blowout_sim.diagnosis.case.study import Study
 from truck_blowout_sim.diagnosis.effects import LIBRARY
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.fit.attribute import Ranked
+from truck_blowout_sim.diagnosis.fit.scatter import Chance, Scatter
 from truck_blowout_sim.diagnosis.locate.beat import Beat
 from truck_blowout_sim.diagnosis.locate.lagging import Lag
 from truck_blowout_sim.diagnosis.locate.posture import Posture
@@ -134,12 +135,18 @@ def test_a_sheet_number_far_off_is_a_miscalibration_and_named(
 
 
 def test_chance_falls_with_evidence_and_stays_a_probability(calm: Study, truck: Packed) -> None:
-    chances = [null_p_value(material(calm, (ranked(truck, "road_bank", 0.03, delta),)))
-               for delta in (0.0, 10.0, calm.settings.needed("road_bank"), 1e9)]
-    assert chances[0] == 1.0
-    assert chances[2] == pytest.approx(calm.settings.null_tail)
+    chance = Chance(Scatter(np.eye(12)[0]), 20.0, calm.settings.false_alarms)
+
+    def p_value(support: float) -> float:
+        one = material(calm, (replace(ranked(truck, "road_bank", 0.03), support=support),))
+        one.found.chance = chance
+        return null_p_value(one)
+    chances = [p_value(support) for support in (0.0, 5.0, chance.asked, 60.0)]
+    assert chances[0] == pytest.approx(1.0)
+    assert chances[2] == pytest.approx(0.02)
     assert chances == sorted(chances, reverse=True)
     assert 0.0 < chances[-1] < 1e-9
+    assert null_p_value(material(calm)) == 1.0  # nothing was searched
 
 
 def test_an_effect_is_reported_in_its_own_unit_with_a_90_percent_interval(

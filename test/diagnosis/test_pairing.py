@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
 from truck_blowout_sim.diagnosis.case.study import Study
@@ -12,6 +13,7 @@ from truck_blowout_sim.diagnosis.effects import LIBRARY, Effect
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.fit.attribute import Ranked
 from truck_blowout_sim.diagnosis.fit.refit import refit
+from truck_blowout_sim.diagnosis.fit.scatter import Chance, Scatter
 from truck_blowout_sim.diagnosis.name.judging import Found
 from truck_blowout_sim.diagnosis.name.pairing import pair_with, settled
 from truck_blowout_sim.diagnosis.prove.holdout import predict
@@ -19,6 +21,7 @@ from truck_blowout_sim.vehicle import Packed
 
 TRUE = {"driveline_drag": 2500.0, "axle_misalignment": 0.006}
 Studies = Callable[..., Study]
+CHANCE = Chance(Scatter(np.eye(12)[0]), 20.0, 0.02)  # runs of a model of the same form
 
 
 def changes(truck: Packed) -> dict[str, float]:
@@ -45,7 +48,8 @@ def begun(study: Study) -> Found:
 def drag_alone(study: Study, truck: Packed) -> Ranked:
     effect = effect_of("driveline_drag")
     start = Hypothesis(effect, effect.places(truck.vehicle)[0], 0.0)
-    return refit(study, Ranked(start, 0.0, 100.0), study.projector().chi2(study.residual()))
+    one = refit(study, Ranked(start, 0.0, 100.0), study.projector().chi2(study.residual()))
+    return replace(one, support=one.delta)
 
 
 @pytest.fixture
@@ -55,7 +59,7 @@ def both(study_of: Studies, truck: Packed) -> Study:
 
 def test_it_is_named_with_what_makes_it_hold(both: Study, truck: Packed) -> None:
     found, models = begun(both), list(both.models)
-    pair = pair_with(both, found, [drag_alone(both, truck)], 3, None)
+    pair = pair_with(both, found, [drag_alone(both, truck)], CHANCE, 3, None)
     assert pair is not None
     named = {one.hypothesis.effect.name: one.hypothesis.amount for one in pair.named}
     assert set(named) == set(TRUE)
@@ -68,18 +72,18 @@ def test_it_is_named_with_what_makes_it_hold(both: Study, truck: Packed) -> None
 
 
 def test_what_little_speaks_for_is_no_half_of_a_pair(both: Study, truck: Packed) -> None:
-    weak = replace(drag_alone(both, truck), evidence=1.5 * both.settings.accept_delta)
-    assert pair_with(both, begun(both), [weak], 3, None) is None
-    assert pair_with(both, begun(both), [], 3, None) is None
+    weak = replace(drag_alone(both, truck), support=1.5 * CHANCE.asked)
+    assert pair_with(both, begun(both), [weak], CHANCE, 3, None) is None
+    assert pair_with(both, begun(both), [], CHANCE, 3, None) is None
 
 
 def test_no_pair_where_only_one_may_be_named(both: Study, truck: Packed) -> None:
-    assert pair_with(both, begun(both), [drag_alone(both, truck)], 1, None) is None
+    assert pair_with(both, begun(both), [drag_alone(both, truck)], CHANCE, 1, None) is None
 
 
 def test_no_pair_that_unseen_runs_speak_against(study_of: Studies, truck: Packed) -> None:
     study = study_of(changes(truck), holdout={}, baseline=True)  # there, nothing is missing
-    assert pair_with(study, begun(study), [drag_alone(study, truck)], 3, None) is None
+    assert pair_with(study, begun(study), [drag_alone(study, truck)], CHANCE, 3, None) is None
 
 
 def test_what_is_named_alone_is_left_as_it_is(both: Study, truck: Packed) -> None:

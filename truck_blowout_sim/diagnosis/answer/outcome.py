@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.stats import chi2
 
 from truck_blowout_sim.diagnosis.answer import evidence, words
 from truck_blowout_sim.diagnosis.answer.told import alias_set, physics_effect, sensor_effect
@@ -204,7 +205,8 @@ def locate(material: Material) -> Location:
     z = (np.abs(history.fx_n / history.fx_sigma_n) + np.abs(history.fy_n / history.fy_sigma_n)
          + np.abs(history.mz_nm / history.mz_sigma_nm))
     strong = np.flatnonzero(z > 0.5 * z.max()) if z.size else np.zeros(0, dtype=int)
-    if best.delta < study.settings.accept_delta or not strong.size:
+    least = chi2.isf(study.settings.false_alarms, best.degrees)
+    if best.delta < least or not strong.size:
         return Location(channels=channels)
     a, b = strong[0], strong[-1] + 1
     wide = NINETY * best.x_sigma_m
@@ -227,14 +229,8 @@ def fit(material: Material, role: str) -> Fit:
 
 
 def null_p_value(material: Material) -> float:
-    """Chance of the best evidence if nothing were missing, as calibrated on such cases.
-
-    Evidence counts in units of what an effect of its name needs.
-    """
-    study = material.study
-    return study.settings.null_p_value(max(
-        (r.evidence / study.needed(r.hypothesis.effect, bool(r.hypothesis.times))
-         for r, _ in material.found.tried), default=0.0))
+    """Chance of the best support if nothing were missing."""
+    return material.found.p_value
 
 
 def gather(material: Material) -> Evidence:

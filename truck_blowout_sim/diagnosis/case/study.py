@@ -15,7 +15,6 @@ from numpy.typing import NDArray
 
 from truck_blowout_sim.diagnosis.case.runs import Run, simulate_bins
 from truck_blowout_sim.diagnosis.case.trust import calm, demand
-from truck_blowout_sim.diagnosis.effects import Effect
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.effort import USUAL
 from truck_blowout_sim.diagnosis.fit.linear import Projector
@@ -47,6 +46,7 @@ class Study:
         amounts: of each sheet nuisance at the reference, in prior sigmas from the sheet.
         known: sheet nuisances that the baseline runs determine: what differs from them in training
             is an effect, and both can be fitted together.
+        quiet: by candidate, what it would change in the baseline runs, per unit of its amount.
         simulations: how many were asked for; ``simulated`` gives the bin means of one.
     """
 
@@ -63,6 +63,7 @@ class Study:
     names: tuple[str, ...] = ()
     amounts: dict[str, float] = field(default_factory=dict)
     known: frozenset[str] = frozenset()
+    quiet: dict[tuple[str, str], dict[int, Floats]] = field(default_factory=dict)
     simulations: int = 0
     simulated: Callable[[Run, Packed], Floats] = Run.simulated
     _projectors: dict[frozenset[str], Projector] = field(default_factory=dict)
@@ -85,12 +86,6 @@ class Study:
         """Share of what a force that nothing explains must buy in runs so straight."""
         return calm([self.runs[i].recording for i in self.train], self.packed.vehicle.units[0],
                     self.settings)
-
-    def needed(self, effect: Effect, event: bool = False) -> float:
-        """Evidence that an effect must have in these runs."""
-        blown = any(self.runs[i].has_blowout for i in self.train)
-        usual = self.settings.needed(effect.name, event, blown)
-        return usual if effect.at_limit else usual * self.demand
 
     @property
     def baseline(self) -> tuple[int, ...]:

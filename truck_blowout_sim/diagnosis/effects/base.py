@@ -17,6 +17,7 @@ from truck_blowout_sim.vehicle import Packed, Vehicle
 
 Values = Mapping[str, float]
 Timing = Literal["always", "step", "pulse", "ramp"]
+_WRONG_SHEET = 4.0  # times what trucks of a kind differ by, where a sheet is wrong
 
 
 @dataclass(frozen=True)
@@ -27,7 +28,7 @@ class Amount:
         name, unit: as ``diagnosis.json`` reports it.
         step: finite difference for its sensitivity.
         low, high: physical bounds.
-        material: smallest size worth naming; below it a truck of this kind may stray anyway.
+        material: by so much 19 of 20 trucks of one kind stray from another at most.
         report: value to report from the amount; identity by default.
         grid: where a nonlinear search may start.
     """
@@ -65,7 +66,6 @@ class Effect:
             runs of the same truck elsewhere say nothing about it.
         variant: another form of an effect of the same name. One with an onset is tried where the
             steady form, if there is one, explains something.
-        at_limit: shown by turns near the limit of grip only.
         drags: slows the truck without holding back a wheel more than its law says.
         neutral: amount at which a vehicle is as given; 0 unless it lacks the part altogether.
         absorbs: calibration number that means the same as this amount; ``{hub}`` and ``{role}``
@@ -88,9 +88,17 @@ class Effect:
     onset_form_s: float = 0.0
     met: bool = False
     variant: bool = False
-    at_limit: bool = False
     drags: bool = False
     neutral: Callable[[Packed], float] = lambda packed: 0.0
+
+    @property
+    def strays(self) -> tuple[float, ...]:
+        """1 sigma by which trucks of one kind differ in the amount: none of what they meet.
+
+        A number of the sheet may be wrong: then four times as much.
+        """
+        usual = 0.0 if self.met else 0.5 * self.amount.material
+        return (usual, _WRONG_SHEET * usual) if self.absorbs and not self.met else (usual,)
 
     @property
     def edges(self) -> int:

@@ -21,6 +21,5 @@ EFFECT = Effect(
     sentence="From {onset} on the road gives only {value} times the friction.",
     equation="mu(t >= {onset}) = {value} * mu",
     splits="hard braking: both axes feel it, and only near the limit",
-    at_limit=True,
     absorbs="peak_friction",
 )

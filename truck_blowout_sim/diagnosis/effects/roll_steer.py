@@ -11,7 +11,7 @@ from truck_blowout_sim.diagnosis.effects.base import (
 
 EFFECT = Effect(
     name="roll_steer",
-    amount=Amount("extra_roll_steer", "1", step=0.05, low=-1.0, high=1.0, material=0.1,
+    amount=Amount("extra_roll_steer", "1", step=0.05, low=-1.0, high=1.0, material=0.14,
                   grid=(0.2, -0.2)),
     places=each_axle,
     values=lambda packed, place, a: added(packed, f"axle.{place.axle}.roll_steer_extra", a),

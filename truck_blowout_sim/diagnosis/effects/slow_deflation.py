@@ -10,7 +10,7 @@ from truck_blowout_sim.diagnosis.effects.base import (
 
 EFFECT = Effect(
     name="slow_deflation",
-    amount=Amount("deflation_time_factor", "1", step=0.3, low=-0.8, high=40.0, material=0.4,
+    amount=Amount("deflation_time_factor", "1", step=0.3, low=-0.8, high=40.0, material=0.6,
                   report=lambda a: 1.0 + a, grid=(1.0, 4.0, 12.0)),
     places=each_tire,
     values=lambda packed, place, a: {

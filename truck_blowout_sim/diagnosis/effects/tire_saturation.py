@@ -42,5 +42,4 @@ EFFECT = Effect(
              "{value} times the modelled peak.",
     equation="F_y = D' sin(C atan(B alpha)),  D' = {value} * D, B C D' unchanged",
     splits="a manoeuvre at high lateral acceleration",
-    at_limit=True,
 )

@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from truck_blowout_sim.diagnosis.case.runs import Run
-from truck_blowout_sim.diagnosis.case.study import Progress, Study
+from truck_blowout_sim.diagnosis.case.study import Progress, Study, row_ranges
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.fit.linear import Projector, Score, score
+from truck_blowout_sim.diagnosis.fit.scatter import Part, Scatter, Shown, independent
 from truck_blowout_sim.vehicle import Packed
 
 Floats = NDArray[np.float64]
@@ -28,6 +29,8 @@ class Ranked:
         evidence: fall against a truck whose own number of this meaning stays within two prior
             sigmas; equals ``delta`` where calibration has no such number.
         promise: linear fall with that number held, by which candidates are ranked before a refit.
+        support: twice the log of the likelihood ratio, the amount allowed to scatter from run to
+            run, less what choosing its instants brings by chance; see `scatter.py`.
     """
 
     hypothesis: Hypothesis
@@ -36,6 +39,22 @@ class Ranked:
     refitted: bool = False
     evidence: float = 0.0
     promise: float = 0.0
+    support: float = 0.0
+
+
+@dataclass(frozen=True, eq=False)
+class Ranking:
+    """Linear scores of all steady candidates.
+
+    Attributes:
+        ranked: the most promising first, each supported as far as its linear column goes.
+        scatter: how far apparent amounts differ from run to run in this case.
+        independent: how many independent questions were asked.
+    """
+
+    ranked: tuple[Ranked, ...]
+    scatter: Scatter
+    independent: float
 
 
 def with_effects(packed: Packed, effects: Sequence[Hypothesis], run: str) -> Packed:
@@ -45,52 +64,75 @@ def with_effects(packed: Packed, effects: Sequence[Hypothesis], run: str) -> Pac
     return packed
 
 
-def column_of(study: Study, hypothesis: Hypothesis, named: Sequence[Hypothesis],
-              step: float) -> list[tuple[int, Packed]]:
-    """Training runs and trucks to simulate for a finite difference of ``step``."""
+def _jobs(study: Study, hypothesis: Hypothesis, named: Sequence[Hypothesis]
+          ) -> list[tuple[int, Packed]]:
+    """Runs and trucks to simulate for a finite difference: what is named acts in training only.
+
+    Baseline runs look alike in every round and are simulated in the first.
+    """
+    amount = hypothesis.amount + hypothesis.effect.amount.step
+    runs = study.train if hypothesis.key in study.quiet else range(len(study.runs))
     return [(i, hypothesis.apply(
-        with_effects(study.packed, named, study.runs[i].recording.name),
-        study.runs[i].recording.name, hypothesis.amount + step)) for i in study.train]
+        with_effects(study.packed, named if i in study.train else (),
+                     study.runs[i].recording.name), study.runs[i].recording.name, amount))
+            for i in runs]
 
 
 def rank_steady(study: Study, candidates: Sequence[Hypothesis],
-                named: Sequence[Hypothesis] = (), progress: Progress | None = None
-                ) -> tuple[Ranked, ...]:
-    """Linear scores of candidates without an onset, the most promising first.
+                named: Sequence[Hypothesis] = (), progress: Progress | None = None) -> Ranking:
+    """Linear scores of candidates without an onset.
 
     A candidate that a nuisance imitates is promising for what it buys with that nuisance held;
     its evidence is what it buys against a truck whose nuisance may move.
     """
-    jobs = [job for c in candidates for job in column_of(study, c, named, c.effect.amount.step)]
-    results: list[Floats] = []
-    portion = 24
-    for first in range(0, len(jobs), portion):
-        part = jobs[first:first + portion]
-        results += study.simulate([(study.runs[i], truck) for i, truck in part])
-        if progress:
-            progress("candidates", len(results) / len(jobs))
-    residual = study.residual()
-    free = study.projector(named).chi2(residual)
-    ranked: list[Ranked] = []
+    columns = _columns(study, candidates, named, progress)
+    residual, rows = study.residual(), row_ranges(study)
+    usual = study.projector(named)
+    free = usual.chi2(residual)
+    ranked, shown, trained = [], [], np.zeros(residual.size)
+    for i in study.train:
+        trained[rows[i]] = 1.0
     cleaned: dict[str, Floats] = {}  # by the number that is held
-    k = 0
-    for candidate in candidates:
-        parts = {}
-        for i in study.train:
-            parts[i] = study.runs[i].change(results[k], study.models[i])
-            k += 1
-        amount = candidate.effect.amount
-        column = study.stack(parts) / amount.step
-        at = candidate.amount
+    for candidate, column in zip(candidates, columns, strict=True):
+        amount, at = candidate.effect.amount, candidate.amount
         projector = study.projector([*named, candidate])
         held = study.meaning(candidate)
         removed = cleaned[held] if held in cleaned else projector.remove(residual)
         cleaned[held] = removed
-        found = score(projector, removed, column, amount.low - at, amount.high - at)
+        found = score(projector, removed, column * trained, amount.low - at, amount.high - at)
         fall = max(found.delta - (float(residual @ removed) - free), 0.0)
         ranked.append(Ranked(candidate.at(at + found.amount), fall, found.sigma, evidence=fall,
                              promise=found.delta))
-    return tuple(sorted(ranked, key=lambda r: (-r.promise, r.hypothesis.key)))
+        shown.append(Shown.of(projector, removed, [
+            Part(part, column[part], i in study.train, study.runs[i].has_blowout)
+            for i, part in enumerate(rows)],
+            candidate.effect.strays, (amount.low - at, amount.high - at),
+            removed - found.amount * projector.remove(column * trained)))
+    scatter = Scatter.of([one for one in shown if one is not None])
+    ranked = [replace(r, support=scatter.support(one)) if one else r
+              for r, one in zip(ranked, shown, strict=True)]
+    asked = np.stack([c * trained for c in columns], axis=1) if columns else np.zeros((0, 0))
+    return Ranking(tuple(sorted(ranked, key=lambda r: (-r.promise, r.hypothesis.key))), scatter,
+                   independent(asked, usual) if columns else 0.0)
+
+
+def _columns(study: Study, candidates: Sequence[Hypothesis], named: Sequence[Hypothesis],
+             progress: Progress | None) -> list[Floats]:
+    """Whitened change over all runs per unit of each candidate's amount."""
+    jobs = [(c, i, truck) for c in candidates for i, truck in _jobs(study, c, named)]
+    parts: dict[tuple[str, str], dict[int, Floats]] = {c.key: {} for c in candidates}
+    portion = 24
+    for first in range(0, len(jobs), portion):
+        part = jobs[first:first + portion]
+        results = study.simulate([(study.runs[i], truck) for _, i, truck in part])
+        for (c, i, _), model in zip(part, results, strict=True):
+            parts[c.key][i] = study.runs[i].change(model, study.models[i]) / c.effect.amount.step
+        if progress:
+            progress("candidates", min(first + portion, len(jobs)) / len(jobs))
+    for key, found in parts.items():
+        if key not in study.quiet:
+            study.quiet[key] = {i: found[i] for i in study.baseline}
+    return [study.stack({**study.quiet[c.key], **parts[c.key]}) for c in candidates]
 
 
 def score_channel(study: Study, projector: Projector, removed: Floats, channel: str,

@@ -52,9 +52,13 @@ class Projector:
         """What a vector or columns over some rows have in common with each nuisance kept."""
         return np.asarray((self.columns[rows].T @ matrix)[self.kept])
 
+    def solve(self, reach: Floats) -> Floats:
+        """What :meth:`reach` gives, divided by the information on the nuisances kept."""
+        return np.asarray(cho_solve(self.factor, reach))
+
     def amounts(self, vector: Floats) -> Floats:
         """Posterior mean of the nuisances, in prior sigmas."""
-        return np.asarray(cho_solve(self.factor, self.reach(vector)))
+        return self.solve(self.reach(vector))
 
     def amounts_within(self, vector: Floats, low: Floats, high: Floats) -> Floats:
         """The same with each kept between bounds [m]: those at a bound stay, the others follow.
@@ -62,7 +66,7 @@ class Projector:
         One that has reached its bound is not let go again.
         """
         common, held = self.reach(vector), np.zeros(self.kept.size, dtype=np.bool_)
-        found = np.asarray(cho_solve(self.factor, common))
+        found = self.solve(common)
         upper = np.triu(self.factor[0])
         information = upper.T @ upper
         while np.any(beyond := ~held & ((found < low) | (found > high))):
@@ -81,7 +85,7 @@ class Projector:
 
     def covariance(self) -> Floats:
         """Posterior covariance of the nuisances, in prior sigmas squared."""
-        return np.asarray(cho_solve(self.factor, np.eye(self.kept.size)))
+        return self.solve(np.eye(self.kept.size))
 
     def remove(self, vector: Floats) -> Floats:
         """C^-1 vector, C being noise plus marginalised nuisances."""

@@ -1,7 +1,7 @@
 """What a hypothesis must pass to be named, and where the search keeps what it found.
 
-It must buy enough (threshold calibrated on nulls), be strong enough to matter, be far from zero for
-its standard error, and predict the holdout runs better.
+Its support must be beyond what chance reaches in the whole search, and it must predict the holdout
+runs better.
 """
 
 from __future__ import annotations
@@ -16,13 +16,14 @@ from truck_blowout_sim.diagnosis.case.study import Study
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.fit.attribute import Ranked
 from truck_blowout_sim.diagnosis.fit.refit import models_of
+from truck_blowout_sim.diagnosis.fit.scatter import Chance
 from truck_blowout_sim.diagnosis.prove.holdout import Prediction, predict
 from truck_blowout_sim.diagnosis.sensors import GateResult, SensorFinding
 
 Floats = NDArray[np.float64]
-_FAR_FROM_ZERO = 3.0
 _FLAWLESS = 0.25  # of what is usually left: no prediction is better than that
 _LAW = 0.5  # of what is left unexplained: how far inexact laws may change places
+_ODDS = 2.0 * np.log(20.0)  # support by which an explanation is 20 times as likely as another
 _ALIKE = 0.4  # less evidence than the best by more than this share is no alias
 _AT_BOUND = 0.002  # of the range
 _EVENT_WORTH = 0.8
@@ -40,6 +41,7 @@ class Found:
         chi2_null, chi2_after: sums of squares without and with the named effects.
         models_null: training models before anything was named.
         before, after: holdout predictions without and with them.
+        chance: what chance reaches in the first round.
     """
 
     named: list[Ranked] = field(default_factory=list)
@@ -50,6 +52,13 @@ class Found:
     models_null: list[Floats] = field(default_factory=list)
     before: tuple[Prediction, ...] = ()
     after: tuple[Prediction, ...] = ()
+    chance: Chance | None = None
+
+    @property
+    def p_value(self) -> float:
+        """Chance that a search where nothing is missing is led so far; 1 where none was made."""
+        best = max((r.support for r, _ in self.tried), default=0.0)
+        return 1.0 if self.chance is None else self.chance.p_value(best)
 
 
 def excess_of(study: Study, found: Found) -> float:
@@ -74,14 +83,16 @@ def worth(one: Ranked) -> float:
     return one.delta * (_EVENT_WORTH if one.hypothesis.times else 1.0)
 
 
-def slack(study: Study, best: Ranked, left: float = 0.0) -> float:
+def slack(best: Ranked, left: float = 0.0) -> float:
     """Evidence within which training does not tell explanations apart.
 
-    ``left`` is what even the best explanations leave beyond the usual: laws that inexact may change
-    places by half of it, though never with what explains less than three fifths.
+    What makes one 20 times as likely as another, in units of the sum of squares: where runs
+    scatter, more of these go into one unit of support. ``left`` is what even the best explanations
+    leave beyond the usual: laws that inexact may change places by half of it, though never with
+    what explains less than three fifths.
     """
-    room = max(study.settings.keep_within * best.delta, 0.5 * study.settings.accept_delta)
-    return max(room, min(room + _LAW * left, _ALIKE * best.delta))
+    room = _ODDS * max(best.delta / max(best.support, 1.0), 1.0)
+    return min(room + _LAW * left, _ALIKE * best.delta)
 
 
 def can_judge(study: Study, hypothesis: Hypothesis) -> bool:
@@ -89,30 +100,19 @@ def can_judge(study: Study, hypothesis: Hypothesis) -> bool:
     return any(run.shows(hypothesis.effect.applies) for run in study.holdout)
 
 
-def weakness(study: Study, one: Ranked, strongest: float) -> str:
+def weakness(one: Ranked, chance: Chance, strongest: float) -> str:
     """Why a hypothesis is too weak to name; empty if it is not."""
-    amount = one.hypothesis.effect.amount
+    amount, event = one.hypothesis.effect.amount, bool(one.hypothesis.times)
     if not one.refitted:
         return "not refitted: others explain more"
-    event = bool(one.hypothesis.times)
-    needed = study.needed(one.hypothesis.effect, event)
-    if one.evidence < needed:
-        return f"buys only {one.evidence:.0f} of {needed:.0f}" + (
-            ", an event whose instant was searched" if event else "")
-    away = one.hypothesis.amount - one.hypothesis.effect.neutral(study.packed)
-    # runs of the same truck show what this one is; without them it may be another of its kind
-    shown = bool(study.baseline) and not one.hypothesis.effect.met
-    least = amount.material * (study.settings.same_truck if shown else 1.0)
-    if abs(away) < least:
-        return (f"{one.hypothesis.amount:.3g} {amount.unit} is within what trucks of one kind "
-                f"differ ({least:.3g})")
+    if one.support < chance.asked:
+        return f"support {one.support:.1f} of {chance.asked:.1f} that chance may reach" + (
+            ", its instant searched" if event else "")
     if min(one.hypothesis.amount - amount.low, amount.high - one.hypothesis.amount) < _AT_BOUND * (
             amount.high - amount.low):
         return "its amount runs to the bound of what is physical"
     if one.evidence < (_NEXT_EVENT_SHARE if event else _NEXT_SHARE) * strongest:
         return f"buys {one.evidence:.0f}, which the stronger effect's own inexactness may leave"
-    if abs(away) < _FAR_FROM_ZERO * one.sigma:
-        return "its interval comes near zero"
     return ""
 
 

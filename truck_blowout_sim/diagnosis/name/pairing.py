@@ -19,6 +19,8 @@ from numpy.typing import NDArray
 
 from truck_blowout_sim.diagnosis.case.study import Progress, Study
 from truck_blowout_sim.diagnosis.fit.attribute import Ranked
+from truck_blowout_sim.diagnosis.fit.scatter import Chance
+from truck_blowout_sim.diagnosis.fit.support import Beside, supported
 from truck_blowout_sim.diagnosis.fit.together import fit_together
 from truck_blowout_sim.diagnosis.name.judging import (
     Found,
@@ -32,7 +34,7 @@ from truck_blowout_sim.diagnosis.name.shortlist import shortlist
 from truck_blowout_sim.diagnosis.prove.holdout import Prediction
 
 Floats = NDArray[np.float64]
-_MUCH = 5.0  # times what is needed: so much must speak for what the holdout speaks against
+_MUCH = 2.0  # times what chance may reach: so much must support what the holdout speaks against
 _SECONDS = 2  # how many others are tried beside it
 
 
@@ -47,7 +49,7 @@ class Pair:
     """
 
     named: list[Ranked]
-    ranked: list[Ranked]
+    ranked: Sequence[Ranked]
     models: list[Floats]
     after: tuple[Prediction, ...]
     chi2: float
@@ -61,36 +63,46 @@ def settled(study: Study, found: Found) -> None:
         study.models, found.after = predict_with(study, [r.hypothesis for r in found.named])
 
 
-def pair_with(study: Study, found: Found, disbelieved: Sequence[Ranked], most: int,
+def pair_with(study: Study, found: Found, disbelieved: Sequence[Ranked], chance: Chance, most: int,
               progress: Progress | None) -> Pair | None:
     """The strongest of the disbelieved with what is named, and if need be with one more."""
-    strong = [one for one in disbelieved if one.evidence > _MUCH * study.needed(
-        one.hypothesis.effect, bool(one.hypothesis.times))]
+    strong = [one for one in disbelieved if one.support > _MUCH * chance.asked]
     if not strong:
         return None
     first = max(strong, key=worth)
-    pair = _holds(study, found, [*found.named, first], []) if found.named else None
+    pair = _holds(study, found, [*found.named, first], (), chance) if found.named else None
     if pair is not None or len(found.named) + 2 > most:
         return pair
     before = study.models
     named = [*(r.hypothesis for r in found.named), first.hypothesis]
     study.models = models_with(study, named)
-    ranked = shortlist(study, named, progress)
+    ranked = shortlist(study, named, progress).ranked
     study.models = before
-    seconds = [one for one in ranked if not weakness(study, one, 0.0)]
+    seconds = [one for one in ranked if not weakness(one, chance, 0.0)]
     for second in sorted(seconds, key=worth, reverse=True)[:_SECONDS]:
-        pair = _holds(study, found, [*found.named, first, second], ranked)
+        pair = _holds(study, found, [*found.named, first, second], ranked, chance)
         if pair is not None:
             return pair
     return None
 
 
-def _holds(study: Study, found: Found, named: list[Ranked], ranked: list[Ranked]) -> Pair | None:
+def _holds(study: Study, found: Found, named: list[Ranked], ranked: Sequence[Ranked],
+           chance: Chance) -> Pair | None:
     """Everything fitted together, if each stays what it was named and the holdout gains."""
     fitted, chi2 = fit_together(study, named)
-    if any(weakness(study, one, 0.0) for one in fitted):
+    if any(weakness(one, chance, 0.0) for one in _each_supported(study, fitted, chance)):
         return None
     models, after = predict_with(study, [one.hypothesis for one in fitted])
     if predicts_better(study, found.after, after) <= 0.0:
         return None
     return Pair(fitted, ranked, models, after, chi2)
+
+
+def _each_supported(study: Study, fitted: Sequence[Ranked], chance: Chance) -> list[Ranked]:
+    """Each with its support beside all the others."""
+    found = []
+    for k, one in enumerate(fitted):
+        others = [r.hypothesis for j, r in enumerate(fitted) if j != k]
+        beside = Beside.of(study, others, models_with(study, others))
+        found.append(supported(study, one, beside, chance))
+    return found

@@ -25,7 +25,7 @@ from truck_blowout_sim.diagnosis.name.judging import (
     worth,
 )
 from truck_blowout_sim.diagnosis.name.pairing import Pair, pair_with, settled
-from truck_blowout_sim.diagnosis.name.shortlist import shortlist
+from truck_blowout_sim.diagnosis.name.shortlist import Round, shortlist
 from truck_blowout_sim.diagnosis.prove.holdout import Prediction, predict
 
 Floats = NDArray[np.float64]
@@ -44,28 +44,29 @@ def search(study: Study, progress: Progress | None = None, most: int = _MOST_EFF
     rounds: list[Sequence[Ranked]] = []
     while len(found.named) < most:
         named = [r.hypothesis for r in found.named]
-        ranked = shortlist(study, named, progress)
+        this = shortlist(study, named, progress)
+        ranked, found.chance = this.ranked, found.chance or this.chance
         if not rounds:
             found.tried = [(r, "") for r in ranked]
-        best, disbelieved = _accept(study, found, ranked, named)
+        best, disbelieved = _accept(study, found, this, named)
         if best is not None:
             rounds.append(ranked)
             settled(study, found)
             continue
-        pair = pair_with(study, found, disbelieved, most, progress)
+        pair = pair_with(study, found, disbelieved, this.chance, most, progress)
         if pair is None:
             break
         rounds += [ranked, pair.ranked][:_take(study, found, pair)]
     left = excess_of(study, found)
     taken = {r.hypothesis.key for r in found.named}
     found.rivals = [_rivals(best, [r for r in ranked if r.hypothesis.key not in taken],
-                            slack(study, best, left))
+                            slack(best, left))
                     for best, ranked in zip(found.named, rounds, strict=True)]
     return found
 
 
-def _accept(study: Study, found: Found, ranked: Sequence[Ranked],
-            named: Sequence[Hypothesis]) -> tuple[Ranked | None, list[Ranked]]:
+def _accept(study: Study, found: Found, this: Round, named: Sequence[Hypothesis]
+            ) -> tuple[Ranked | None, list[Ranked]]:
     """Take the best hypothesis that passes every test; record why others fell.
 
     Among those that training cannot tell apart, the one that predicts the holdout best is taken.
@@ -77,11 +78,11 @@ def _accept(study: Study, found: Found, ranked: Sequence[Ranked],
     strongest = max((r.evidence for r in found.named), default=0.0)
     excess = excess_of(study, found)
     passing: list[tuple[Ranked, float, list[Floats], tuple[Prediction, ...]]] = []
-    for one in ranked:
+    for one in this.ranked:
         # what explains most of the rest is no leftover of a stronger effect's inexactness
-        reason = weakness(study, one, strongest if one.delta < _MOST * excess else 0.0)
+        reason = weakness(one, this.chance, strongest if one.delta < _MOST * excess else 0.0)
         if not reason and passing and worth(one) < max(
-                worth(p[0]) for p in passing) - slack(study, passing[0][0]):
+                worth(p[0]) for p in passing) - slack(passing[0][0]):
             reason = "explains less"
         elif not reason:
             models, after = predict_with(study, [*named, one.hypothesis])

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -14,6 +14,8 @@ from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.fit.attribute import Ranked, rank_steady
 from truck_blowout_sim.diagnosis.fit.event_fit import fit_event
 from truck_blowout_sim.diagnosis.fit.refit import chi2_of, models_at, refit
+from truck_blowout_sim.diagnosis.fit.scatter import Chance
+from truck_blowout_sim.diagnosis.fit.support import Beside, supported
 from truck_blowout_sim.diagnosis.fit.timed import refine_times, scan
 from truck_blowout_sim.diagnosis.name.candidates import (
     failed_tires,
@@ -25,41 +27,68 @@ from truck_blowout_sim.diagnosis.result.parts import Place
 
 _TIMED_COST = 8.0  # evidence that choosing an instant in a run costs
 _TIMED_SHARE = 0.15  # and the share that freedom of shape costs: steady causes come first
-_WORTH_REFITTING = 0.25  # of the threshold
 _HOLES = (0.1, 0.3, 1.0)  # of that of a commanded blowout: where to begin
 _HALF = 0.5  # of what the best explains: less is no rival
 _MUCH = 0.5  # of what is unusual: an event that explains it leaves no call for others
-_LARGE = 3.0  # thresholds of mismatch, from which on a tire may have been lost unseen
+_LARGE = 20.0  # times what is asked: a mismatch from which on a tire may have been lost unseen
+
+
+@dataclass(frozen=True, eq=False)
+class Round:
+    """One round: every hypothesis, best first, and what chance reaches among so many."""
+
+    ranked: tuple[Ranked, ...]
+    chance: Chance
 
 
 def shortlist(study: Study, named: Sequence[Hypothesis], progress: Progress | None
-              ) -> list[Ranked]:
+              ) -> Round:
     """All hypotheses not yet named, the promising ones refitted, best first."""
     taken = {h.key for h in named}
     chi2 = study.projector(named).chi2(study.residual())
     steady = [h for h in steady_candidates(study) if h.key not in taken]
-    ranked = rank_steady(study, steady, named, progress)
-    worth = _WORTH_REFITTING * study.settings.accept_delta
-    promising = [one for one in ranked[:study.refits[0]] if one.promise > worth]
-    done = [*_refitted(study, promising, chi2, named, progress),
-            *ranked[len(promising):]]
-    best = max((r.delta for r in done if r.refitted), default=0.0)
-    done += _events(study, named, chi2, max(worth, _HALF * best), ranked, progress)
+    ranking = rank_steady(study, steady, named, progress)
+    ranked, places = ranking.ranked, _event_places(study, named)
+    beside = Beside.of(study, named, study.models)
+    chance = Chance(ranking.scatter, ranking.independent, study.settings.false_alarms)
+    places = [(e, p) for e, p in places if _called_for(e, ranked, chance)]
+    chance = replace(chance, independent=ranking.independent + len(places))
+    promising = _promising(ranked, chance, study.refits[0])
+    keys = {one.hypothesis.key for one in promising}
+    done = [*_refitted(study, promising, chi2, beside, chance, progress),
+            *(one for one in ranked if one.hypothesis.key not in keys)]
+    done += _events(study, beside, chi2, chance, done, places, progress)
     best_of: dict[tuple[str, str], Ranked] = {}
     for one in sorted(done, key=lambda r: (-r.delta, r.hypothesis.key)):
         if one.hypothesis.key not in taken:
             best_of.setdefault(one.hypothesis.key, one)
-    return list(best_of.values())
+    return Round(tuple(best_of.values()), chance)
 
 
-def _refitted(study: Study, chosen: Sequence[Ranked], chi2: float, named: Sequence[Hypothesis],
-              progress: Progress | None) -> list[Ranked]:
+def _promising(ranked: Sequence[Ranked], chance: Chance, most: int) -> list[Ranked]:
+    """What to fit anew: by turns the best by what it explains and by how well it is supported."""
+    worth = [one for one in ranked if one.promise > chance.asked]
+    chosen: dict[tuple[str, str], Ranked] = {}
+    for pair in zip(worth, sorted(worth, key=lambda r: -r.support), strict=True):
+        for one in pair:
+            if len(chosen) < most:
+                chosen.setdefault(one.hypothesis.key, one)
+    return list(chosen.values())
+
+
+def _refitted(study: Study, chosen: Sequence[Ranked], chi2: float, beside: Beside,
+              chance: Chance, progress: Progress | None) -> list[Ranked]:
     """Each at its best amount, side by side; the same numbers as one after another."""
-    study.projector(named)  # made once, before all ask for it
+    study.projector(beside.named)  # made once, before all ask for it
     alone = [replace(study, workers=1, simulations=0) for _ in chosen]
     done: list[Ranked] = []
+
+    def fitted(k: int) -> Ranked:
+        one = refit(alone[k], chosen[k], chi2, beside.named)
+        return supported(alone[k], one, beside, chance)
+
     with ThreadPoolExecutor(study.workers) as pool:
-        for one in pool.map(lambda k: refit(alone[k], chosen[k], chi2, named), range(len(chosen))):
+        for one in pool.map(fitted, range(len(chosen))):
             done.append(one)
             if progress:
                 progress("refitting", len(done) / len(chosen))
@@ -67,20 +96,23 @@ def _refitted(study: Study, chosen: Sequence[Ranked], chi2: float, named: Sequen
     return done
 
 
-def _events(study: Study, named: Sequence[Hypothesis], chi2: float, worth: float,
-            steady: Sequence[Ranked], progress: Progress | None) -> list[Ranked]:
+def _events(study: Study, beside: Beside, chi2: float, chance: Chance,
+            steady: Sequence[Ranked], places: Sequence[tuple[Effect, Place]],
+            progress: Progress | None) -> list[Ranked]:
     """Tires that lost pressure by themselves, and everything scanned over time."""
+    named = beside.named
     excess = chi2 - study.settings.expected_level * study.columns.shape[0]
-    found = [_failed(study, named, chi2, tire, times)
+    found = [supported(study, _failed(study, named, chi2, tire, times), beside, chance)
              for tire, times in failed_tires(study, study.train).items()]
-    projector, tried = study.projector(named), _event_places(study, named, steady)
+    projector = study.projector(named)
     scanned = []
-    for k, (effect, place) in enumerate(tried):
+    for k, (effect, place) in enumerate(places):
         scanned.append(scan(study, projector, effect, place, named))
         if progress:
-            progress("events", (k + 1) / len(tried))
+            progress("events", (k + 1) / len(places))
     scanned.sort(key=lambda r: -r.delta)
-    large = _large(study, [*steady, *scanned])
+    large = _large([*steady, *scanned], chance)
+    worth = max(chance.asked, _HALF * max((r.delta for r in steady if r.refitted), default=0.0))
     keys: set[tuple[str, str]] = set()
     for one in scanned:
         cost = _TIMED_COST * len(one.hypothesis.times) + _TIMED_SHARE * one.delta
@@ -93,33 +125,34 @@ def _events(study: Study, named: Sequence[Hypothesis], chi2: float, worth: float
             keys.add(one.hypothesis.key)
             one = refine_times(study, one, chi2, named)
             one = fit_event(study, refit(study, one, chi2, named), chi2, named)
+            one = supported(study, one, beside, chance)
             cost = _TIMED_COST * len(one.hypothesis.times) + _TIMED_SHARE * max(one.delta, 0.0)
         found.append(replace(one, delta=one.delta - cost, evidence=one.evidence - cost))
     return found
 
 
-def _large(study: Study, ranked: Sequence[Ranked]) -> bool:
+def _large(ranked: Sequence[Ranked], chance: Chance) -> bool:
     """Whether the mismatch is large enough to look where it costs more."""
-    return max((max(r.promise, r.delta) for r in ranked), default=0.0) > (
-        _LARGE * study.settings.accept_delta)
+    return max((max(r.promise, r.delta) for r in ranked), default=0.0) > _LARGE * chance.asked
 
 
-def _event_places(study: Study, named: Sequence[Hypothesis], steady: Sequence[Ranked]
-                  ) -> list[tuple[Effect, Place]]:
-    """Where each event is looked for: another form only where the steady one explains something."""
-    settings, taken = study.settings, {h.key for h in named}
-    idle = {r.hypothesis.effect.name for r in steady} - {
-        r.hypothesis.effect.name for r in steady
-        if r.promise > _WORTH_REFITTING * settings.accept_delta}
+def _event_places(study: Study, named: Sequence[Hypothesis]) -> list[tuple[Effect, Place]]:
+    """Where each event could be looked for."""
+    taken = {h.key for h in named}
     tried: list[tuple[Effect, Place]] = []
     for effect in timed_effects(study):
-        places = effect.places(study.packed.vehicle)
-        if effect.name == secondary_blowout.EFFECT.name:
-            places = unwatched_tires(study) if _large(study, steady) else ()
-        elif effect.variant and effect.name in idle:
-            continue
+        places = (unwatched_tires(study) if effect.name == secondary_blowout.EFFECT.name
+                  else effect.places(study.packed.vehicle))
         tried += [(effect, p) for p in places if (effect.name, str(p)) not in taken]
     return tried
+
+
+def _called_for(effect: Effect, steady: Sequence[Ranked], chance: Chance) -> bool:
+    """Whether to look: for a lost tire where much is open, for another form where one explains."""
+    if effect.name == secondary_blowout.EFFECT.name:
+        return _large(steady, chance)
+    own = [r.promise for r in steady if r.hypothesis.effect.name == effect.name]
+    return not effect.variant or not own or max(own) > chance.asked
 
 
 def _failed(study: Study, named: Sequence[Hypothesis], chi2: float, tire: str,

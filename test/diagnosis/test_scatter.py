@@ -1,0 +1,142 @@
+"""Support of an effect whose apparent amount scatters from run to run."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scipy.stats import chi2
+
+from truck_blowout_sim.diagnosis.fit.linear import Projector
+from truck_blowout_sim.diagnosis.fit.scatter import Chance, Part, Scatter, Shown, independent
+
+ROLES = np.array([1.0, 1.0, 1.0, 0.0, 0.0])  # three training runs, two baseline runs
+CERTAIN = Scatter(np.eye(12)[0])  # no scatter at all
+
+
+def shown(amounts: np.ndarray, sigma: float = 0.1, strays: tuple[float, ...] = (0.0,)) -> Shown:
+    """Runs that show independent amounts, each with the same standard error."""
+    information = np.eye(amounts.size) / sigma**2
+    alike = np.ones((amounts.size, amounts.size))
+    return Shown(information, information @ amounts, ROLES[:amounts.size], alike, strays)
+
+
+def test_without_scatter_the_support_is_the_fall_of_the_sum_of_squares() -> None:
+    """Closed form: the squared sum of the gradient over the information, training runs only."""
+    amounts = np.array([0.3, 0.5, 0.4, 0.0, 0.1])
+    assert CERTAIN.support(shown(amounts)) == pytest.approx(3 * 0.4**2 / 0.1**2)
+
+
+def test_the_same_mean_is_supported_less_where_runs_scatter() -> None:
+    """Three runs that agree say more than one that shows all of it."""
+    cases = [shown(np.array(a)) for a in ([0.4, 0.4, 0.4, 0.0, 0.0], [1.2, 0.0, 0.0, 0.0, 0.0])]
+    scatter = Scatter.of(cases)
+    agree, one = (scatter.support(case) for case in cases)
+    assert CERTAIN.support(cases[0]) == pytest.approx(CERTAIN.support(cases[1]))
+    assert agree > 3.0 * one
+
+
+def test_what_baseline_runs_show_too_is_the_truck() -> None:
+    """A truck that strays from its sheet strays in every run."""
+    everywhere, here = np.full(5, 0.4), np.array([0.4, 0.4, 0.4, 0.0, 0.0])
+    assert CERTAIN.support(shown(here, strays=(0.3,))) > 15.0
+    assert CERTAIN.support(shown(everywhere, strays=(0.3,))) < 2.0
+
+
+def test_without_baseline_a_truck_may_stray() -> None:
+    """Twice what trucks of a kind differ by is no finding, ten times is, but where a sheet errs."""
+    usual, sheet = ([CERTAIN.support(shown(np.full(3, k * 0.2), sigma=0.01, strays=strays))
+                     for k in (2.0, 10.0)] for strays in ((0.2,), (0.2, 0.8)))
+    assert usual == pytest.approx([4.0, 100.0], rel=0.01)
+    assert sheet[0] < 4.0
+    assert 4.0 < sheet[1] < 12.0
+
+
+def test_an_amount_beyond_its_bounds_is_not_supported() -> None:
+    """A tire cannot have less than no loss of grip."""
+    free = shown(np.full(5, -0.4) * ROLES)
+    bounded = replace(free, bounds=(0.0, 1.0))
+    assert CERTAIN.support(free) > 30.0
+    assert CERTAIN.support(bounded) == pytest.approx(0.0)
+
+
+@pytest.mark.parametrize("spread", [0.0, 0.3, 2.0])
+def test_chance_is_stated_about_right_where_nothing_is_missing(spread: float) -> None:
+    """12 idle hypotheses, five runs, any scatter: at most twice the stated false alarms."""
+    rng, found = np.random.default_rng(5), []
+    for _ in range(400):
+        cases = [shown(rng.normal(0.0, np.hypot(0.1, spread), 5)) for _ in range(12)]
+        chance = Chance(Scatter.of(cases), 12.0, 0.02)
+        found.append(chance.p_value(max(chance.scatter.support(one) for one in cases)))
+    for stated in (0.02, 0.1, 0.5):
+        assert np.mean(np.array(found) < stated) < 2.0 * stated + 0.01
+    assert 0.3 < np.median(found) < 0.7
+
+
+def test_chance_asks_for_more_where_more_is_tried() -> None:
+    """One hypothesis: the quantile of a squared normal; a hundred: of the largest of them."""
+    one, many = (Chance(CERTAIN, n, 0.02) for n in (1.0, 100.0))
+    assert one.asked == pytest.approx(chi2.isf(0.02, 1))
+    assert many.asked == pytest.approx(chi2.isf(-np.expm1(np.log(0.98) / 100.0), 1))
+    assert many.p_value(many.asked) == pytest.approx(0.02)
+    assert many.p_value(0.0) == pytest.approx(1.0)
+
+
+def test_alike_columns_ask_one_question() -> None:
+    """Twins count once, strangers each."""
+    rng = np.random.default_rng(2)
+    columns, nuisances = rng.normal(size=(4000, 6)), Projector.of(rng.normal(size=(4000, 3)))
+    assert independent(columns, nuisances) == pytest.approx(6.0, abs=0.7)
+    assert independent(np.repeat(columns[:, :1], 6, axis=1), nuisances) == pytest.approx(1.0)
+
+
+def test_runs_are_told_apart_with_the_nuisances_marginalized() -> None:
+    """The same numbers as a dense Gaussian gives."""
+    rng = np.random.default_rng(3)
+    nuisances, columns = rng.normal(size=(60, 4)), rng.normal(size=60)
+    residual = rng.normal(size=60) + 0.8 * columns
+    projector = Projector.of(nuisances)
+    parts = [Part(slice(20 * k, 20 * k + 20), columns[20 * k:20 * k + 20], k < 2) for k in range(3)]
+    found = Shown.of(projector, projector.remove(residual), parts)
+    assert found is not None
+    inverse = np.linalg.inv(np.eye(60) + nuisances @ nuisances.T)
+    split = np.stack([np.where(np.arange(60) // 20 == k, columns, 0.0) for k in range(3)], axis=1)
+    np.testing.assert_allclose(found.information, split.T @ inverse @ split, atol=1e-9)
+    np.testing.assert_allclose(found.gradient, split.T @ inverse @ residual, atol=1e-9)
+    np.testing.assert_array_equal(found.trained, [1.0, 1.0, 0.0])
+
+
+def test_a_run_that_does_not_show_the_effect_is_left_out() -> None:
+    """Brakes that were not applied say nothing of a brake."""
+    projector, ones = Projector.of(np.zeros((30, 1))), np.ones(10)
+    parts = [Part(slice(0, 10), ones, True), Part(slice(10, 20), 1e-4 * ones, False)]
+    found = Shown.of(projector, np.ones(30), parts)
+    assert found is not None
+    assert found.trained.size == 1
+    assert Shown.of(projector, np.ones(30), [Part(slice(0, 10), 0.0 * ones, True)]) is None
+
+
+def test_a_run_that_nothing_explains_weighs_less() -> None:
+    """A run left with nine times its variance counts as if its widths were three times as wide."""
+    projector, ones = Projector.of(np.zeros((20, 1))), np.ones(10)
+    parts = [Part(slice(0, 10), ones, True), Part(slice(10, 20), ones, True)]
+    left = np.concatenate([0.5 * ones, 3.0 * ones])
+    found = Shown.of(projector, np.ones(20), parts, left=left)
+    assert found is not None
+    np.testing.assert_allclose(np.diag(found.information), [10.0, 10.0 / 9.0])
+    np.testing.assert_allclose(found.gradient, [10.0, 10.0 / 9.0])
+
+
+def test_where_a_tire_is_lost_a_truck_strays_anew() -> None:
+    """Baseline runs on sound tires do not say how the truck strays from its model on a flat one."""
+    projector, ones = Projector.of(np.zeros((50, 1))), np.ones(10)
+    residual = np.repeat([1.0, 1.0, 1.0, 0.0, 0.0], 10)
+
+    def support(blown: bool) -> float:
+        parts = [Part(slice(10 * k, 10 * k + 10), ones, k < 3, blown and k < 3) for k in range(5)]
+        found = Shown.of(projector, residual, parts, strays=(0.5,))
+        assert found is not None
+        return CERTAIN.support(found)
+    assert support(blown=False) > 8.0
+    assert support(blown=True) < 4.0

@@ -1,0 +1,70 @@
+"""A hypothesis is supported by runs that show it alike, and by those that do without."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+
+import numpy as np
+import pytest
+
+from truck_blowout_sim.diagnosis.case.study import Study
+from truck_blowout_sim.diagnosis.effects import LIBRARY
+from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
+from truck_blowout_sim.diagnosis.fit.attribute import Ranked
+from truck_blowout_sim.diagnosis.fit.scatter import Chance, Scatter
+from truck_blowout_sim.diagnosis.fit.support import Beside, supported
+from truck_blowout_sim.vehicle import Packed
+
+Studies = Callable[..., Study]
+HUB = "trailer_2_left"
+CHANCE = Chance(Scatter(np.eye(12)[0]), 20.0, 0.02)  # runs of a model of the same form
+
+
+def weak_brake(truck: Packed) -> Mapping[str, float]:
+    return {f"hub.{HUB}.brake_gain": 0.5 * truck[f"hub.{HUB}.brake_gain"]}
+
+
+def support_of(study: Study, name: str, amount: float, hub: str | None = None,
+               times: Mapping[str, tuple[float, float]] | None = None) -> float:
+    effect = next(e for e in LIBRARY if e.name == name)
+    place = next(p for p in effect.places(study.packed.vehicle) if p.hub == hub)
+    one = Ranked(Hypothesis(effect, place, amount, times or {}), 0.0, 0.1)
+    return supported(study, one, Beside.of(study, (), study.models), CHANCE).support
+
+
+def test_half_a_brake_is_supported_and_a_sound_one_is_not(
+    study_of: Studies, truck: Packed
+) -> None:
+    weak, sound = study_of(weak_brake(truck), baseline=True), study_of(baseline=True)
+    assert support_of(weak, "brake_imbalance", -0.5, HUB) > CHANCE.asked
+    assert support_of(sound, "brake_imbalance", -0.5, HUB) < CHANCE.asked
+
+
+def test_unseen_runs_speak_for_it_or_against(study_of: Studies, truck: Packed) -> None:
+    """The amount is not fitted to them; they say whether it holds there."""
+    alone = study_of(weak_brake(truck))
+    joined = study_of(weak_brake(truck), holdout=weak_brake(truck))
+    without = study_of(weak_brake(truck), holdout={})
+    found = [support_of(study, "brake_imbalance", -0.5, HUB) for study in (without, alone, joined)]
+    assert found[0] < found[1] < found[2]
+
+
+def test_no_amount_has_no_support(study_of: Studies) -> None:
+    assert support_of(study_of(), "road_bank", 0.0) == 0.0
+
+
+def test_a_free_instant_costs(study_of: Studies) -> None:
+    """A gust that nothing calls for: the search for its instant is paid for."""
+    study = study_of()
+    times = {study.runs[i].recording.name: (3.0, 5.0) for i in study.train}
+    assert support_of(study, "crosswind", 3.0, times=times) < 0.0
+
+
+@pytest.mark.parametrize("name", ["road_bank", "driveline_drag"])
+def test_what_is_true_is_supported_most_at_its_amount(
+    study_of: Studies, truck: Packed, name: str
+) -> None:
+    effect = next(e for e in LIBRARY if e.name == name and not e.variant)
+    size = 8.0 * effect.amount.material
+    study = study_of(effect.values(truck, effect.places(truck.vehicle)[0], size), baseline=True)
+    assert support_of(study, name, size) > CHANCE.asked

@@ -1,0 +1,101 @@
+"""How well one fitted hypothesis is supported, at the amount it was fitted to.
+
+Runs of every role are asked how much of it each of them shows: baseline runs, where the truck has
+none of it, and unseen runs, which the amount was not fitted to.
+
+References, known limits: see `scatter.py`. What begins at an instant, or is met on the way, is
+asked of training only.
+Validated with: test/diagnosis/test_support.py.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from truck_blowout_sim.diagnosis.case.study import Study, row_ranges
+from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
+from truck_blowout_sim.diagnosis.fit.attribute import Ranked, with_effects
+from truck_blowout_sim.diagnosis.fit.linear import Projector
+from truck_blowout_sim.diagnosis.fit.refit import models_at
+from truck_blowout_sim.diagnosis.fit.scatter import Chance, Part, Shown
+from truck_blowout_sim.diagnosis.fit.timed import grid_of
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Beside:
+    """What is in force already, beside a hypothesis.
+
+    Attributes:
+        named: hypotheses; ``models``: of all runs with them in force, ``unseen``: of the holdout,
+            none where one of them begins at an instant.
+    """
+
+    named: tuple[Hypothesis, ...]
+    models: tuple[Floats, ...]
+    unseen: tuple[Floats, ...]
+
+    @staticmethod
+    def of(study: Study, named: Sequence[Hypothesis], models: Sequence[Floats]) -> Beside:
+        """With the holdout simulated."""
+        steady = not any(h.effect.timed for h in named)
+        unseen = _unseen(study, named) if named and steady else study.holdout_models
+        return Beside(tuple(named), tuple(models), tuple(unseen) if steady else ())
+
+
+def supported(study: Study, one: Ranked, beside: Beside, chance: Chance) -> Ranked:
+    """The same with its support, for amounts up to the one that was fitted."""
+    h, models = one.hypothesis, beside.models
+    away = h.amount - h.effect.neutral(study.packed)
+    if away == 0.0:
+        return replace(one, support=0.0)
+    changed = models_at(study, [h], beside.named)[0]
+    if not h.effect.timed:
+        changed |= dict(zip(study.baseline, study.simulate(
+            [(study.runs[i], h.apply(study.packed, "")) for i in study.baseline]), strict=True))
+    rows, residual = row_ranges(study), study.residual(dict(enumerate(models)))
+    parts = {i: Part(rows[i], study.runs[i].change(model, models[i]) / away, i in study.train,
+                     study.runs[i].has_blowout) for i, model in changed.items()}
+    projector, more = study.projector([*beside.named, h]), list[Part]()
+    if beside.unseen and not h.effect.timed and not h.effect.met:
+        projector, residual, more = _with_unseen(study, projector, residual, h, beside, away)
+    fitted = np.concatenate([study.stack({i: part.column for i, part in parts.items()
+                                          if part.trained}), *(p.column for p in more)])
+    removed = projector.remove(residual)
+    shown = Shown.of(projector, removed, [*parts.values(), *more], h.effect.strays,
+                     (min(away, 0.0), max(away, 0.0)), removed - away * projector.remove(fitted))
+    found = 0.0 if shown is None else chance.scatter.support(shown)
+    return replace(one, support=found - _search_cost(study, h))
+
+
+def _with_unseen(study: Study, seen: Projector, residual: Floats, h: Hypothesis, beside: Beside,
+                 away: float) -> tuple[Projector, Floats, list[Part]]:
+    """Nuisances and residual of the unseen runs too, and what the hypothesis changes in these."""
+    projector = Projector.of(np.concatenate([study.columns, *study.holdout_columns]),
+                             seen.kept.tolist())
+    first, parts = residual.size, []
+    for run, base, model in zip(study.holdout, beside.unseen, _unseen(study, (*beside.named, h)),
+                                strict=True):
+        change = run.change(model, base) / away
+        parts.append(Part(slice(first, first + change.size), change, True, run.has_blowout))
+        residual = np.concatenate([residual, run.residual(base)])
+        first += change.size
+    return projector, residual, parts
+
+
+def _unseen(study: Study, effects: Sequence[Hypothesis]) -> list[Floats]:
+    """Models of the holdout with steady effects in force."""
+    return study.simulate([(run, with_effects(study.packed, effects, run.recording.name))
+                           for run in study.holdout])
+
+
+def _search_cost(study: Study, hypothesis: Hypothesis) -> float:
+    """Support that choosing the best of so many instants brings where nothing happens."""
+    tried = [grid_of(run, hypothesis.effect).size for run in study.runs
+             if run.recording.name in hypothesis.times]
+    return float(sum(2.0 * hypothesis.effect.edges * np.log(max(n, 1)) for n in tried))
