@@ -34,6 +34,7 @@ from truck_blowout_sim.diagnosis.fit.linear import Projector
 Floats = NDArray[np.float64]
 # tau in standard errors of a training run, from none to more than any model is off
 _SCATTERS: Floats = np.concatenate([[0.0], 2.0 ** np.arange(-2.0, 9.0)])
+_WRONG_SHEETS = 0.1  # of its numbers
 _PRIOR_WORTH = 5.0  # hypotheses that equal weights count as
 _ROUNDS = 50
 _DIM = 1e-4  # of what the clearest training run shows of an effect: less is nothing
@@ -71,8 +72,8 @@ class Shown:
         information: [n, n] d_i' C^-1 d_j; ``gradient``: [n] d_i' C^-1 r.
         trained: [n] 1 where the effect may act, else 0.
         alike: [n, n] 1 where two runs share what the truck strays by, else 0.
-        strays: each 1 sigma by which single trucks may differ in this amount, the farther the less
-            likely.
+        strays: 1 sigma by which single trucks differ in this amount, and, one in ten, where the
+            sheet is wrong.
         bounds: between which the amount lies.
     """
 
@@ -105,7 +106,7 @@ class Shown:
 
     def likelihoods(self) -> tuple[Floats, Floats]:
         """Log-likelihoods [k] for each scatter, without the effect and at its best amount."""
-        chance = -np.log([max(one / max(self.strays[0], 1e-300), 1.0) for one in self.strays])
+        chance = np.log([1.0, _WRONG_SHEETS][:len(self.strays)])
         both = np.array([[self._likelihood(scatter, stray) for stray in self.strays]
                          for scatter in _SCATTERS]) + chance[:, None]
         without, best = np.logaddexp.reduce(both, axis=1).T
