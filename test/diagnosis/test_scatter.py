@@ -3,13 +3,24 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import partial
+from itertools import pairwise
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from scipy.stats import chi2
 
+from truck_blowout_sim.diagnosis.case.runs import Run
 from truck_blowout_sim.diagnosis.fit.linear import Projector
-from truck_blowout_sim.diagnosis.fit.scatter import Chance, Part, Scatter, Shown, independent
+from truck_blowout_sim.diagnosis.fit.scatter import (
+    Chance,
+    Part,
+    Scatter,
+    Shown,
+    independent,
+    parts_of,
+)
 
 ROLES = np.array([1.0, 1.0, 1.0, 0.0, 0.0])  # three training runs, two baseline runs
 CERTAIN = Scatter(np.eye(12)[0])  # no scatter at all
@@ -50,7 +61,7 @@ def test_without_baseline_a_truck_may_stray() -> None:
                      for k in (2.0, 10.0)] for strays in ((0.2,), (0.2, 0.8)))
     assert usual == pytest.approx([4.0, 100.0], rel=0.01)
     assert sheet[0] < 4.0
-    assert 4.0 < sheet[1] < 12.0
+    assert 4.0 < sheet[1] < 20.0
 
 
 def test_an_amount_beyond_its_bounds_is_not_supported() -> None:
@@ -140,3 +151,18 @@ def test_where_a_tire_is_lost_a_truck_strays_anew() -> None:
         return CERTAIN.support(found)
     assert support(blown=False) > 8.0
     assert support(blown=True) < 4.0
+
+
+@pytest.mark.parametrize(("seconds", "parts"), [(12.0, 1), (39.9, 1), (40.0, 2), (600.0, 30)])
+def test_of_a_long_run_each_episode_counts_as_a_run(seconds: float, parts: int) -> None:
+    """Episodes of 20 s and more that follow each other and leave nothing out."""
+    bins = round(seconds / 0.1)
+    run = SimpleNamespace(measured=np.zeros((bins, 3)), length_s=seconds, has_blowout=False)
+    run.episodes = partial(Run.episodes, run)
+    column = np.arange(3.0 * bins)
+    found = parts_of(run, 7, column, True, 20.0)  # type: ignore[arg-type]
+    assert len(found) == parts
+    assert found[0].rows.start == 7
+    assert found[-1].rows.stop == 7 + column.size
+    np.testing.assert_array_equal(np.concatenate([part.column for part in found]), column)
+    assert all(a.rows.stop == b.rows.start for a, b in pairwise(found))

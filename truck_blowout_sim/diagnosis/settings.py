@@ -42,6 +42,7 @@ class Settings:
         channels: rules by a piece of the channel's name.
         trial_step_s: integration step of everything that is tried; coarsest_step_s: the same for
             a quick answer.
+        episode_s: a part of a long run that differs from the model as a run of its own does.
         bin_s, skip_s, correlation_s: averaging time, start left out, duration of a difference.
         false_alarms: share of cases with nothing missing in which anything may be named.
         form_share: 1 sigma of what another form of law does to an amount, as a share of it.
@@ -64,6 +65,7 @@ class Settings:
     coarsest_step_s: float
     bin_s: float
     skip_s: float
+    episode_s: float
     correlation_s: float
     false_alarms: float
     expected_level: float

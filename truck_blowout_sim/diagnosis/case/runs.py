@@ -76,6 +76,16 @@ class Run:
         """Whether any brake was applied."""
         return bool((self.drive.inputs[:, 2:] > BRAKES_ON_PA).any())
 
+    def episodes(self, first: int, least_s: float) -> list[slice]:
+        """Rows, counted from ``first``, of equal parts of the run that last so long at least.
+
+        Two of them differ from the model as two runs do.
+        """
+        bins, channels = self.measured.shape
+        ends = np.linspace(0, bins, max(int(self.length_s // least_s), 1) + 1).round().astype(int)
+        return [slice(first + a * channels, first + b * channels)
+                for a, b in zip(ends[:-1].tolist(), ends[1:].tolist(), strict=True)]
+
     def shows(self, applies: str) -> bool:
         """Whether an effect that needs ``applies`` (any, blowout, brakes) can be seen here."""
         return {"any": True, "": True, "blowout": self.has_blowout,

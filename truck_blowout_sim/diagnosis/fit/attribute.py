@@ -12,7 +12,7 @@ from truck_blowout_sim.diagnosis.case.runs import Run
 from truck_blowout_sim.diagnosis.case.study import Progress, Study, row_ranges
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.fit.linear import Projector, Score, score
-from truck_blowout_sim.diagnosis.fit.scatter import Part, Scatter, Shown, independent
+from truck_blowout_sim.diagnosis.fit.scatter import Scatter, Shown, independent, parts_of
 from truck_blowout_sim.vehicle import Packed
 
 Floats = NDArray[np.float64]
@@ -88,7 +88,7 @@ def rank_steady(study: Study, candidates: Sequence[Hypothesis],
     columns = _columns(study, candidates, named, progress)
     residual, rows = study.residual(), row_ranges(study)
     usual = study.projector(named)
-    free = usual.chi2(residual)
+    free, episode_s = usual.chi2(residual), study.settings.episode_s
     ranked, shown, trained = [], [], np.zeros(residual.size)
     for i in study.train:
         trained[rows[i]] = 1.0
@@ -104,8 +104,8 @@ def rank_steady(study: Study, candidates: Sequence[Hypothesis],
         ranked.append(Ranked(candidate.at(at + found.amount), fall, found.sigma, evidence=fall,
                              promise=found.delta))
         shown.append(Shown.of(projector, removed, [
-            Part(part, column[part], i in study.train, study.runs[i].has_blowout)
-            for i, part in enumerate(rows)],
+            part for i, at_i in enumerate(rows) for part in parts_of(
+                study.runs[i], at_i.start, column[at_i], i in study.train, episode_s)],
             candidate.effect.strays, (amount.low - at, amount.high - at),
             removed - found.amount * projector.remove(column * trained)))
     scatter = Scatter.of([one for one in shown if one is not None])

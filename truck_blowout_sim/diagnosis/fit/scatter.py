@@ -10,7 +10,8 @@ with the nuisances J phi, the effect's column d_i in run i, its scatter tau, and
 stray by, s; on a tire that was lost it strays anew. The likelihood ratio of A free against A = 0 is
 the support; tau is integrated over a grid whose weights all hypotheses of the case share (empirical
 Bayes). Where runs scatter much, as with a rough log or a model of another form, the same fall of
-the sum of squares says less. A run that nothing explains weighs less.
+the sum of squares says less. A run that nothing explains weighs less. Of a long run each episode
+counts as a run.
 
 References: Laird and Ware 1982 (random effects); DerSimonian and Laird 1986 (several studies of
 one effect); Efron 2010, ch. 1 (empirical Bayes); Edwards 1972 (support); Li and Ji 2005 (how many
@@ -29,6 +30,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.stats import chi2
 
+from truck_blowout_sim.diagnosis.case.runs import Run
 from truck_blowout_sim.diagnosis.fit.linear import Projector
 
 Floats = NDArray[np.float64]
@@ -42,10 +44,10 @@ _DIM = 1e-4  # of what the clearest training run shows of an effect: less is not
 
 @dataclass(frozen=True, eq=False)
 class Part:
-    """An effect's column in one run.
+    """An effect's column in one run, or one episode of a long one.
 
     Attributes:
-        rows: of the run; ``column``: over these, per unit of the amount.
+        rows: where; ``column``: over these, per unit of the amount.
         trained: whether the effect may act in the run; ``blown``: whether a tire was lost in it.
     """
 
@@ -62,6 +64,15 @@ class Part:
     def weight(self, left: Floats) -> float:
         """1, less where the run is left with more than its widths allow (Birge 1932)."""
         return 1.0 / max(float(np.mean(np.square(left[self.rows]))), 1.0)
+
+
+def parts_of(run: Run, first: int, column: Floats, trained: bool, least_s: float) -> list[Part]:
+    """What a hypothesis changes in a run whose rows begin at ``first``, a part for each episode.
+
+    ``column`` is over the rows of the run.
+    """
+    return [Part(rows, column[rows.start - first:rows.stop - first], trained, run.has_blowout)
+            for rows in run.episodes(first, least_s)]
 
 
 @dataclass(frozen=True, eq=False)

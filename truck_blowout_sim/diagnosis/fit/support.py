@@ -21,7 +21,7 @@ from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.fit.attribute import Ranked, with_effects
 from truck_blowout_sim.diagnosis.fit.linear import Projector
 from truck_blowout_sim.diagnosis.fit.refit import models_at
-from truck_blowout_sim.diagnosis.fit.scatter import Chance, Part, Shown
+from truck_blowout_sim.diagnosis.fit.scatter import Chance, Part, Shown, parts_of
 from truck_blowout_sim.diagnosis.fit.timed import grid_of
 
 Floats = NDArray[np.float64]
@@ -52,22 +52,23 @@ def supported(study: Study, one: Ranked, beside: Beside, chance: Chance) -> Rank
     """The same with its support, for amounts up to the one that was fitted."""
     h, models = one.hypothesis, beside.models
     away = h.amount - h.effect.neutral(study.packed)
-    if away == 0.0:
+    if away == 0.0 or (one.refitted and one.delta <= 0.0):
         return replace(one, support=0.0)
     changed = models_at(study, [h], beside.named)[0]
     if not h.effect.timed:
         changed |= dict(zip(study.baseline, study.simulate(
             [(study.runs[i], h.apply(study.packed, "")) for i in study.baseline]), strict=True))
     rows, residual = row_ranges(study), study.residual(dict(enumerate(models)))
-    parts = {i: Part(rows[i], study.runs[i].change(model, models[i]) / away, i in study.train,
-                     study.runs[i].has_blowout) for i, model in changed.items()}
+    columns = {i: study.runs[i].change(model, models[i]) / away for i, model in changed.items()}
+    parts = [part for i, column in columns.items() for part in parts_of(
+        study.runs[i], rows[i].start, column, i in study.train, study.settings.episode_s)]
     projector, more = study.projector([*beside.named, h]), list[Part]()
     if beside.unseen and not h.effect.timed and not h.effect.met:
         projector, residual, more = _with_unseen(study, projector, residual, h, beside, away)
-    fitted = np.concatenate([study.stack({i: part.column for i, part in parts.items()
-                                          if part.trained}), *(p.column for p in more)])
+    fitted = np.concatenate([study.stack({i: c for i, c in columns.items() if i in study.train}),
+                             *(part.column for part in more)])
     removed = projector.remove(residual)
-    shown = Shown.of(projector, removed, [*parts.values(), *more], h.effect.strays,
+    shown = Shown.of(projector, removed, [*parts, *more], h.effect.strays,
                      (min(away, 0.0), max(away, 0.0)), removed - away * projector.remove(fitted))
     found = 0.0 if shown is None else chance.scatter.support(shown)
     return replace(one, support=found - _search_cost(study, h))
@@ -78,11 +79,11 @@ def _with_unseen(study: Study, seen: Projector, residual: Floats, h: Hypothesis,
     """Nuisances and residual of the unseen runs too, and what the hypothesis changes in these."""
     projector = Projector.of(np.concatenate([study.columns, *study.holdout_columns]),
                              seen.kept.tolist())
-    first, parts = residual.size, []
+    first, parts = residual.size, list[Part]()
     for run, base, model in zip(study.holdout, beside.unseen, _unseen(study, (*beside.named, h)),
                                 strict=True):
         change = run.change(model, base) / away
-        parts.append(Part(slice(first, first + change.size), change, True, run.has_blowout))
+        parts += parts_of(run, first, change, True, study.settings.episode_s)
         residual = np.concatenate([residual, run.residual(base)])
         first += change.size
     return projector, residual, parts
