@@ -31,6 +31,7 @@ from truck_blowout_sim.diagnosis.locate.restless import Restless
 from truck_blowout_sim.diagnosis.locate.wrench import Wrenches
 from truck_blowout_sim.diagnosis.model.law import Law
 from truck_blowout_sim.diagnosis.name.judging import Found
+from truck_blowout_sim.diagnosis.name.trial import Fate, Trial
 from truck_blowout_sim.diagnosis.prove.intervals import Timing
 from truck_blowout_sim.diagnosis.result.evidence import BeatScores, ForceHistory
 from truck_blowout_sim.diagnosis.sensors import GateResult
@@ -60,7 +61,7 @@ def material(study: Study, named: tuple[Ranked, ...] = (), *, faults: int = 0,
              unnamed: float = 0.0) -> Material:
     chi2 = study.projector().chi2(study.residual())
     found = Found(named=list(named), rivals=[(r,) for r in named],
-                  tried=[(r, "accepted") for r in named], models_null=list(study.models),
+                  tried=[Trial(r, Fate("accepted")) for r in named], models_null=list(study.models),
                   chi2_null=chi2 + sum(r.delta for r in named), chi2_after=chi2)
     gate = cast(GateResult, SimpleNamespace(findings=("a faulty gyro",) * faults, notes=()))
     left = (wrench(unnamed),)

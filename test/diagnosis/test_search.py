@@ -46,15 +46,18 @@ def test_a_turned_axle_is_named(study_of: Studies) -> None:
     assert all(r.delta > best.delta - slack(best) for r in found.rivals[0])
     assert found.chi2_after < found.chi2_null
     assert sum(p.chi2 for p in found.after) < sum(p.chi2 for p in found.before)
-    assert "accepted" in {why for r, why in found.tried if r.hypothesis.key == best.hypothesis.key}
+    assert "accepted" in {trial.fate.rule for trial in found.tried
+                          if trial.ranked.hypothesis.key == best.hypothesis.key}
 
 
 def test_what_does_not_predict_the_holdout_is_refused(study_of: Studies, truck: Packed) -> None:
     weak = {"hub.trailer_2_left.brake_gain": 0.3 * truck["hub.trailer_2_left.brake_gain"]}
     found = search(study_of(weak, holdout={}, baseline=True), most=1)
     assert "brake_imbalance" not in names(found)
-    reasons = {(r.hypothesis.effect.name, r.hypothesis.place.hub): why for r, why in found.tried}
-    assert reasons["brake_imbalance", "trailer_2_left"].startswith("support")  # unseen runs vote
+    fates = {trial.ranked.hypothesis.key: trial.fate for trial in found.tried}
+    fate = fates["brake_imbalance", "trailer_2_left"]
+    assert fate.rule == "support"  # unseen runs vote
+    assert fate.value < fate.limit
 
 
 def test_where_nothing_is_missing_nothing_is_named_and_every_reason_is_given(
@@ -65,13 +68,15 @@ def test_where_nothing_is_missing_nothing_is_named_and_every_reason_is_given(
     assert found.rivals == []
     assert found.chi2_after == found.chi2_null
     assert found.tried
-    assert all(why for _, why in found.tried)
+    assert all(str(trial.fate) for trial in found.tried)
 
 
 def test_the_same_case_gives_the_same_answer_bit_by_bit(study_of: Studies) -> None:
     first, second = (search(study_of(TURNED), most=1) for _ in range(2))
-    assert [(r.hypothesis.key, r.hypothesis.amount, r.delta, why) for r, why in first.tried] == [
-        (r.hypothesis.key, r.hypothesis.amount, r.delta, why) for r, why in second.tried]
+    assert [(t.ranked.hypothesis.key, t.ranked.hypothesis.amount, t.ranked.delta, t.fate)
+            for t in first.tried] == [
+        (t.ranked.hypothesis.key, t.ranked.hypothesis.amount, t.ranked.delta, t.fate)
+        for t in second.tried]
 
 
 def test_an_instrument_that_the_search_takes_back_was_none(truck: Packed) -> None:

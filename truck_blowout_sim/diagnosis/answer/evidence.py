@@ -102,15 +102,16 @@ def candidates(found: Found) -> tuple[Candidate, ...]:
     named = {r.hypothesis.key for r in found.named}
     aliased = {r.hypothesis.key for rivals in found.rivals for r in rivals} - named
     result = []
-    for ranked, reason in found.tried[:25]:
-        h = ranked.hypothesis
+    for trial in found.tried[:25]:
+        ranked, h = trial.ranked, trial.ranked.hypothesis
         amount = h.effect.amount
         low, high = sorted((amount.report(h.amount - NINETY * ranked.sigma),
                             amount.report(h.amount + NINETY * ranked.sigma)))
         result.append(Candidate(
             name=h.effect.name, where=h.place, delta_chi2=ranked.delta,
             accepted=h.key in named, aliased=h.key in aliased,
-            reason=reason or ("explains less" if ranked.delta > 0 else "explains nothing"),
+            reason=str(trial.fate), rule=trial.fate.rule, value=trial.fate.value,
+            limit=trial.fate.limit,
             p_value=(found.chance.p_value(ranked.support)
                      if found.chance and ranked.refitted else None),
             amount=f"{amount.report(h.amount):.3g} ({low:.3g} to {high:.3g}) {amount.unit}"))

@@ -17,6 +17,7 @@ from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.fit.attribute import Ranked
 from truck_blowout_sim.diagnosis.fit.refit import models_of
 from truck_blowout_sim.diagnosis.fit.scatter import Chance
+from truck_blowout_sim.diagnosis.name.trial import Fate, Trial
 from truck_blowout_sim.diagnosis.prove.holdout import Prediction, predict
 from truck_blowout_sim.diagnosis.sensors import GateResult, SensorFinding
 
@@ -37,7 +38,7 @@ class Found:
 
     Attributes:
         named: accepted effects, in order, each with its rivals (itself first).
-        tried: every candidate of the first round, best first, with the reason why it fell.
+        tried: every candidate of the first round, best first, and what became of it.
         chi2_null, chi2_after: sums of squares without and with the named effects.
         models_null: training models before anything was named.
         before, after: holdout predictions without and with them.
@@ -46,7 +47,7 @@ class Found:
 
     named: list[Ranked] = field(default_factory=list)
     rivals: list[tuple[Ranked, ...]] = field(default_factory=list)
-    tried: list[tuple[Ranked, str]] = field(default_factory=list)
+    tried: list[Trial] = field(default_factory=list)
     chi2_null: float = 0.0
     chi2_after: float = 0.0
     models_null: list[Floats] = field(default_factory=list)
@@ -57,7 +58,7 @@ class Found:
     @property
     def p_value(self) -> float:
         """Chance that a search where nothing is missing is led so far; 1 where none was made."""
-        best = max((r.support for r, _ in self.tried), default=0.0)
+        best = max((trial.ranked.support for trial in self.tried), default=0.0)
         return 1.0 if self.chance is None else self.chance.p_value(best)
 
 
@@ -100,27 +101,24 @@ def can_judge(study: Study, hypothesis: Hypothesis) -> bool:
     return any(run.shows(hypothesis.effect.applies) for run in study.holdout)
 
 
-def weakness(one: Ranked, chance: Chance, strongest: float) -> str:
-    """Why a hypothesis is too weak to name; empty if it is not."""
-    amount, event = one.hypothesis.effect.amount, bool(one.hypothesis.times)
+def weakness(one: Ranked, chance: Chance, strongest: float) -> Fate | None:
+    """Why a hypothesis is too weak to name; None if it is not."""
+    h, event = one.hypothesis, bool(one.hypothesis.times)
     if not one.refitted:
-        return "not refitted: others explain more"
+        return Fate("refit", one.promise)
     if one.support < chance.asked:
-        return f"support {one.support:.1f} of {chance.asked:.1f} that chance may reach" + (
-            ", its instant searched" if event else "")
-    if min(one.hypothesis.amount - amount.low, amount.high - one.hypothesis.amount) < _AT_BOUND * (
-            amount.high - amount.low):
-        return "its amount runs to the bound of what is physical"
-    if one.evidence < (_NEXT_EVENT_SHARE if event else _NEXT_SHARE) * strongest:
-        return f"buys {one.evidence:.0f}, which the stronger effect's own inexactness may leave"
-    return ""
+        return Fate("instant" if event else "support", one.support, chance.asked)
+    low, high = h.effect.amount.low, h.effect.amount.high
+    if min(h.amount - low, high - h.amount) < _AT_BOUND * (high - low):
+        return Fate("bound", h.amount, low if h.amount - low < high - h.amount else high)
+    least = (_NEXT_EVENT_SHARE if event else _NEXT_SHARE) * strongest
+    return Fate("remainder", one.evidence, least) if one.evidence < least else None
 
 
-def note(found: Found, one: Ranked, reason: str) -> None:
-    """Keep the reason beside the first-round entry of the hypothesis."""
-    found.tried = [(one if r.hypothesis.key == one.hypothesis.key else r,
-                    reason if r.hypothesis.key == one.hypothesis.key else why)
-                   for r, why in found.tried]
+def note(found: Found, one: Ranked, fate: Fate) -> None:
+    """Keep the fate beside the first-round entry of the hypothesis."""
+    found.tried = [Trial(one, fate) if trial.ranked.hypothesis.key == one.hypothesis.key else trial
+                   for trial in found.tried]
 
 
 def models_with(study: Study, named: Sequence[Hypothesis]) -> list[Floats]:

@@ -26,6 +26,7 @@ from truck_blowout_sim.diagnosis.name.judging import (
 )
 from truck_blowout_sim.diagnosis.name.pairing import Pair, pair_with, settled
 from truck_blowout_sim.diagnosis.name.shortlist import Round, shortlist
+from truck_blowout_sim.diagnosis.name.trial import Fate, Trial
 from truck_blowout_sim.diagnosis.prove.holdout import Prediction, predict
 
 Floats = NDArray[np.float64]
@@ -47,7 +48,7 @@ def search(study: Study, progress: Progress | None = None, most: int = _MOST_EFF
         this = shortlist(study, named, progress)
         ranked, found.chance = this.ranked, found.chance or this.chance
         if not rounds:
-            found.tried = [(r, "") for r in ranked]
+            found.tried = [Trial(r, Fate("refit", r.promise)) for r in ranked]
         best, disbelieved = _accept(study, found, this, named)
         if best is not None:
             rounds.append(ranked)
@@ -80,27 +81,27 @@ def _accept(study: Study, found: Found, this: Round, named: Sequence[Hypothesis]
     passing: list[tuple[Ranked, float, list[Floats], tuple[Prediction, ...]]] = []
     for one in this.ranked:
         # what explains most of the rest is no leftover of a stronger effect's inexactness
-        reason = weakness(one, this.chance, strongest if one.delta < _MOST * excess else 0.0)
-        if not reason and passing and worth(one) < max(
-                worth(p[0]) for p in passing) - slack(passing[0][0]):
-            reason = "explains less"
-        elif not reason:
+        fate = weakness(one, this.chance, strongest if one.delta < _MOST * excess else 0.0)
+        most = max((worth(p[0]) for p in passing), default=0.0)
+        if fate is None and passing and worth(one) < most - slack(passing[0][0]):
+            fate = Fate("explains", worth(one), most)
+        elif fate is None:
             models, after = predict_with(study, [*named, one.hypothesis])
             gain = sum(p.chi2 for p in found.after) - sum(p.chi2 for p in after)
             better = predicts_better(study, found.after, after)
             if study.holdout and better <= 0.0 and can_judge(study, one.hypothesis):
-                reason = f"does not predict the holdout better ({better:+.1f})"
+                fate = Fate("holdout", better)
                 disbelieved.append(one)
             else:
                 passing.append((one, worth(one) + gain, models, after))
-                reason = "explains as much, predicts less"
-        note(found, one, reason)
+                fate = Fate("predicts", worth(one) + gain)
+        note(found, one, fate)
     if not passing:
         return None, disbelieved
     best, _, study.models, found.after = max(passing, key=lambda p: p[1])
     found.named.append(best)
     found.chi2_after -= best.delta
-    note(found, best, "accepted")
+    note(found, best, Fate("accepted", best.support, this.chance.asked))
     return best, disbelieved
 
 
@@ -110,7 +111,7 @@ def _take(study: Study, found: Found, pair: Pair) -> int:
     found.named, study.models, found.after = pair.named, pair.models, pair.after
     found.chi2_after = pair.chi2
     for one in pair.named[-added:]:
-        note(found, one, "accepted")
+        note(found, one, Fate("accepted", one.support))
     return added
 
 

@@ -31,7 +31,8 @@ class Candidate:
         holdout_gain: fall of the same sum on runs never fitted, ``None`` without any.
         accepted: whether it became an effect.
         aliased: whether it fits as well as one that did.
-        reason: why it was kept or dropped, in words.
+        reason: why it was kept or dropped, in words; ``rule`` that decided, with the ``value`` that
+            it had and the ``limit`` that was asked.
         amount: its main parameter in words, such as ``0.35 (0.31 to 0.39)``.
     """
 
@@ -43,6 +44,9 @@ class Candidate:
     accepted: bool = False
     aliased: bool = False
     reason: str = ""
+    rule: str = ""
+    value: float = 0.0
+    limit: float = 0.0
     amount: str = ""
 
 

@@ -1,0 +1,45 @@
+"""Each fate is a record that reads as a sentence."""
+
+from __future__ import annotations
+
+from typing import get_args
+
+import numpy as np
+import pytest
+
+from truck_blowout_sim.diagnosis.effects import LIBRARY
+from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
+from truck_blowout_sim.diagnosis.fit.attribute import Ranked
+from truck_blowout_sim.diagnosis.fit.scatter import Chance, Scatter
+from truck_blowout_sim.diagnosis.name.judging import weakness
+from truck_blowout_sim.diagnosis.name.trial import Fate, Rule
+from truck_blowout_sim.diagnosis.result.parts import Place
+
+CHANCE = Chance(Scatter(np.eye(12)[0]), 20.0, 0.02)
+BANK = next(e for e in LIBRARY if e.name == "road_bank")
+
+
+@pytest.mark.parametrize("rule", get_args(Rule))
+def test_every_rule_has_words(rule: Rule) -> None:
+    assert str(Fate(rule, 3.2, 11.0))
+
+
+def test_the_words_hold_value_and_limit() -> None:
+    assert str(Fate("support", 7.44, 11.02)) == "support 7.4 of 11.0 that chance may reach"
+
+
+@pytest.mark.parametrize(("changes", "rule"), [
+    ({"refitted": False}, "refit"),
+    ({"support": CHANCE.asked - 0.1}, "support"),
+    ({"hypothesis": Hypothesis(BANK, Place(), BANK.amount.high)}, "bound"),
+    ({"evidence": 5.0}, "remainder"),
+    ({}, None),
+])
+def test_the_rule_that_is_broken_decides(changes: dict, rule: str | None) -> None:
+    good = {"hypothesis": Hypothesis(BANK, Place(), 0.01), "delta": 90.0, "sigma": 0.001,
+            "refitted": True, "evidence": 90.0, "support": CHANCE.asked + 0.1}
+    fate = weakness(Ranked(**{**good, **changes}), CHANCE, 1000.0)
+    assert (fate and fate.rule) == rule
+    if rule in ("support", "remainder"):
+        assert fate is not None
+        assert fate.value < fate.limit

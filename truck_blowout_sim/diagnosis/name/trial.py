@@ -1,0 +1,49 @@
+"""What became of each hypothesis: the rule that decided, its value and its limit.
+
+Validated with: test/diagnosis/test_trial.py.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+from truck_blowout_sim.diagnosis.fit.attribute import Ranked
+
+Rule = Literal["accepted", "refit", "support", "instant", "bound", "remainder", "explains",
+               "predicts", "holdout"]
+_WORDS: dict[Rule, str] = {
+    "accepted": "accepted",
+    "refit": "not refitted: others explain more",
+    "support": "support {value:.1f} of {limit:.1f} that chance may reach",
+    "instant": "support {value:.1f} of {limit:.1f} that chance may reach, its instant searched",
+    "bound": "its amount runs to the bound of what is physical",
+    "remainder": "buys {value:.0f} of {limit:.0f} that a stronger effect's inexactness may leave",
+    "explains": "explains {value:.0f}, another {limit:.0f}",
+    "predicts": "explains as much, predicts less",
+    "holdout": "does not predict the holdout better ({value:+.1f})",
+}
+
+
+@dataclass(frozen=True)
+class Fate:
+    """Why a hypothesis was named or fell.
+
+    Attributes:
+        rule: that decided; ``value``: of the hypothesis; ``limit``: what was asked of it.
+    """
+
+    rule: Rule
+    value: float = 0.0
+    limit: float = 0.0
+
+    def __str__(self) -> str:
+        return _WORDS[self.rule].format(value=self.value, limit=self.limit)
+
+
+@dataclass(frozen=True)
+class Trial:
+    """A hypothesis that was tried, and what became of it."""
+
+    ranked: Ranked
+    fate: Fate
