@@ -13,6 +13,7 @@ import pytest
 from truck_blowout_sim.diagnosis.case.runs import Run
 from truck_blowout_sim.diagnosis.case.study import Study
 from truck_blowout_sim.diagnosis.diagnose import _material
+from truck_blowout_sim.diagnosis.effort import QUICK
 from truck_blowout_sim.diagnosis.locate.restless import restless
 from truck_blowout_sim.diagnosis.name.judging import Found
 from truck_blowout_sim.diagnosis.sensors import GateResult
@@ -64,6 +65,6 @@ def test_beside_a_faulty_instrument_no_stand_and_no_unrest_is_asked_for(
     study = with_swing(study_of(baseline=True), "train")
     found = Found(models_null=list(study.models))
     gate = cast(GateResult, SimpleNamespace(findings=("a faulty gyro",) * faults, notes=()))
-    told = _material(study, found, gate, "a truck", (False, False), None)
+    told = _material(study, found, gate, "a truck", QUICK, None)
     assert (told.restless is None) == bool(faults)
     assert told.posture is None
