@@ -29,7 +29,8 @@ FOUND = {
     "next_test": "Record the road wheel.",
 }  # fmt: skip
 NOTHING = {**FOUND, "verdict": "consistent", "effects": [], "alias_sets": [], "next_test": "",
-           "location": {"channels": [], "interval_s": None, "body": None, "wrench": None},
+           "location": {"channels": [], "interval_s": None, "body": None,
+                        "wrench": {"fx_n": None, "fy_n": None, "mz_nm": None}},  # as it is written
            "fit": {"train": {"before": {}, "after": {}}}}  # fmt: skip
 
 

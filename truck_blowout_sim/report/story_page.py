@@ -102,7 +102,7 @@ def _located(location: Mapping[str, Any]) -> list[tuple[str, str]]:
     if location["body"]:
         rows.append(("body", location["body"]))
     wrench = location["wrench"]
-    if wrench:
+    if wrench and wrench["fx_n"] is not None:
         rows.append(("missing force", f"{wrench['fx_n']:.0f} N forward,"
                      f" {wrench['fy_n']:.0f} N to the left, {wrench['mz_nm']:.0f} N m in yaw"))
     return rows
