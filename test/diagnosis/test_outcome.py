@@ -15,7 +15,6 @@ from truck_blowout_sim.diagnosis.answer.outcome import (
     answer,
     decide,
     locate,
-    null_p_value,
     pulled,
 )
 from truck_blowout_sim.diagnosis.answer.told import alias_set, physics_effect
@@ -141,13 +140,13 @@ def test_chance_falls_with_evidence_and_stays_a_probability(calm: Study, truck: 
     def p_value(support: float) -> float:
         one = material(calm, (replace(ranked(truck, "road_bank", 0.03), support=support),))
         one.found.chance = chance
-        return null_p_value(one)
+        return one.found.p_value
     chances = [p_value(support) for support in (0.0, 5.0, chance.asked, 60.0)]
     assert chances[0] == pytest.approx(1.0)
     assert chances[2] == pytest.approx(0.02)
     assert chances == sorted(chances, reverse=True)
     assert 0.0 < chances[-1] < 1e-9
-    assert null_p_value(material(calm)) == 1.0  # nothing was searched
+    assert material(calm).found.p_value == 1.0  # nothing was searched
 
 
 def test_an_effect_is_reported_in_its_own_unit_with_a_90_percent_interval(

@@ -103,7 +103,7 @@ def answer(material: Material) -> Diagnosis:
             material.signs),
         effects=tuple(effects), alias_sets=tuple(aliases), location=locate(material),
         train=fit(material, "train"), holdout=fit(material, "holdout"),
-        null_p_value=null_p_value(material), next_test=next_test,
+        null_p_value=found.p_value, next_test=next_test,
         evidence=gather(material))
 
 
@@ -226,11 +226,6 @@ def fit(material: Material, role: str) -> Fit:
     before = evidence.pooled(evidence.left_before(material.study, material.found, role))
     after = evidence.pooled(evidence.left_after(material.study, material.found, role))
     return Fit(before, after)
-
-
-def null_p_value(material: Material) -> float:
-    """Chance of the best support if nothing were missing."""
-    return material.found.p_value
 
 
 def gather(material: Material) -> Evidence:

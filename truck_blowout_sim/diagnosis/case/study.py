@@ -77,7 +77,7 @@ class Study:
 
     @cached_property
     def demand(self) -> float:
-        """Factor on the evidence asked of what shows without hard turns."""
+        """Factor on what a force that nothing explains must buy in turns so hard."""
         return demand([self.runs[i].recording for i in self.train], self.packed.vehicle.units[0],
                       self.settings)
 

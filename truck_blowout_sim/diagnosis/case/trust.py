@@ -1,9 +1,8 @@
 """Where the model is believed less: a flat tire that was braked, turns near the limit of grip.
 
 The flat tire widens the difference that good models of one truck are allowed, bin by bin. Hard
-turns ask more evidence of every effect but those that only such turns show: widened there, the
-difference would hide these. On a straight course two models differ least: there a smaller force
-that nothing named explains is already one.
+turns ask more of a force that nothing named explains. On a straight course two models differ least:
+there a smaller such force is already one.
 
 Known limits: lateral acceleration is that of the first unit's yaw rate and speed; without both
 channels no turn counts as hard.
@@ -53,7 +52,7 @@ def flat_was_braked(recording: Recording, drive: Drive, packed: Packed, edges_s:
 
 
 def demand(recordings: Sequence[Recording], unit: str, settings: Settings) -> float:
-    """Factor on the evidence that is asked for, by the hardest turn of any recording.
+    """Factor on what a force that nothing explains must buy, by the hardest turn of any recording.
 
     Near the limit each model's tire has its own curve.
     """

@@ -25,6 +25,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -115,6 +116,7 @@ class Shown:
         return Shown(information * np.sqrt(np.outer(weight, weight)), gradient * weight,
                      np.array([float(part.trained) for part in kept]), _alike(kept), strays, bounds)
 
+    @cached_property
     def likelihoods(self) -> tuple[Floats, Floats]:
         """Log-likelihoods [k] for each scatter, without the effect and at its best amount."""
         chance = np.log([1.0, _WRONG_SHEETS][:len(self.strays)])
@@ -160,7 +162,7 @@ class Scatter:
         """Weights that a case's hypotheses share, most of them taken to be idle."""
         prior = np.full(_SCATTERS.size, 1.0 / _SCATTERS.size)
         weights, idle = prior, -np.log(max(len(hypotheses), 1))
-        pairs = [one.likelihoods() for one in hypotheses]
+        pairs = [one.likelihoods for one in hypotheses]
         for _ in range(_ROUNDS):
             total = _PRIOR_WORTH * prior
             for without, best in pairs:
@@ -173,7 +175,7 @@ class Scatter:
 
     def support(self, shown: Shown) -> float:
         """Twice the log of the likelihood ratio for the effect, any scatter allowed."""
-        without, best = shown.likelihoods()
+        without, best = shown.likelihoods
         log = np.log(np.maximum(self.weights, 1e-300))
         return float(2.0 * (np.logaddexp.reduce(log + best) - np.logaddexp.reduce(log + without)))
 

@@ -34,18 +34,25 @@ class Beside:
     Attributes:
         named: hypotheses; ``models``: of all runs with them in force, ``unseen``: of the holdout,
             none where one of them begins at an instant.
+        columns: [rows, k] of the nuisances over all runs, unseen too, and ``gram``, their products;
+            empty where no unseen run is asked.
     """
 
     named: tuple[Hypothesis, ...]
     models: tuple[Floats, ...]
     unseen: tuple[Floats, ...]
+    columns: Floats
+    gram: Floats
 
     @staticmethod
     def of(study: Study, named: Sequence[Hypothesis], models: Sequence[Floats]) -> Beside:
         """With the holdout simulated."""
-        steady = not any(h.effect.timed for h in named)
-        unseen = _unseen(study, named) if named and steady else study.holdout_models
-        return Beside(tuple(named), tuple(models), tuple(unseen) if steady else ())
+        nothing: Floats = np.zeros((0, 0))
+        if not study.holdout or any(h.effect.timed for h in named):
+            return Beside(tuple(named), tuple(models), (), nothing, nothing)
+        unseen = _unseen(study, named) if named else study.holdout_models
+        columns = np.concatenate([study.columns, *study.holdout_columns])
+        return Beside(tuple(named), tuple(models), tuple(unseen), columns, columns.T @ columns)
 
 
 def supported(study: Study, one: Ranked, beside: Beside, chance: Chance) -> Ranked:
@@ -77,8 +84,7 @@ def supported(study: Study, one: Ranked, beside: Beside, chance: Chance) -> Rank
 def _with_unseen(study: Study, seen: Projector, residual: Floats, h: Hypothesis, beside: Beside,
                  away: float) -> tuple[Projector, Floats, list[Part]]:
     """Nuisances and residual of the unseen runs too, and what the hypothesis changes in these."""
-    projector = Projector.of(np.concatenate([study.columns, *study.holdout_columns]),
-                             seen.kept.tolist())
+    projector = Projector.of(beside.columns, seen.kept.tolist(), beside.gram)
     first, parts = residual.size, list[Part]()
     for run, base, model in zip(study.holdout, beside.unseen, _unseen(study, (*beside.named, h)),
                                 strict=True):

@@ -23,7 +23,6 @@ from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 
 _SCATTER = 0.4  # of the logarithm: what a model leaves differs by half from manoeuvre to manoeuvre
 _RUNS = 6.0  # as many runs is that prior worth: cases seldom have more
-_RATE = 0.02  # share of cases with nothing missing in which training may seem to keep more
 _LEAST = 1e-6
 
 
@@ -55,10 +54,10 @@ def _test(train: Sequence[float], baseline: Sequence[float]) -> tuple[float, flo
     return float(groups[1].mean()), float(spread), float(degrees)
 
 
-def most_by_chance(train: Sequence[float], baseline: Sequence[float], asked: int = 1) -> float:
-    """The most that chance lets training keep on the geometric mean, ``asked`` such questions."""
+def most_by_chance(train: Sequence[float], baseline: Sequence[float], rate: float) -> float:
+    """The most that training keeps on the geometric mean, but for a share ``rate`` of cases."""
     mean, spread, degrees = _test(train, baseline)
-    return float(np.exp(mean + spread * student.isf(_RATE / asked, degrees)))
+    return float(np.exp(mean + spread * student.isf(rate, degrees)))
 
 
 def chance_of_more(study: Study, squares: Sequence[float]) -> float:
@@ -74,5 +73,5 @@ def chance_of_more(study: Study, squares: Sequence[float]) -> float:
 
 
 def keeps_more(study: Study, squares: Sequence[float]) -> bool:
-    """Whether training keeps more than chance lets it."""
-    return chance_of_more(study, squares) <= _RATE
+    """Whether training keeps more than chance lets it, at the one rate of false alarms."""
+    return chance_of_more(study, squares) <= study.settings.false_alarms

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from truck_blowout_sim.diagnosis.case.study import Progress, Study
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.fit.attribute import Ranked
+from truck_blowout_sim.diagnosis.fit.scatter import Chance
 from truck_blowout_sim.diagnosis.name.judging import (
     Found,
     can_judge,
@@ -57,7 +58,7 @@ def search(study: Study, progress: Progress | None = None, most: int = _MOST_EFF
         pair = pair_with(study, found, disbelieved, this.chance, most, progress)
         if pair is None:
             break
-        rounds += [ranked, pair.ranked][:_take(study, found, pair)]
+        rounds += [ranked, pair.ranked][:_take(study, found, pair, this.chance)]
     left = excess_of(study, found)
     taken = {r.hypothesis.key for r in found.named}
     found.rivals = [_rivals(best, [r for r in ranked if r.hypothesis.key not in taken],
@@ -105,13 +106,13 @@ def _accept(study: Study, found: Found, this: Round, named: Sequence[Hypothesis]
     return best, disbelieved
 
 
-def _take(study: Study, found: Found, pair: Pair) -> int:
+def _take(study: Study, found: Found, pair: Pair, chance: Chance) -> int:
     """Name what holds only together; the number of effects that were added."""
     added = len(pair.named) - len(found.named)
     found.named, study.models, found.after = pair.named, pair.models, pair.after
     found.chi2_after = pair.chi2
     for one in pair.named[-added:]:
-        note(found, one, Fate("accepted", one.support))
+        note(found, one, Fate("accepted", one.support, chance.asked))
     return added
 
 
