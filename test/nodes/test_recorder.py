@@ -39,6 +39,11 @@ def applied(reports: list[Any]) -> float:
     return float(values["steering_wheel_angle applied"])
 
 
+def moved(report: Any) -> bool:
+    """Whether the report of the diagnostics is of a time after step 0."""
+    return bool(report.header.stamp.sec or report.header.stamp.nanosec)
+
+
 def simulated_s(node: Any) -> float:
     ended = node.wait_for("of simulation time").rsplit("ended at ", 1)[1]
     return float(ended.split()[0])
@@ -64,6 +69,8 @@ def test_the_bag_is_in_simulation_time_from_step_0_and_complete(
     node = running(start, tmp_path / "bag", "--input-timeout-s", 0, "--diagnostics-rate-hz", 10)
     wheel = client.talk(Float64, "/truck/steering_wheel_angle")
     reports = client.listen(DiagnosticArray, "/diagnostics")
+    # a command that arrives before step 0 would hold from step 0, as it should
+    client.until(lambda: reports and moved(reports[-1]), what="a first step")
     sent = [0.1, 0.2, 0.3, 0.25]
     for value in sent:
         wheel.publish(Float64(data=value))
