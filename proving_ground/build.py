@@ -20,6 +20,7 @@ from proving_ground.effects.base import combine
 from proving_ground.faults import FAULTS
 from proving_ground.individual import draw
 from proving_ground.instruments import Mounting, apply_fault, measure, without_gravity
+from proving_ground.kept_back import KeptBack, sealed
 from proving_ground.layout import FloatArray
 from proving_ground.manoeuvres import make
 from proving_ground.roughness import FEW, Roughness, roughen
@@ -65,6 +66,7 @@ class CaseBuilder:
             1.0, f.place, f.sign).channels]
         self.rough = None if not spec.rough else Roughness.draw(
             spec.seed, all(channel in FEW for channel in faulty))
+        self.kept = KeptBack() if spec.rough else KeptBack.of(spec.seed)
         self.level = any(fault.name == "lateral_accel_roll" for fault in spec.faults)
 
     def _make_rigs(self, spec: CaseSpec) -> None:
@@ -181,11 +183,11 @@ class CaseBuilder:
         if self.rough is not None:
             time, readings = roughen(readings, self.rough, seed)
         write_csv(path, name, manoeuvre, readings, self.level, time, self.header,
-                  stated=self.rough is None)
+                  stated=self.rough is None and not self.kept.instruments)
 
     def _read(self, values: Values, seed: int) -> Values:
         """Noisy readings without the missing channels, with gaps where the case has dropouts."""
-        readings = measure(values, self.mounting, seed)
+        readings = self.kept.read(measure(values, self.mounting, seed), seed)
         if self.spec.missing:
             readings = {n: v for n, v in readings.items() if not n.startswith(self.spec.missing)}
         if self.spec.dropouts:
@@ -203,7 +205,8 @@ class CaseBuilder:
         if self.spec.truth == "w1" and not self.spec.rough and self.spec.id[:1] != "w":
             return {}
         rough = None if self.rough is None else asdict(self.rough)
-        return {"truth": self.spec.truth, "rough": rough,
+        kept = {"kept_back": asdict(KeptBack.of(self.spec.seed))} if sealed(self.spec.seed) else {}
+        return {"truth": self.spec.truth, "rough": rough, **kept,
                 "laws": [effect.law for effect in self.spec.effects]}
 
     def _answer(self, found: list[Calibrated], faulty: list[Calibrated],

@@ -10,7 +10,7 @@ import math
 
 from proving_ground.compiled import compiled
 from proving_ground.contact import add_force
-from proving_ground.laws import SMOOTH
+from proving_ground.laws import LEAF, SMOOTH
 from proving_ground.layout import Commands, State, Truck, Views
 from proving_ground.switches import Switches
 
@@ -36,14 +36,17 @@ def springs(v: Views, truck: Truck, state: State, sw: Switches) -> None:
             up = v.qpos[heave + 1] + arm * v.qpos[roll + 1]
             rate = v.qvel[heave] + arm * v.qvel[roll]
             force = spring_force(v, truck, sw, axle, up, arm)
+            limit = truck.coulomb[axle]
+            if laws.friction_law == LEAF:
+                limit *= max(force, 0.0) / truck.preload_n[axle]
             force += damper_force(truck, axle, rate)
             step = up - state.leaf_at[axle, side]
             state.leaf_at[axle, side] = up
             if laws.friction_law == SMOOTH:
-                state.leaf[axle, side] = truck.coulomb[axle] * math.tanh(
+                state.leaf[axle, side] = limit * math.tanh(
                     rate / laws.friction_speed_mps)
             else:
-                state.leaf[axle, side] = dahl(state.leaf[axle, side], step, truck.coulomb[axle],
+                state.leaf[axle, side] = dahl(state.leaf[axle, side], step, limit,
                                               laws.friction_travel_m)
             force += state.leaf[axle, side]
             v.qfrc[heave] -= force

@@ -17,6 +17,7 @@ import numpy as np
 
 from proving_ground.individual import Individual
 from proving_ground.individual import draw as draw_individual
+from proving_ground.kept_back import KeptBack
 from proving_ground.laws import LENGTH, LOADED, POWER, QUADRATIC, SINE, STRETCH, Laws, usual
 
 Rng = np.random.Generator
@@ -26,7 +27,7 @@ def draw(seed: int, wrong: bool = True) -> Individual:
     """A truck of a form of its own; `wrong`: some numbers of its sheet are off by 10 to 30 %."""
     rng = np.random.default_rng([seed, 97])
     truck = draw_individual(seed)
-    truck = replace(truck, laws=draw_laws(rng))
+    truck = replace(truck, laws=KeptBack.of(seed).laws(draw_laws(rng)))
     _other_frame(truck.sheet, rng)
     return with_wrong_sheet(truck, rng) if wrong else truck
 

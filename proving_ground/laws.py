@@ -12,16 +12,16 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-TMEASY, MAGIC, BRUSH = 0, 1, 2
+TMEASY, MAGIC, BRUSH, DUGOFF = 0, 1, 2, 3
 QUADRATIC, POWER, SINE = 0, 1, 2
 STRETCH, LENGTH, LOADED = 0, 1, 2
-DAHL, SMOOTH = 0, 1
+DAHL, SMOOTH, LEAF = 0, 1, 2
 
 
 class Laws(NamedTuple):
     """Laws and their numbers, SI. Loads are newtons, slips radians or relative."""
 
-    family: int                    # TMEASY, MAGIC, BRUSH
+    family: int                    # TMEASY, MAGIC, BRUSH, DUGOFF
     reference_n: float             # load at which the shares below hold
     slope_law: int                 # cornering stiffness over load: QUADRATIC, POWER, SINE
     slope: float                   # 1/rad: QUADRATIC load * (slope - drop * load)
@@ -70,7 +70,8 @@ class Laws(NamedTuple):
     rebound: float                 # damper in rebound and in bump, over the sheet's
     bump: float
     damper_exponent: float         # force over speed to this power, as the sheet at 0.1 m/s
-    friction_law: int              # DAHL over a travel, SMOOTH over a speed
+    friction_law: int              # DAHL over a travel, SMOOTH over a speed, LEAF: DAHL that
+                                   # grows with the load on the spring
     friction_travel_m: float
     friction_speed_mps: float
     unequal: float                 # share of a trailer spring that its partner does not take

@@ -1,8 +1,8 @@
-"""Tire forces: three families over a generalized slip, first-order dynamics.
+"""Tire forces: four families over a generalized slip, first-order dynamics.
 
 References: Rill, Road Vehicle Dynamics (2012), ch. 3 (TMeasy); Pacejka, Tire and Vehicle Dynamics
-(2012), ch. 3 (brush) and 4.3 (Magic Formula, similarity); cornering stiffness after the
-spec sheet.
+(2012), ch. 3 (brush), 4.3 (Magic Formula, similarity); Dugoff, Fancher, Segel, SAE 700377 (1970);
+cornering stiffness after the spec sheet.
 Known differences from a real tire: no temperature, no tread wear, no turn slip.
 """
 
@@ -11,7 +11,7 @@ from __future__ import annotations
 import math
 
 from proving_ground.compiled import compiled
-from proving_ground.laws import BRUSH, LENGTH, LOADED, MAGIC, POWER, SINE, Laws
+from proving_ground.laws import DUGOFF, LENGTH, LOADED, MAGIC, POWER, SINE, TMEASY, Laws
 
 STATED_LOAD_N = 26.5e3       # load at which POWER and SINE have their reference slope
 
@@ -53,7 +53,7 @@ def steady_forces(load: float, sx: float, sy: float, slope_y: float, friction: f
     slope_x = load * (laws.slope_x - laws.slope_x_drop * over)
     peak_x = friction * load * (laws.peak_x - laws.peak_x_drop * over)
     peak_y = friction * load * (laws.peak_y - laws.peak_y_drop * over) * peak_y_scale
-    if laws.family == MAGIC or laws.family == BRUSH:
+    if laws.family != TMEASY:
         fx, fy = similar(sx, sy, slope_x, slope_y, peak_x, peak_y, laws)
         return fx, fy, trail_fraction(abs(sy) * (0.20 / laws.trail_zero))
     at_x = max(laws.slip_x, 2.05 * peak_x / slope_x)
@@ -77,7 +77,7 @@ def steady_forces(load: float, sx: float, sy: float, slope_y: float, friction: f
 @compiled
 def similar(sx: float, sy: float, slope_x: float, slope_y: float, peak_x: float, peak_y: float,
             laws: Laws) -> tuple[float, float]:
-    """Magic Formula or brush over the slip that similarity makes of both directions, N."""
+    """Magic Formula, Dugoff or brush over the slip that similarity makes of both directions, N."""
     kx = slope_x * sx / max(peak_x, 1.0)
     ky = slope_y * sy / max(peak_y, 1.0)
     k = math.sqrt(kx * kx + ky * ky)
@@ -86,6 +86,8 @@ def similar(sx: float, sy: float, slope_x: float, slope_y: float, peak_x: float,
     if laws.family == MAGIC:
         b = k / laws.shape
         share = math.sin(laws.shape * math.atan(b - laws.curvature * (b - math.atan(b))))
+    elif laws.family == DUGOFF:
+        share = k if k < 0.5 else 1.0 - 0.25 / k
     elif k < 3.0:
         share = k - k * k / 3.0 + k * k * k / 27.0
     else:

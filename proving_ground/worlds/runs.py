@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 import numpy as np
 
 Rng = np.random.Generator
@@ -24,26 +26,27 @@ KINDS: dict[str, tuple[str, ...]] = {
     "straight": ("straight", "coast_down", "late_release", "dab_and_roll", "braking_trailer"),
     "any": ("lane_change", "sine_sweep", "weave", "straight", "coast_down", "ramp_hold"),
 }
-SECOND_BASELINE = KINDS["coast"] + KINDS["brake"]
+Kinds = Mapping[str, tuple[str, ...]]
 Runs = tuple[tuple[str, ...], tuple[str, ...], tuple[str, ...]]
 
 
-def choose_runs(needs: list[str], number: int, rng: Rng) -> Runs:
-    """Kinds of the baseline, training and holdout runs.
+def choose_runs(needs: list[str], number: int, rng: Rng, kinds: Kinds = KINDS) -> Runs:
+    """Kinds of the baseline, training and holdout runs, out of `kinds`.
 
     `needs` is what each cause needs to show itself; with none, every need in its turn.
     """
-    wanted = needs or [list(KINDS)[number // 2 % len(KINDS)]]
-    train, holdout = _two(KINDS[wanted[0]], rng), _two(KINDS[wanted[0]], rng)
+    wanted = needs or [list(kinds)[number // 2 % len(kinds)]]
+    train, holdout = _two(kinds[wanted[0]], rng), _two(kinds[wanted[0]], rng)
     if len(wanted) > 1:
-        other = KINDS[wanted[1]]
+        other = kinds[wanted[1]]
         train, holdout = (*train, str(rng.choice(other))), (holdout[0], str(rng.choice(other)))
     if wanted[0] == "kingpin":
-        train = (*train[:2], str(rng.choice(KINDS["blowout"])))
-        holdout = (holdout[0], str(rng.choice(KINDS["blowout"])))
+        train = (*train[:2], str(rng.choice(kinds["blowout"])))
+        holdout = (holdout[0], str(rng.choice(kinds["blowout"])))
     elif len(train) < 3 and rng.random() < 0.4:
-        train = (*train, str(rng.choice(KINDS["any" if wanted[0] == "blowout" else "steer"])))
-    baseline = (str(rng.choice(KINDS["steer"])), str(rng.choice(SECOND_BASELINE)))
+        train = (*train, str(rng.choice(kinds["any" if wanted[0] == "blowout" else "steer"])))
+    baseline = (str(rng.choice(kinds["steer"])),
+                str(rng.choice(kinds["coast"] + kinds["brake"])))
     return baseline, train, holdout
 
 

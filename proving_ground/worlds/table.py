@@ -15,6 +15,8 @@ from proving_ground.car.table import car_case
 from proving_ground.cases import CaseSpec, EffectSpec, FaultSpec, check
 from proving_ground.effects import FAMILIES, LISTED, UNLISTED
 from proving_ground.faults import FAULTS
+from proving_ground.kept_back import KINDS as KEPT_KINDS
+from proving_ground.kept_back import sealed
 from proving_ground.table import MISSING
 from proving_ground.worlds.draws import (
     CYCLE,
@@ -26,7 +28,7 @@ from proving_ground.worlds.draws import (
     walk,
     wanted_sigma,
 )
-from proving_ground.worlds.runs import choose_runs
+from proving_ground.worlds.runs import KINDS, choose_runs
 
 WORLDS = ("w1", "w2", "w3", "w4")
 ORDINARY = (10, 13)               # numbers in the cycle of w4 with ordinary driving
@@ -74,7 +76,7 @@ def truck_case(world: str, truth: str, turn: Turn, seed: int, rng: Rng) -> CaseS
     group = GROUP[turn.letter]
     effects, faults, without = _causes(turn, rng)
     needs = [effect.kind.needs for effect in effects] or [FAULTS[f.name].needs for f in faults]
-    runs = choose_runs(needs, turn.number, rng)
+    runs = choose_runs(needs, turn.number, rng, KEPT_KINDS if sealed(seed) else KINDS)
     choices = MISSING if not faults else tuple(
         names for names in MISSING if not any("trailer" in name for name in names))
     missing = choices[int(rng.integers(len(choices)))]
