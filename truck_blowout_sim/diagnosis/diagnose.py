@@ -79,8 +79,9 @@ def diagnose(recordings: Sequence[Recording], *, baseline: Sequence[Recording] =
         raise InputError("no recording to diagnose", expected="at least one recording")
     loaded = load_vehicle(vehicle) if isinstance(vehicle, str) else vehicle
     packed = pack(loaded)
-    gate = sensor_gate(list(recordings), list(baseline), vehicle_geometry(loaded))
     rules = replace(load_settings(packed, settings), without=known_names(without))
+    gate = sensor_gate(list(recordings), list(baseline), vehicle_geometry(loaded),
+                       rules.false_alarms)
     rules = replace(rules, trial_step_s=rules.coarsest_step_s) if effort.coarse else rules
     if kept is not None:
         kept.begin(case_parts({"train": recordings, "baseline": baseline, "holdout": holdout},

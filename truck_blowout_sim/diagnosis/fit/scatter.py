@@ -32,6 +32,7 @@ from numpy.typing import NDArray
 from scipy.stats import chi2
 
 from truck_blowout_sim.diagnosis.case.runs import Run
+from truck_blowout_sim.diagnosis.fit.independent import independent_among
 from truck_blowout_sim.diagnosis.fit.linear import Projector
 
 Floats = NDArray[np.float64]
@@ -207,11 +208,4 @@ class Chance:
 def independent(columns: Floats, projector: Projector) -> float:
     """How many independent questions correlated columns [rows, k] ask (Li and Ji 2005)."""
     reach = projector.reach(columns)
-    shared = columns.T @ columns - reach.T @ projector.solve(reach)
-    size = np.sqrt(np.maximum(np.diag(shared), 0.0))
-    seen = size > 1e-5 * max(float(size.max(initial=0.0)), 1e-12)
-    if not seen.any():
-        return 1.0
-    alike = shared[np.ix_(seen, seen)] / np.outer(size[seen], size[seen])
-    found = np.abs(np.linalg.eigvalsh(alike))
-    return max(float(np.sum((found >= 1.0) + (found - np.floor(found)))), 1.0)
+    return independent_among(columns.T @ columns - reach.T @ projector.solve(reach))

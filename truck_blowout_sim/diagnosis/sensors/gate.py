@@ -19,7 +19,7 @@ from truck_blowout_sim.diagnosis.sensors.case import Case, make_case, undone
 from truck_blowout_sim.diagnosis.sensors.conventions import FoundConvention, find_conventions
 from truck_blowout_sim.diagnosis.sensors.findings import Amount, GateResult, SensorFinding
 from truck_blowout_sim.diagnosis.sensors.geometry import Geometry, stated_geometry
-from truck_blowout_sim.diagnosis.sensors.judgement import determined
+from truck_blowout_sim.diagnosis.sensors.judgement import FALSE_ALARMS, determined
 from truck_blowout_sim.diagnosis.sensors.residuals import broken_identities, identity_residuals
 from truck_blowout_sim.diagnosis.sensors.search import Found, SearchResult, applied, search
 from truck_blowout_sim.diagnosis.sensors.signals import read_signals
@@ -33,6 +33,7 @@ def sensor_gate(
     recordings: Sequence[Recording],
     baseline: Sequence[Recording] = (),
     geometry: Geometry | None = None,
+    false_alarms: float = FALSE_ALARMS,
 ) -> GateResult:
     """Check the instruments of a case against kinematics.
 
@@ -42,6 +43,7 @@ def sensor_gate(
             normal mounting errors are.
         geometry: lengths of the combination; instrument positions that the recordings' metadata
             state take precedence.
+        false_alarms: share of sound logs in which anything may be named.
 
     Returns:
         Findings, residuals of every identity, what could not be asked.
@@ -54,7 +56,7 @@ def sensor_gate(
         raise ValueError("at least one recording is needed")
     stated, recordings, baseline = _as_meant(recordings, baseline, geometry)
     case = make_case(recordings, baseline, geometry)
-    result = search(case)
+    result = search(case, false_alarms)
     findings = [*stated]
     findings += [
         _finding(found, knows_roll=_has_roll(case, found.hypothesis.distortion.unit))

@@ -15,6 +15,8 @@ from truck_blowout_sim.diagnosis.sensors.case import Case, Hypothesis
 from truck_blowout_sim.diagnosis.sensors.distortions import Delay, LeverArm, Scale
 
 FloatArray = NDArray[np.float64]
+# Share of sound logs in which a fault may be stated: one in fifty.
+FALSE_ALARMS = 0.02
 # A rival within this of the best sum of squares cannot be told from it (odds of about 90 to 1).
 ALIAS_CHI2 = 9.0
 _PER_PARAMETER = 2.0  # what a parameter must earn when hypotheses of different size compete

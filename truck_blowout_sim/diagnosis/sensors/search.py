@@ -19,18 +19,21 @@ from numpy.typing import NDArray
 from truck_blowout_sim.diagnosis.sensors.case import Applied, Case, Hypothesis
 from truck_blowout_sim.diagnosis.sensors.judgement import (
     ALIAS_CHI2,
+    FALSE_ALARMS,
     admissible,
     determined,
     family_p,
     handicap,
 )
 from truck_blowout_sim.diagnosis.sensors.solve import Estimate, noise_inflation, refine, solve
+from truck_blowout_sim.diagnosis.sensors.steady import chances, independent_candidates
 from truck_blowout_sim.diagnosis.sensors.system import System, assemble, normal_equations
 
 FloatArray = NDArray[np.float64]
 
 _FAMILY_P = 1e-4
 _MOST_FAULTS = 5
+_MOST_REFUSED = 3  # each costs a nonlinear fit; the next is rarely better than the first
 _FORBIDDEN = 1e9
 _SHORTLIST = 4
 _WORTH_A_LOOK = 0.5  # share of the leader's linear gain that earns a nonlinear try
@@ -84,15 +87,23 @@ class SearchResult:
     usual_sigma: FloatArray
 
 
-def search(case: Case) -> SearchResult:
-    """Find the sensor faults of a case."""
+def search(case: Case, false_alarms: float = FALSE_ALARMS) -> SearchResult:
+    """Find the sensor faults of a case.
+
+    Args:
+        case: the recordings.
+        false_alarms: share of sound logs in which anything may be named.
+    """
     before = system = assemble(case)
     chosen: list[Hypothesis] = []
+    refused: list[Hypothesis] = []
     rivals: dict[Hypothesis, tuple[tuple[Hypothesis, float], ...]] = {}
     inflation = noise_inflation(before)
-    estimate = solve(case, normal_equations(before, inflation), ())
-    while len(chosen) < _MOST_FAULTS:
-        best = _next(case, system, chosen, estimate, inflation)
+    normal = normal_equations(before, inflation)
+    estimate = solve(case, normal, ())
+    highest = false_alarms / independent_candidates(case, normal)
+    while len(chosen) < _MOST_FAULTS and len(refused) < _MOST_REFUSED:
+        best = _next(case, system, [*chosen], refused, estimate, inflation)
         if best is None:
             break
         hypothesis, estimate, near = best
@@ -100,9 +111,11 @@ def search(case: Case) -> SearchResult:
         chosen.append(hypothesis)
         system = assemble(case, _amounts_out(chosen, estimate))
         inflation = noise_inflation(system)
-        chosen, estimate = _pruned(case, chosen, estimate, inflation)
+        chosen, estimate = _pruned(case, chosen, estimate, inflation, highest)
         if hypothesis not in chosen:
-            break
+            refused.append(hypothesis)
+            system = assemble(case, _amounts_out(chosen, estimate))
+            inflation = noise_inflation(system)
     return _summary(case, chosen, rivals, before, estimate)
 
 
@@ -111,15 +124,15 @@ def _amounts_out(chosen: Sequence[Hypothesis], estimate: Estimate) -> tuple[Appl
 
 
 def _next(
-    case: Case, system: System, chosen: Sequence[Hypothesis], found: Estimate,
-    inflation: Mapping[str, float],
+    case: Case, system: System, chosen: Sequence[Hypothesis], refused: Sequence[Hypothesis],
+    found: Estimate, inflation: Mapping[str, float],
 ) -> tuple[Hypothesis, Estimate, tuple[tuple[Hypothesis, float], ...]] | None:  # fmt: skip
     """The best further hypothesis, the joint estimate, its rivals; ``None`` if none counts."""
     normal = normal_equations(system, inflation)
     base = solve(case, normal, chosen)
     scored: list[tuple[float, int, Hypothesis]] = []
     for order, hypothesis in enumerate(case.hypotheses):
-        if hypothesis in chosen:
+        if hypothesis in chosen or hypothesis in refused:
             continue
         trial = solve(case, normal, [*chosen, hypothesis])
         gain = base.chi2 - trial.chi2
@@ -157,16 +170,19 @@ def _refined_best(
 
 
 def _pruned(
-    case: Case, chosen: Sequence[Hypothesis], estimate: Estimate, inflation: Mapping[str, float]
-) -> tuple[list[Hypothesis], Estimate]:
-    """Drop, weakest first, what later faults or the true noise have made insignificant."""
+    case: Case, chosen: Sequence[Hypothesis], estimate: Estimate,
+    inflation: Mapping[str, float], highest: float,
+) -> tuple[list[Hypothesis], Estimate]:  # fmt: skip
+    """Drop, weakest first, what later faults, true noise or its own scatter make insignificant."""
     kept = list(chosen)
     estimate = refine(case, kept, inflation, estimate.amounts)
     while kept:
         gains = [_gain(kept, estimate, k) for k in range(len(kept))]
+        wander = chances(case, kept, estimate.amounts, inflation)
         doubtful = [
             not admissible(h, _stated(kept, estimate, k))
             or family_p(g, len(h.distortion.parameters), len(case.hypotheses)) >= _FAMILY_P
+            or wander[k] > highest
             for k, (h, g) in enumerate(zip(kept, gains, strict=True))
         ]
         if not any(doubtful):

@@ -59,7 +59,7 @@ def solve(case: Case, normal: Normal, hypotheses: Sequence[Hypothesis]) -> Estim
         normal: sums of squares.
         hypotheses: faults allowed, without priors.
     """
-    unknowns = _unknowns(case, normal.faults, hypotheses)
+    unknowns = unknowns_of(case, normal.faults, hypotheses)
     index = unknowns.column
     gram, right = unknowns.prior.copy(), np.zeros(index.size)
     for group, acts in enumerate((unknowns.in_recordings, unknowns.in_baseline)):
@@ -133,7 +133,7 @@ def noise_inflation(system: System) -> dict[str, float]:
 
 
 @dataclass(frozen=True)
-class _Unknowns:
+class Unknowns:
     """Unknowns of one solution: normal errors, those of the baseline if any, then faults."""
 
     column: NDArray[np.int64]
@@ -143,9 +143,9 @@ class _Unknowns:
     first_fault: int
 
 
-def _unknowns(
+def unknowns_of(
     case: Case, faults: Sequence[Distortion], hypotheses: Sequence[Hypothesis]
-) -> _Unknowns:
+) -> Unknowns:
     """Where each unknown's column is, where it acts, and what is known of it beforehand."""
     usual = case.prior_precision
     groups = 2 if any(case.is_baseline) else 1
@@ -165,7 +165,7 @@ def _unknowns(
     prior = np.diag(np.concatenate([np.zeros(first), conceivable]))
     between = np.linalg.inv(np.array([[1.0, _REPEATS], [_REPEATS, 1.0]])) if groups == 2 else [[1]]
     prior[:first, :first] = np.kron(between, np.diag(usual))
-    return _Unknowns(
+    return Unknowns(
         column=np.array(column),
         in_recordings=np.concatenate(
             [own, *([0.0 * own] * (groups - 1)), np.ones(len(everywhere))]
@@ -181,7 +181,7 @@ def _scatter(
 ) -> dict[str, float]:
     total: dict[str, list[FloatArray]] = {}
     blocks: dict[str, list[FloatArray]] = {}
-    unknowns = _unknowns(system.case, system.faults, hypotheses)
+    unknowns = unknowns_of(system.case, system.faults, hypotheses)
     amounts = [np.array(a) for a in estimate.amounts]
     usual = [estimate.usual]
     if unknowns.first_fault > estimate.usual.size:

@@ -93,7 +93,7 @@ def normal_equations(system: System, inflation: Mapping[str, float]) -> Normal:
     right = (np.zeros(size), np.zeros(size))
     energy, count = 0.0, 0
     for k, is_baseline in enumerate(system.case.is_baseline):
-        for e, j in _whitened(system.rows[k], system.slow[k], inflation):
+        for _, e, j in whitened_parts(system.rows[k], system.slow[k], inflation):
             gram[int(is_baseline)][...] += j.T @ j
             right[int(is_baseline)][...] += j.T @ e
             energy += float(e @ e)
@@ -103,14 +103,16 @@ def normal_equations(system: System, inflation: Mapping[str, float]) -> Normal:
     return Normal(system.faults, gram, right, energy, count)
 
 
-def _whitened(
+def whitened_parts(
     rows: Rows | None, slow: Sequence[SlowRows], inflation: Mapping[str, float]
-) -> list[tuple[FloatArray, FloatArray]]:
+) -> list[tuple[FloatArray, FloatArray, FloatArray]]:
+    """Time, residual and slopes of a recording's whitened rows: slow relations, then bumps."""
     parts = []
     for s in slow:
         factor = inflation.get(s.identity.name, 1.0)
-        parts.append((s.residual / factor, s.slopes / factor))
+        parts.append((s.time_s, s.residual / factor, s.slopes / factor))
     if rows is not None:
         factors = np.array([inflation.get(i.name, 1.0) for i in rows.identities])
-        parts.append(whiten(rows, factors))
+        time_s = np.repeat(rows.time_s, factors.size)
+        parts.append((time_s, *whiten(rows, factors)))
     return parts

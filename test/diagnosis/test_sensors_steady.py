@@ -1,0 +1,70 @@
+"""Whether a fault shows alike in every stretch: moderated variances, rough logs, real faults."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+import trial_faults as faults
+from numpy.typing import NDArray
+from scipy.signal import lfilter
+from trial_drive import make_run
+
+from truck_blowout_sim.diagnosis.fit.independent import independent_among
+from truck_blowout_sim.diagnosis.sensors import sensor_gate
+from truck_blowout_sim.diagnosis.sensors.steady import moderated
+from truck_blowout_sim.recordings import Recording, Series
+
+MEMORY_S, TIMES = 1.5, 8.0
+
+
+def rough(run: Recording, seed: int) -> Recording:
+    """The run with noise on every rate and velocity that remembers 1.5 s."""
+    rng = np.random.default_rng(seed)
+    sizes = {"_radps": np.radians(0.02), "_mps": 0.012, "_mps2": 0.03}
+    changed = {}
+    for name, series in run.channels.items():
+        size = next((s for end, s in sizes.items() if name.endswith(end)), 0.0)
+        if size and name.startswith(("tractor", "trailer")):
+            keep = float(np.exp(-np.median(np.diff(series.time_s)) / MEMORY_S))
+            push = rng.standard_normal(series.value.size) * np.sqrt(1.0 - keep**2)
+            colored = TIMES * size * lfilter([1.0], [1.0, -keep], push)
+            changed[name] = Series(series.time_s, series.value + colored)
+    return run.with_channels(changed)
+
+
+@pytest.mark.parametrize(("factor", "degrees"), [(1.0, 4.0), (6.0, 10.0)])
+def test_common_factor_and_degrees_are_found_in_ratios_of_variances(
+    factor: float, degrees: float
+) -> None:
+    rng = np.random.default_rng(3)
+    own: NDArray[np.float64] = np.full(4000, 6.0)
+    ratio = factor * rng.f(6.0, degrees, own.size)
+    found = moderated(ratio, own)
+    assert found.factor == pytest.approx(factor, rel=0.1)
+    assert found.degrees == pytest.approx(degrees, rel=0.2)
+
+
+def test_noise_as_modeled_leaves_the_model_certain() -> None:
+    ratio = np.random.default_rng(4).chisquare(6.0, 4000) / 6.0
+    found = moderated(ratio, np.full(4000, 6.0))
+    assert found.factor == pytest.approx(1.0, abs=0.05)
+    assert found.degrees > 200.0
+
+
+def test_alike_questions_are_one_and_different_ones_are_many() -> None:
+    assert independent_among(np.ones((5, 5))) == pytest.approx(1.0)
+    assert independent_among(np.diag([1.0, 4.0, 9.0])) == pytest.approx(3.0)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_a_rough_log_without_a_fault_is_given_no_fault(seed: int) -> None:
+    runs = [rough(make_run(40 + 10 * seed + k, 15.0), 7 * seed + k) for k in range(2)]
+    assert not sensor_gate(runs, [rough(make_run(60 + seed, 12.0), 70 + seed)]).findings
+
+
+def test_a_large_fault_is_named_in_a_rough_log() -> None:
+    change = faults.offset("tractor_yaw_rate_radps", np.radians(2.0))
+    runs = [change(rough(make_run(80 + k, 15.0), k)) for k in range(3)]
+    found = sensor_gate(runs, [rough(make_run(90, 12.0), 9)]).findings[0]
+    assert (found.name, found.body) == ("yaw_rate_bias", "tractor")
+    assert found.parameters["bias"].value == pytest.approx(np.radians(2.0), rel=0.1)

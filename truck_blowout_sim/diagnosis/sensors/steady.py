@@ -1,0 +1,206 @@
+"""Whether a fault shows alike in every part of the log, or its amount wanders from part to part.
+
+A channel's noise is measured where the log is quiet; what colors and drifts over seconds is not
+seen there. So an amount is taken apart into what each stretch of five seconds says of it,
+``u_b = A J_b'(e_b - J_b a)`` with ``a = A J'e``, and its covariance is learned from these parts,
+
+    V_own = n/(n-1) sum_b u_b u_b' ,   n = (sum w)^2 / sum w^2  stretches that carry information.
+
+A few stretches tell it badly. How far such a figure goes astray in this log, all candidates tell
+together: their ratios of V_own over the modeled V scatter as ``s^2 F(n, m)``. So
+
+    V = (m s^2 V_model + n V_own) / (m + n) ,   a' V^-1 a / k ~ F(k, m + n - k) .
+
+A log whose noise is as modeled has many degrees of freedom m, and the model stands; a rough log has
+few, and only what its stretches agree on counts. A fault is stated where chance reaches this in
+less than the rate of false alarms among all independent candidates.
+
+References: Liang and Zeger, Biometrika 73 (1986) 13-22 (covariance from clusters); Smyth, Stat.
+Appl. Genet. Mol. Biol. 3 (2004) 3 (variances moderated by those of all questions; his equations for
+m and s are used); Li and Ji, Heredity 95 (2005) 221-227 (independent among correlated candidates).
+Known limits: an error that is alike in all stretches (a noisy channel that is its own regressor)
+passes; in a rough log, a fault that shows in one stretch alone does not.
+Validated with: test/diagnosis/test_sensors_steady.py.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.optimize import brentq
+from scipy.special import polygamma, psi
+from scipy.stats import f as f_law
+
+from truck_blowout_sim.diagnosis.fit.independent import independent_among
+from truck_blowout_sim.diagnosis.sensors.case import Applied, Case, Hypothesis
+from truck_blowout_sim.diagnosis.sensors.solve import Unknowns, unknowns_of
+from truck_blowout_sim.diagnosis.sensors.system import (
+    Normal,
+    System,
+    assemble,
+    whitened_parts,
+)
+
+FloatArray = NDArray[np.float64]
+
+# Longer than what instruments remember (0.05 to 2 s), short enough for a few in each run.
+_STRETCH_S = 5.0
+_FEWEST = 1.5  # stretches that carry a figure before its scatter says anything
+_CERTAIN = 1e6  # degrees of freedom of a variance that is known
+_LEAST = 1e-2
+_SEEN = 1e-10  # of its own sum of squares must be left of a column beside the others
+
+
+@dataclass(frozen=True)
+class Usual:
+    """How far covariances from stretches lie from the modeled one in this log.
+
+    Attributes:
+        factor: variance over the modeled one, at least 1.
+        degrees: of freedom, ``m``.
+    """
+
+    factor: float
+    degrees: float
+
+
+@dataclass(frozen=True)
+class _Rows:
+    """Whitened rows of all recordings, each with the stretch that it lies in."""
+
+    left: FloatArray
+    slopes: FloatArray
+    stretch: NDArray[np.int64]
+
+    def sums(self, values: FloatArray) -> FloatArray:
+        """Sums over each stretch, (stretches, ...)."""
+        out = np.zeros((int(self.stretch.max()) + 1, *values.shape[1:]))
+        np.add.at(out, self.stretch, values)
+        return out
+
+
+def chances(
+    case: Case, chosen: Sequence[Hypothesis], amounts: Sequence[Sequence[float]],
+    inflation: Mapping[str, float],
+) -> list[float]:  # fmt: skip
+    """For each chosen fault the chance that its scatter over the log alone makes its amount.
+
+    Args:
+        case: the recordings.
+        chosen: accepted faults.
+        amounts: of each, as estimated, in full.
+        inflation: factor on the noise of each identity.
+    """
+    if not chosen:
+        return []
+    taken = [Applied(h, tuple(a)) for h, a in zip(chosen, amounts, strict=True)]
+    system = assemble(case, taken)
+    every = unknowns_of(case, system.faults, case.hypotheses)
+    rows = _rows(system, every, inflation)
+    gram = every.prior + rows.slopes.T @ rows.slopes
+    kept = _columns_of(case, chosen, every)
+    usual = _usual(rows, gram, kept)
+    inverse = np.linalg.inv(gram[np.ix_(kept, kept)])
+    slopes = rows.slopes[:, kept]
+    left = rows.left - slopes @ (inverse @ (slopes.T @ rows.left))
+    found, at = [], every.first_fault
+    for amount in amounts:
+        own = slice(at, at + len(amount))
+        found.append(_chance(rows, slopes @ inverse[:, own], left, inverse[own, own],
+                             np.array(amount), usual))  # fmt: skip
+        at += len(amount)
+    return found
+
+
+def _chance(
+    rows: _Rows, weight: FloatArray, left: FloatArray, model: FloatArray, amount: FloatArray,
+    usual: Usual,
+) -> float:  # fmt: skip
+    size = amount.size
+    says = rows.sums(weight * left[:, None])
+    share = (rows.sums(weight**2) / np.diag(model)).sum(axis=1)
+    count = float(share.sum() ** 2 / np.sum(share**2))
+    degrees = usual.degrees + count - size
+    if degrees <= _LEAST:
+        return 1.0
+    own = count / max(count - 1.0, _LEAST) * says.T @ says
+    covariance = (usual.degrees * usual.factor * model + count * own) / (usual.degrees + count)
+    return float(f_law.sf(amount @ np.linalg.solve(covariance, amount) / size, size, degrees))
+
+
+def _usual(rows: _Rows, gram: FloatArray, kept: list[int]) -> Usual:
+    """Scatter of every candidate's figure from stretch to stretch, each beside those kept."""
+    others = [k for k in range(gram.shape[0]) if k not in kept]
+    inside = np.linalg.inv(gram[np.ix_(kept, kept)])
+    base = rows.slopes[:, kept]
+    free = rows.slopes[:, others] - base @ (inside @ gram[np.ix_(kept, others)])
+    own = np.diag(gram)[others]
+    square = own - np.einsum("ij,jk,ki->i", gram[np.ix_(others, kept)], inside,
+                             gram[np.ix_(kept, others)])  # fmt: skip
+    left = rows.left - base @ (inside @ (base.T @ rows.left))
+    seen = square > _SEEN * own
+    free, square = free[:, seen], square[seen]
+    amount = free.T @ left / square
+    says = rows.sums(free * (left[:, None] - free * amount))
+    share = rows.sums(free**2)
+    count = share.sum(axis=0) ** 2 / np.maximum(np.sum(share**2, axis=0), 1e-300)
+    tells = count > _FEWEST
+    ratio = (says**2).sum(axis=0)[tells] / square[tells] * count[tells] / (count[tells] - 1.0)
+    return moderated(ratio, count[tells] - 1.0)
+
+
+def moderated(ratio: FloatArray, degrees: FloatArray) -> Usual:
+    """Factor and degrees of freedom that ratios of variances have in common (Smyth 2004, 6.2).
+
+    Args:
+        ratio: estimated over modeled variances.
+        degrees: of freedom of each.
+    """
+    ratio, degrees = ratio[ratio > 0.0], degrees[ratio > 0.0]
+    if ratio.size < 2:
+        return Usual(1.0, _CERTAIN)
+    logs = np.log(ratio) - psi(degrees / 2.0) + np.log(degrees / 2.0)
+    spread = float(np.var(logs, ddof=1) - np.mean(polygamma(1, degrees / 2.0)))
+    m = _CERTAIN
+    if spread > float(polygamma(1, _CERTAIN / 2.0)):
+        m = 2.0 * float(brentq(lambda x: polygamma(1, x) - spread, 1e-3, _CERTAIN))
+    factor = float(np.exp(np.mean(logs) + psi(m / 2.0) - np.log(m / 2.0)))
+    return Usual(max(factor, 1.0), m)
+
+
+def _columns_of(case: Case, chosen: Sequence[Hypothesis], every: Unknowns) -> list[int]:
+    """Unknowns of a solution with the chosen faults alone, among those with all candidates."""
+    start, at = {}, every.first_fault
+    for hypothesis in case.hypotheses:
+        start[hypothesis] = at
+        at += len(hypothesis.distortion.parameters)
+    own = [range(start[h], start[h] + len(h.distortion.parameters)) for h in chosen]
+    return [*range(every.first_fault), *(k for one in own for k in one)]
+
+
+def _rows(system: System, unknowns: Unknowns, inflation: Mapping[str, float]) -> _Rows:
+    residuals, slopes, keys = [], [], []
+    for k, is_baseline in enumerate(system.case.is_baseline):
+        acts = unknowns.in_baseline if is_baseline else unknowns.in_recordings
+        for time_s, e, j in whitened_parts(system.rows[k], system.slow[k], inflation):
+            residuals.append(e)
+            slopes.append(j[:, unknowns.column] * acts)
+            keys += [(k, int(number)) for number in time_s // _STRETCH_S]
+    _, stretch = np.unique(np.array(keys), axis=0, return_inverse=True)
+    return _Rows(np.concatenate(residuals), np.concatenate(slopes), stretch.ravel())
+
+
+def independent_candidates(case: Case, normal: Normal) -> float:
+    """How many independent questions the candidates ask, normal imperfections taken out."""
+    unknowns = unknowns_of(case, normal.faults, case.hypotheses)
+    gram = unknowns.prior.copy()
+    for group, acts in enumerate((unknowns.in_recordings, unknowns.in_baseline)):
+        at = np.ix_(unknowns.column, unknowns.column)
+        gram += normal.gram[group][at] * np.outer(acts, acts)
+    first = unknowns.first_fault
+    usual = gram[:first, :first]
+    own = gram[first:, first:] - gram[first:, :first] @ np.linalg.solve(usual, gram[:first, first:])
+    return min(independent_among(own), float(len(case.hypotheses)))
