@@ -35,9 +35,22 @@ def ideal(truth: CarTruth) -> dict[str, FloatArray]:
     ax = f[:, 3] - rate * vy - 9.81 * np.sin(pitch)
     ay = -f[:, 10] + rate * vx + 9.81 * np.sin(roll)
     az = -f[:, 12] + 9.81 * np.cos(roll) * np.cos(pitch)
-    motion = smooth(np.stack([vx, vy, rate, s[:, 7], -s[:, 9], ax, ay, az], axis=1), 20.0)
+    turning = gyros(roll, pitch, s[:, 7] - along * rate, -s[:, 9] - across * rate, rate)
+    motion = smooth(np.stack([vx, vy, *turning, ax, ay, az], axis=1), 20.0)
     parts = [s[:, 0], -s[:, 1], yaw, roll, pitch, *motion.T]
     hubs = [smooth(s[:, 23 + k], 10.0) for k in range(4)]
     values = [*truth.commands.T, *parts, *hubs]
     return {name: np.array(value) for name, value in zip(columns(), values, strict=True)}
 
+
+
+def gyros(roll: FloatArray, pitch: FloatArray, roll_change: FloatArray, pitch_change: FloatArray,
+          yaw_change: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Yaw, roll and pitch rate as gyros fixed to the body read them.
+
+    The model states how angles change. In a steady turn a rolled body turns about its own pitching axis too.
+    """
+    level = yaw_change * np.cos(pitch)
+    return (level * np.cos(roll) - pitch_change * np.sin(roll),
+            roll_change - yaw_change * np.sin(pitch),
+            pitch_change * np.cos(roll) + level * np.sin(roll))

@@ -9,6 +9,7 @@ from truck_blowout_sim.vehicle import load_vehicle, pack
 
 pytest.importorskip("vehiclemodels")
 
+from proving_ground.car.channels import gyros
 from proving_ground.car.effects import CAR_LISTED, CAR_UNLISTED, combine
 from proving_ground.car.individual import draw, nominal
 from proving_ground.car.manoeuvres import KINDS, make
@@ -55,3 +56,11 @@ def test_every_manoeuvre_of_a_case_exists() -> None:
         for kind in kinds:
             assert 5.0 < make(kind, 3).duration_s < 20.0
     assert {case.truth for case in world_cases("w3", 0, 24)} == {"w3"}
+
+
+def test_gyros_of_a_rolled_car_in_a_steady_turn_show_pitching_too() -> None:
+    nothing, roll = np.zeros(1), np.array([0.06])
+    yaw_rate, roll_rate, pitch_rate = gyros(roll, nothing, nothing, nothing, np.array([0.2]))
+    assert roll_rate[0] == 0.0
+    assert pitch_rate[0] == pytest.approx(0.2 * np.sin(0.06))
+    assert yaw_rate[0] == pytest.approx(0.2 * np.cos(0.06))
