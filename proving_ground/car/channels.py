@@ -48,7 +48,8 @@ def gyros(roll: FloatArray, pitch: FloatArray, roll_change: FloatArray, pitch_ch
           yaw_change: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Yaw, roll and pitch rate as gyros fixed to the body read them.
 
-    The model states how angles change. In a steady turn a rolled body turns about its own pitching axis too.
+    The model states how angles change. A rolled body in a steady turn also turns about its own
+    pitching axis.
     """
     level = yaw_change * np.cos(pitch)
     return (level * np.cos(roll) - pitch_change * np.sin(roll),
