@@ -6,7 +6,8 @@ and an instrument set of its own.
 
 References: Dugoff, Fancher, Segel, SAE 700377 (1970) (tire); Fancher, Ervin, MacAdam, Winkler, SAE
 800905 (1980) (leaf springs whose friction grows with the load).
-Known limits: the car of W3 keeps its own tires and suspension; rough logs keep their instruments.
+Known limits: the truck of W1 and the car of W3 keep their tires and suspension, rough logs their
+instruments; the answer of a case states what was drawn.
 """
 
 from __future__ import annotations

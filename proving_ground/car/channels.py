@@ -43,7 +43,6 @@ def ideal(truth: CarTruth) -> dict[str, FloatArray]:
     return {name: np.array(value) for name, value in zip(columns(), values, strict=True)}
 
 
-
 def gyros(roll: FloatArray, pitch: FloatArray, roll_change: FloatArray, pitch_change: FloatArray,
           yaw_change: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Yaw, roll and pitch rate as gyros fixed to the body read them.
