@@ -103,7 +103,7 @@ def search(case: Case, false_alarms: float = FALSE_ALARMS) -> SearchResult:
     estimate = solve(case, normal, ())
     highest = false_alarms / independent_candidates(case, normal)
     while len(chosen) < _MOST_FAULTS and len(refused) < _MOST_REFUSED:
-        best = _next(case, system, [*chosen], refused, estimate, inflation)
+        best = _next(case, system, chosen, refused, estimate, inflation)
         if best is None:
             break
         hypothesis, estimate, near = best

@@ -61,10 +61,9 @@ def solve(case: Case, normal: Normal, hypotheses: Sequence[Hypothesis]) -> Estim
     """
     unknowns = unknowns_of(case, normal.faults, hypotheses)
     index = unknowns.column
-    gram, right = unknowns.prior.copy(), np.zeros(index.size)
-    for group, acts in enumerate((unknowns.in_recordings, unknowns.in_baseline)):
-        gram += normal.gram[group][np.ix_(index, index)] * np.outer(acts, acts)
-        right += normal.right[group][index] * acts
+    gram = gram_of(normal, unknowns)
+    right = (normal.right[0][index] * unknowns.in_recordings
+             + normal.right[1][index] * unknowns.in_baseline)  # fmt: skip
     factor = cho_factor(gram, lower=True)
     solution = cho_solve(factor, right)
     inverse = cho_solve(factor, np.eye(index.size))
@@ -82,6 +81,14 @@ def solve(case: Case, normal: Normal, hypotheses: Sequence[Hypothesis]) -> Estim
         usual_in_baseline=solution[first - usual : first],
         usual_sigma=np.sqrt(np.diag(inverse)[:usual]),
     )
+
+
+def gram_of(normal: Normal, unknowns: Unknowns) -> FloatArray:
+    """Sums of squares and products of the unknowns' columns, priors included."""
+    gram, at = unknowns.prior.copy(), np.ix_(unknowns.column, unknowns.column)
+    for own, acts in zip(normal.gram, (unknowns.in_recordings, unknowns.in_baseline), strict=True):
+        gram += own[at] * np.outer(acts, acts)
+    return gram
 
 
 def refine(

@@ -36,7 +36,7 @@ from scipy.stats import f as f_law
 
 from truck_blowout_sim.diagnosis.fit.independent import independent_among
 from truck_blowout_sim.diagnosis.sensors.case import Applied, Case, Hypothesis
-from truck_blowout_sim.diagnosis.sensors.solve import Unknowns, unknowns_of
+from truck_blowout_sim.diagnosis.sensors.solve import Unknowns, gram_of, unknowns_of
 from truck_blowout_sim.diagnosis.sensors.system import (
     Normal,
     System,
@@ -102,10 +102,10 @@ def chances(
     rows = _rows(system, every, inflation)
     gram = every.prior + rows.slopes.T @ rows.slopes
     kept = _columns_of(case, chosen, every)
-    usual = _usual(rows, gram, kept)
     inverse = np.linalg.inv(gram[np.ix_(kept, kept)])
     slopes = rows.slopes[:, kept]
     left = rows.left - slopes @ (inverse @ (slopes.T @ rows.left))
+    usual = _usual(rows, gram, kept, inverse, left)
     found, at = [], every.first_fault
     for amount in amounts:
         own = slice(at, at + len(amount))
@@ -131,16 +131,18 @@ def _chance(
     return float(f_law.sf(amount @ np.linalg.solve(covariance, amount) / size, size, degrees))
 
 
-def _usual(rows: _Rows, gram: FloatArray, kept: list[int]) -> Usual:
-    """Scatter of every candidate's figure from stretch to stretch, each beside those kept."""
+def _usual(
+    rows: _Rows, gram: FloatArray, kept: list[int], inside: FloatArray, left: FloatArray
+) -> Usual:
+    """Scatter of every candidate's figure from stretch to stretch, each beside those kept.
+
+    ``inside`` is the inverse of the kept columns' sums of squares, ``left`` what they leave over.
+    """
     others = [k for k in range(gram.shape[0]) if k not in kept]
-    inside = np.linalg.inv(gram[np.ix_(kept, kept)])
-    base = rows.slopes[:, kept]
-    free = rows.slopes[:, others] - base @ (inside @ gram[np.ix_(kept, others)])
+    free = rows.slopes[:, others] - rows.slopes[:, kept] @ (inside @ gram[np.ix_(kept, others)])
     own = np.diag(gram)[others]
     square = own - np.einsum("ij,jk,ki->i", gram[np.ix_(others, kept)], inside,
                              gram[np.ix_(kept, others)])  # fmt: skip
-    left = rows.left - base @ (inside @ (base.T @ rows.left))
     seen = square > _SEEN * own
     free, square = free[:, seen], square[seen]
     amount = free.T @ left / square
@@ -196,10 +198,7 @@ def _rows(system: System, unknowns: Unknowns, inflation: Mapping[str, float]) ->
 def independent_candidates(case: Case, normal: Normal) -> float:
     """How many independent questions the candidates ask, normal imperfections taken out."""
     unknowns = unknowns_of(case, normal.faults, case.hypotheses)
-    gram = unknowns.prior.copy()
-    for group, acts in enumerate((unknowns.in_recordings, unknowns.in_baseline)):
-        at = np.ix_(unknowns.column, unknowns.column)
-        gram += normal.gram[group][at] * np.outer(acts, acts)
+    gram = gram_of(normal, unknowns)
     first = unknowns.first_fault
     usual = gram[:first, :first]
     own = gram[first:, first:] - gram[first:, :first] @ np.linalg.solve(usual, gram[:first, first:])
