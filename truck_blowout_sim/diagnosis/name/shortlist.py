@@ -58,11 +58,20 @@ def shortlist(study: Study, named: Sequence[Hypothesis], progress: Progress | No
     done = [*_refitted(study, promising, chi2, beside, chance, progress),
             *(one for one in ranked if one.hypothesis.key not in keys)]
     done += _events(study, beside, chi2, chance, done, places, progress)
-    best_of: dict[tuple[str, str], Ranked] = {}
-    for one in sorted(done, key=lambda r: (-r.delta, r.hypothesis.key)):
-        if one.hypothesis.key not in taken:
-            best_of.setdefault(one.hypothesis.key, one)
-    return Round(tuple(best_of.values()), chance)
+    best = best_forms([one for one in done if one.hypothesis.key not in taken], chance.asked)
+    return Round(tuple(best), chance)
+
+
+def best_forms(ranked: Sequence[Ranked], asked: float) -> list[Ranked]:
+    """Of two forms of one effect the one that explains more, of those that are supported if any.
+
+    A grade that begins at a place explains more than a steady one, for its instants are free; that
+    it is not supported so far says nothing against the steady one.
+    """
+    best: dict[tuple[str, str], Ranked] = {}
+    for one in sorted(ranked, key=lambda r: (not r.refitted or r.support < asked, -r.delta)):
+        best.setdefault(one.hypothesis.key, one)
+    return sorted(best.values(), key=lambda r: (-r.delta, r.hypothesis.key))
 
 
 def _promising(ranked: Sequence[Ranked], chance: Chance, most: int) -> list[Ranked]:
