@@ -101,3 +101,20 @@ def test_runs_of_one_name_are_told_apart() -> None:
 def test_what_cannot_be_is_one_line(read: Callable[[Path], object], said: str, log: Path) -> None:
     with pytest.raises(InputError, match=said):
         read(log)
+
+
+def test_a_cars_log_is_mapped_to_its_own_hubs(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """What `inspect --vehicle` writes is what `inspect --map --vehicle` reads."""
+    log, mapping = tmp_path / "car.csv", tmp_path / "car.yaml"
+    rows = "\n".join(f"{0.01 * k:.2f},{k % 9},80.0,{80 + k % 2}" for k in range(50))
+    log.write_text(f"time_s,Steer_SW [deg],Speed [km/h],wheel_speed_rr [km/h]\n{rows}\n",
+                   encoding="utf-8")  # fmt: skip
+    vehicle = ["--vehicle", "bmw_320i"]
+    assert main(["inspect", str(log), *vehicle, "--write-map", str(mapping)]) == 0
+    assert "--vehicle bmw_320i" in capsys.readouterr().out
+    assert main(["inspect", str(log), *vehicle, "--map", str(mapping)]) == 0
+    assert "hub_speed_rear_right_radps" in capsys.readouterr().out
+    assert main(["inspect", str(log), "--vehicle", "bmw_32"]) == 2
+    assert "bmw_320i" in capsys.readouterr().err

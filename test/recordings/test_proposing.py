@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from truck_blowout_sim.recordings.logs.log import Column, Table
-from truck_blowout_sim.recordings.mapping.proposing import propose, unit_by_size
+from truck_blowout_sim.recordings.mapping.proposing import Wheels, propose, unit_by_size
 from truck_blowout_sim.recordings.mapping.vocabulary import channel_hinted
 
 
@@ -63,3 +63,20 @@ def test_a_unit_in_the_name_goes_before_the_size(name: str, unit: str) -> None:
     column = Column(np.array([-30.0, 30.0]))
     (found,) = propose(Table(Path("log"), "bag (MCAP)", {name: column}))
     assert found.unit == unit
+
+
+def wheel_log(*names: str) -> Table:
+    speeds = np.array([80.0, 81.0, 80.5])
+    return Table(Path("log"), "text", {name: Column(speeds, "km/h") for name in names})
+
+
+def test_a_cars_wheels_get_its_own_hub_names() -> None:
+    """Rear wheels of two axles, their radius from its vehicle file; no third axle, no guess."""
+    wheels = Wheels(("front_left", "front_right", "rear_left", "rear_right"),
+                    (0.31, 0.31, 0.32, 0.32), "this car")  # fmt: skip
+    log = wheel_log("wheel_speed_fl", "wheel_speed_rr", "AVy_L3")
+    found = {p.column: (p.channel, p.radius_m) for p in propose(log, wheels=wheels)}
+    assert found == {"wheel_speed_fl": ("hub_speed_front_left_radps", 0.31),
+                     "wheel_speed_rr": ("hub_speed_rear_right_radps", 0.32)}  # fmt: skip
+    trucks = {p.channel for p in propose(log)}
+    assert "hub_speed_steer_left_radps" in trucks

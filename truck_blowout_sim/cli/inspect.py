@@ -21,6 +21,8 @@ _EPOCH_S = 1e8  # times since 1970 are above
 
 if TYPE_CHECKING:
     from truck_blowout_sim.recordings.mapping.inventory import Inventory, Line
+    from truck_blowout_sim.recordings.mapping.proposing import Wheels
+    from truck_blowout_sim.vehicle import Vehicle
 
 
 @reads_logs
@@ -33,19 +35,25 @@ def command(
         None, "--write-map", metavar="FILE", help="Write a first mapping file; every guess in "
         "it is marked."
     ),
+    vehicle: str | None = typer.Option(
+        None, "--vehicle", help="Vehicle file, by name or path, whose hubs a guess names. "
+        "Default: the truck that ships with the package."
+    ),
     force: bool = FORCE,
     as_json: bool = JSON,
 ) -> None:
     """Show what a log holds: columns, units, rates, clocks, gaps, and the channels they become."""
     from truck_blowout_sim.recordings.mapping.inventory import inspect_log
     from truck_blowout_sim.recordings.mapping.writing import mapping_text
+    from truck_blowout_sim.vehicle import load_vehicle
 
+    its = load_vehicle(vehicle) if vehicle else None
     if write_map is not None:
         claim(write_map, force=force, inputs=[log, *logs.files])
     found = inspect_log(find_recording(log), mapping=logs.mapping, namespace=logs.namespace,
-                        also=logs.also)  # fmt: skip
+                        also=logs.also, wheels=_wheels(its) if its else None)  # fmt: skip
     if logs.mapping is not None or logs.blow:
-        found = _checked(found, logs.read(log))
+        found = _checked(found, logs.read(log, its))
     if write_map is not None:
         _write(write_map, mapping_text(found))
     if as_json:
@@ -55,7 +63,17 @@ def command(
     if write_map is not None:
         guesses = len(found.proposals)
         typer.echo(f"{write_map}: {guesses} channels guessed; read and correct them, then: "
-                   f"truck-blowout compare {log} --map {write_map}")  # fmt: skip
+                   f"truck-blowout compare {log} --map {write_map}"
+                   + (f" --vehicle {vehicle}" if vehicle else ""))  # fmt: skip
+
+
+def _wheels(vehicle: Vehicle) -> Wheels:
+    """Hubs of a vehicle, and the radii of their tires."""
+    from truck_blowout_sim.recordings.mapping.proposing import Wheels
+
+    radii = [vehicle.tire_specs[vehicle.tires_of_hub(hub)[0]].unloaded_radius_m
+             for hub in vehicle.hubs]  # fmt: skip
+    return Wheels(vehicle.hubs, tuple(radii), "this vehicle's unloaded tire")
 
 
 def _checked(found: Inventory, read: Recording) -> Inventory:

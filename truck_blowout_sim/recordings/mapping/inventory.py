@@ -19,7 +19,7 @@ from truck_blowout_sim.recordings.logs.bag_log import BagLog, lateness_s
 from truck_blowout_sim.recordings.logs.log import Column
 from truck_blowout_sim.recordings.mapping.mapping_file import load_mapping
 from truck_blowout_sim.recordings.mapping.opened import Opened, open_test
-from truck_blowout_sim.recordings.mapping.proposing import Proposal, propose
+from truck_blowout_sim.recordings.mapping.proposing import Proposal, Wheels, propose
 from truck_blowout_sim.recordings.mapping.rules import Rules, Source
 from truck_blowout_sim.recordings.mapping.times import time_column
 from truck_blowout_sim.recordings.units import find_unit
@@ -81,8 +81,11 @@ class Inventory:
 def inspect_log(
     path: str | os.PathLike[str], *, mapping: str | os.PathLike[str] | None = None,
     namespace: str | None = None, also: Iterable[str | os.PathLike[str]] = (),
+    wheels: Wheels | None = None,
 ) -> Inventory:
     """Look into a log, with or without a mapping.
+
+    ``wheels``: of the vehicle that it is of, for guesses; None: the default truck's.
 
     Raises:
         InputError: it cannot be read.
@@ -95,7 +98,7 @@ def inspect_log(
             raise
         # a log is shown also where its time is not understood yet
         files = [_without_time(Path(path), error)]
-    proposals = () if mapping else tuple(_proposals(files[0]))
+    proposals = () if mapping else tuple(_proposals(files[0], wheels))
     lines = [line for opened in files for line in _lines(opened, rules, proposals)]
     main = files[0]
     span = _span(main)
@@ -123,10 +126,10 @@ def _without_time(path: Path, error: InputError) -> Opened:
     return Opened(path, "", log, notes=[f"{error.problem}; expected {error.expected}", *log.notes])
 
 
-def _proposals(opened: Opened) -> list[Proposal]:
+def _proposals(opened: Opened, wheels: Wheels | None) -> list[Proposal]:
     taken = opened.native.channels if opened.native else {}
     own = {opened.rows.column} if opened.rows else set()
-    return [p for p in propose(opened.log, taken)
+    return [p for p in propose(opened.log, taken, wheels)
             if p.column not in opened.native_columns | own]  # fmt: skip
 
 

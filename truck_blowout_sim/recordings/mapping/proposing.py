@@ -14,7 +14,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from truck_blowout_sim.recordings.channels import UNITS, Channel, by_name, channels_for
+from truck_blowout_sim.recordings.channels import (
+    DEFAULT_HUBS,
+    UNITS,
+    Channel,
+    by_name,
+    channels_for,
+)
 from truck_blowout_sim.recordings.logs.log import Column, Log
 from truck_blowout_sim.recordings.logs.vbo_log import KIND as VBO_KIND
 from truck_blowout_sim.recordings.mapping.plausible import most_of
@@ -57,21 +63,52 @@ class Proposal:
     radius_m: float = 0.0
 
 
-def propose(log: Log, taken: Mapping[str, object] | None = None) -> list[Proposal]:
+@dataclass(frozen=True)
+class Wheels:
+    """Wheels of the vehicle that a log is of, for names like "front left".
+
+    Attributes:
+        hubs: names, every axle's left one, then its right one, from the front.
+        radius_m: rolling radius of each, for wheel speeds in km/h.
+        source: what the radii are of.
+    """
+
+    hubs: tuple[str, ...] = DEFAULT_HUBS
+    radius_m: tuple[float, ...] = (_TRUCK_WHEEL_M,) * len(DEFAULT_HUBS)
+    source: str = "a 22.5 in truck tire"
+
+    def named(self, channel: str) -> str:
+        """A hub's channel by this vehicle's name of the hub; empty where it has no such axle."""
+        hub = channel.removeprefix("hub_speed_").removesuffix("_radps")
+        if hub == channel or hub not in DEFAULT_HUBS:
+            return channel
+        at = DEFAULT_HUBS.index(hub)
+        return f"hub_speed_{self.hubs[at]}_radps" if at < len(self.hubs) else ""
+
+    def radius_of(self, channel: str) -> float:
+        """Radius of the wheel that a hub's channel is of."""
+        return self.radius_m[self.hubs.index(
+            channel.removeprefix("hub_speed_").removesuffix("_radps"))]
+
+
+def propose(log: Log, taken: Mapping[str, object] | None = None, wheels: Wheels | None = None
+            ) -> list[Proposal]:
     """Guess which column is which channel; each channel once, the fullest column first.
 
     Args:
         log: the columns.
         taken: channels that are there already.
+        wheels: of the vehicle; None: the default truck's.
     """
-    table = by_name((*channels_for(), *stand_ins()))
+    wheels = wheels or Wheels()
+    table = by_name((*channels_for(wheels.hubs), *stand_ins()))
     best: dict[str, tuple[tuple[float, int], Proposal, Column]] = {}
     for at, name in enumerate(log.names):
-        channel = table.get(channel_hinted(name))
+        channel = table.get(wheels.named(channel_hinted(name)))
         if channel is None or channel.name in (taken or {}):
             continue
         column = log.column(name)
-        found = _of_column(name, column, channel)
+        found = _of_column(name, column, channel, wheels)
         if found is None:
             continue
         rank = (_rank(name, column), -at)
@@ -123,12 +160,12 @@ def _angle_limit(channel: str) -> float:
     return 12.0 if channel.startswith("steering") else 7.0
 
 
-def _of_column(name: str, column: Column, channel: Channel) -> Proposal | None:
+def _of_column(name: str, column: Column, channel: Channel, wheels: Wheels) -> Proposal | None:
     quantity = SI_QUANTITIES[channel.unit]
     why = ["channel from the name"]
     stated = find_unit(column.unit)
     if channel.group == "hub_speed":
-        return _of_wheel(name, stated or _unit_in_name(name), column, channel)
+        return _of_wheel(name, stated or _unit_in_name(name), column, channel, wheels)
     if stated is not None and stated.quantity != quantity:
         return None
     told = column.values[np.isfinite(column.values)]
@@ -144,7 +181,8 @@ def _of_column(name: str, column: Column, channel: Channel) -> Proposal | None:
     return Proposal(name, channel.name, unit, why=tuple(why))
 
 
-def _of_wheel(name: str, unit: Unit | None, column: Column, channel: Channel) -> Proposal | None:
+def _of_wheel(name: str, unit: Unit | None, column: Column, channel: Channel, wheels: Wheels
+              ) -> Proposal | None:
     """A wheel speed: only with a unit, as its size tells none; in km/h with a radius."""
     why: tuple[str, ...] = ("channel from the name",)
     if unit is None or not np.isfinite(column.values).any():
@@ -154,8 +192,8 @@ def _of_wheel(name: str, unit: Unit | None, column: Column, channel: Channel) ->
         return Proposal(name, channel.name, stated, why=why)
     if unit.quantity != "speed":
         return None
-    why = (*why, "radius of a 22.5 in truck tire: take the one that the logger multiplies by")
-    return Proposal(name, channel.name, stated, why=why, radius_m=_TRUCK_WHEEL_M)
+    why = (*why, f"radius of {wheels.source}: take the one that the logger multiplies by")
+    return Proposal(name, channel.name, stated, why=why, radius_m=wheels.radius_of(channel.name))
 
 
 def _west_positive(proposal: Proposal) -> Proposal:
