@@ -164,3 +164,22 @@ def test_a_channel_finds_its_rule_by_end_or_by_beginning(few: Settings) -> None:
 def test_a_misspelt_effect_is_refused(refusal: Callable[[Edit], str]) -> None:
     line = refusal(lambda tree: tree["forms"].update(croswind={"share": 0.1}))
     assert "forms: unknown key 'croswind'; expected one of" in line
+
+
+def test_a_spread_that_the_vehicle_file_states_is_the_prior(tmp_path: Path) -> None:
+    """Of all brakes of an axle it is no spread of one against the other."""
+    path = tmp_path / "stated.yaml"
+    path.write_text(
+        "extends: international_9400i_trailmobile\nunits: {tractor: {body: {izz_kgm2: "
+        "{value: 20000, spread: 3000, source: swung}}}}\naxles: {steer: {brake: {linear_nmppa: "
+        "{value: 0.012, spread: 0.003, source: rolled}}}}\n", encoding="utf-8")  # fmt: skip
+    stated = pack(load_vehicle(path))
+    usual, mine = ({n.name: n for n in load_settings(truck).nuisances}
+                   for truck in (pack(load_vehicle("international_9400i_trailmobile")), stated))
+    assert mine["tractor_yaw_inertia"].sigma == pytest.approx(
+        3000.0 / stated["unit.tractor.izz_kgm2"])
+    assert mine["tractor_yaw_inertia"].stated
+    assert mine["steered_lining"].sigma == pytest.approx(0.25)
+    for name in ("brake_gain_steer_left", "trailer_yaw_inertia", "driven_lining"):
+        assert mine[name] == usual[name]
+        assert not mine[name].stated

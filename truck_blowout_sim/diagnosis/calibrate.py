@@ -46,6 +46,7 @@ Floats = NDArray[np.float64]
 Progress = Callable[[str, float], None]
 
 _STEP_S = 0.002  # residuals on 0.1 s bins do not change beyond a tenth of a sigma against 1 ms
+_STATED = "spread in the vehicle file"
 _PLACE = "world."
 _SHARES = (1.0, 0.5, 0.25)  # of the way to the numbers that the runs ask for
 
@@ -275,7 +276,8 @@ def _numbers(
         ends = (amount - NINETY * sigma) * number.sigma, (amount + NINETY * sigma) * number.sigma
         found.append(SheetNumber(
             name=number.name, kind=number.kind, change=amount * number.sigma, ci90=ends,
-            prior_sigma=number.sigma, source=sources.get(number.name, ""),
+            prior_sigma=number.sigma,
+            source=_STATED if number.stated else sources.get(number.name, ""),
             values=dict(number.values(packed, amount * number.sigma)), told=bool(told[k]),
             of_the_place=_of_the_place(number), at_prior_end=abs(amount) >= FURTHEST))  # fmt: skip
     return tuple(sorted(found, key=lambda n: -abs(n.change) / n.prior_sigma))

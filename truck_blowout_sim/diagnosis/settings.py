@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field, fields
 from pathlib import Path
 from typing import Any
@@ -14,6 +14,7 @@ from truck_blowout_sim.diagnosis.settings_file import check_keys, number_at, set
 from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.resources import config_file
 from truck_blowout_sim.vehicle import Packed
+from truck_blowout_sim.vehicle.packing import packed_spreads
 
 _TOP_KEYS = {"sheet", "channels", "method"}
 _MAY_BE_SAID = {"extends", "without", "forms"}
@@ -135,6 +136,7 @@ def _numbers(path: Path, key: str, entry: Mapping[str, Any], packed: Packed) -> 
     sign = number_at(path, where, {"sign": 1.0, **entry}, "sign")
     times = packed[_known(path, where, packed, entry["times"])] if "times" in entry else 1.0
     step, found = number_at(path, where, entry, "step") * times, []
+    stated = packed_spreads(packed)
     for role in entry["for"]:
         sigma = number_at(path, f"{where}.for", entry["for"], role) * times
         for part in parts_of(packed.vehicle, role):
@@ -142,8 +144,24 @@ def _numbers(path: Path, key: str, entry: Mapping[str, Any], packed: Packed) -> 
             targets += _targets(path, where, packed, part, entry.get("opposite", ()), -sign)
             # a share of nothing says nothing
             if kind == "add" or any(packed[name] for name, _ in targets):
-                found.append(Nuisance(part.named(key), kind, sigma, step, tuple(targets), only))
+                own = _stated(packed, stated, kind, targets)
+                found.append(Nuisance(part.named(key), kind, own or sigma, step, tuple(targets),
+                                      only, stated=own > 0.0))
     return found
+
+
+def _stated(packed: Packed, spreads: Mapping[str, float], kind: str,
+            targets: Sequence[tuple[str, float]]) -> float:
+    """1 sigma of a number that the vehicle file states a spread of; 0 where it states none.
+
+    What is stated of an axle says nothing about how its two hubs differ.
+    """
+    names = {name for name, _ in targets}
+    told = [name for name in names & spreads.keys() if not name.startswith("hub.")
+            or {name.replace("_left.", "_right."), name.replace("_right.", "_left.")} <= names]
+    sizes = [spreads[name] / (abs(packed[name]) or 1.0) if kind == "scale" else spreads[name]
+             for name in told]
+    return sum(sizes) / len(sizes) if sizes else 0.0
 
 
 def _targets(path: Path, where: str, packed: Packed, part: Part, patterns: Collection[str],
