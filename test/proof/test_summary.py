@@ -103,7 +103,7 @@ def test_files_say_what_was_found(figures: dict[str, Any], tmp_path: Path) -> No
     assert "8 hold, none broken" in page
     assert "- x1: broke" in page
     cases = (out / "cases.csv").read_text().splitlines()
-    assert "s2,brake_lag,12,missing physics,brake_fade (brake_lag),yes,9,1" in cases
+    assert "s2,brake_lag,12,,missing physics,brake_fade (brake_lag),yes,9,1" in cases
     assert len((out / "parameters.csv").read_text().splitlines()) == 2
     for name in ("power", "confusion"):
         assert (out / f"{name}.png").read_bytes().startswith(b"\x89PNG")

@@ -13,17 +13,18 @@ from typing import Any
 from truck_blowout_sim.proof.cases import Truth
 from truck_blowout_sim.proof.score import CaseScore
 
-CASE_COLUMNS = ("case", "concealed", "sigma", "verdict", "named", "solved", "holdout_before",
-                "holdout_after")
+CASE_COLUMNS = ("case", "concealed", "sigma", "sigma_b", "verdict", "named", "solved",
+                "holdout_before", "holdout_after")
 PARAMETER_COLUMNS = ("effect", "truth", "found", "relative_error", "in_interval_90")
 
 
 def cases_csv(scores: Sequence[CaseScore], truths: Mapping[str, Truth]) -> str:
     """One row a case.
 
-    `concealed` joins causes by `+`. `named` joins effects by `;`, each with the rest of its alias
-    set in brackets. `solved` is `yes`, `verdict` (the verdict alone is right) or `no`. The holdout
-    columns are mean squares in instrument noise squared.
+    `concealed` joins causes by `+`. `sigma_b`, where it was measured, is what an ideal detector
+    sees of each. `named` joins effects by `;`, each with the rest of its alias set in brackets.
+    `solved` is `yes`, `verdict` (the verdict alone is right) or `no`. The holdout columns are mean
+    squares in instrument noise squared.
     """
     return _table(CASE_COLUMNS, (_case(score, truths[score.case]) for score in scores))
 
@@ -49,7 +50,8 @@ def _case(score: CaseScore, truth: Truth) -> tuple[str, ...]:
                       for name, aliases in zip(score.named, score.aliases, strict=True))
     solved = "yes" if score.solved else "verdict" if score.right else "no"
     fit = score.holdout
-    return (score.case, hidden or "nothing", _number(score.sigma),
+    seen = " + ".join(_number(c.sigma_b) for c in truth.causes if c.sigma_b is not None)
+    return (score.case, hidden or "nothing", _number(score.sigma), seen,
             score.verdict.replace("_", " "), named, solved,
             _number(fit.before if fit else None), _number(fit.after if fit else None))
 

@@ -1,0 +1,80 @@
+"""Make a sample of the sealed cases anew, diagnose them, and compare with the published answers.
+
+Use: python scripts/repeat_proof.py out/proof [cases of each world, 4 unless told] [processes, 2]
+
+The sample are the first cases of each world's table in docs/. Recordings repeat byte for byte on
+one kind of processor only; on another the seals of recordings are told as broken, and an answer
+close to its limit may differ.
+"""
+
+from __future__ import annotations
+
+import csv
+import subprocess
+import sys
+from pathlib import Path
+
+from rich.console import Console
+from rich.table import Table
+
+from truck_blowout_sim.errors import InputError
+from truck_blowout_sim.proof.published import Repeat, repeats
+
+ROOT = Path(__file__).resolve().parents[1]
+WORLDS = ("w1", "w2", "w3")
+FIRST = {"w1": 2_000_000, "w2": 3_000_000, "w3": 4_000_000}  # `w3-4480168` is number 480168
+
+
+def published(world: str) -> Path:
+    """Table of a world's sealed cases and their answers."""
+    return ROOT / "docs" / f"proof_{world}_cases.csv"
+
+
+def numbers(world: str, count: int) -> range:
+    """The first published cases of a world, by number."""
+    with published(world).open(encoding="utf-8", newline="") as file:
+        cases = [row["case"] for row in csv.DictReader(file)]
+    first = min(int(case.partition("-")[2]) for case in cases) - FIRST[world]
+    return range(first, first + min(count, len(cases)))
+
+
+def repeat(world: str, out: Path, count: int, workers: int) -> list[Repeat]:
+    """Cases of one world, made, diagnosed and compared."""
+    chosen, cases, run = numbers(world, count), out / world / "cases", out / world / "run"
+    _call("proving_ground", "world", world, "-o", str(cases), "--first", str(chosen.start),
+          "--count", str(len(chosen)), "--cores", str(workers))  # fmt: skip
+    _call("truck_blowout_sim", "prove", "--cases", str(cases), "-o", str(run), "--workers",
+          str(workers), "--no-baselines", "--manifest",
+          str(ROOT / "proving_ground" / "sealed" / f"sealed_{world}.json"))  # fmt: skip
+    return repeats(run / "cases.csv", published(world))
+
+
+def _call(module: str, *words: str) -> None:
+    subprocess.run([sys.executable, "-m", module, *words], cwd=ROOT, check=True)
+
+
+def main(words: list[str]) -> int:
+    if not words or len(words) > 3 or not all(word.isdigit() for word in words[1:]):
+        print(__doc__, file=sys.stderr)
+        return 2
+    count, workers = (int(words[k]) if len(words) > k else usual for k, usual in ((1, 4), (2, 2)))
+    out = Path(words[0]).absolute()
+    table = Table("case", "concealed", "published", "now", "", box=None)
+    found: list[Repeat] = []
+    for world in WORLDS:
+        try:
+            found += repeat(world, out, count, workers)
+        except (subprocess.CalledProcessError, InputError, OSError) as error:
+            print(f"{world}: {error}", file=sys.stderr)
+            return 2
+    for one in found:
+        table.add_row(one.case, one.concealed, one.published, one.now,
+                      "same" if one.same else "DIFFERS")  # fmt: skip
+    Console().print(table)
+    same = sum(one.same for one in found)
+    print(f"{same} of {len(found)} answers are those that were published.")
+    return 0 if same == len(found) else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

@@ -1,0 +1,66 @@
+"""Whether a run gives the answers that were published.
+
+Validated with: test/proof/test_published.py.
+"""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+from truck_blowout_sim.errors import InputError
+
+_ANSWER = ("verdict", "named")
+
+
+@dataclass(frozen=True)
+class Repeat:
+    """One case that was diagnosed again.
+
+    Attributes:
+        case: its name; ``concealed``: what is missing in it.
+        published, now: verdict and names, each as one text.
+    """
+
+    case: str
+    concealed: str
+    published: str
+    now: str
+
+    @property
+    def same(self) -> bool:
+        """Whether verdict and names are those that were published."""
+        return self.published == self.now
+
+
+def repeats(run: Path, published: Path) -> list[Repeat]:
+    """Each case of a run's ``cases.csv`` beside the published one, in the order of the run.
+
+    Raises:
+        InputError: a file is missing or no such table; a case was never published.
+    """
+    before = _rows(published)
+    found = []
+    for case, row in _rows(run).items():
+        if case not in before:
+            raise InputError(f"no case {case}", file=published, expected="a published case")
+        found.append(Repeat(case, row["concealed"], _answer(before[case]), _answer(row)))
+    return found
+
+
+def _answer(row: Mapping[str, str]) -> str:
+    return ": ".join(row[key] for key in _ANSWER if row[key])
+
+
+def _rows(path: Path) -> dict[str, dict[str, str]]:
+    try:
+        with path.open(encoding="utf-8", newline="") as file:
+            rows = list(csv.DictReader(file))
+    except (OSError, UnicodeDecodeError, csv.Error) as error:
+        raise InputError(f"cannot be read: {error}", file=path, expected="cases.csv") from error
+    if any(None in row.values() or not {"case", "concealed", *_ANSWER} <= row.keys()
+           for row in rows):
+        raise InputError("no table of cases", file=path, expected="cases.csv of `prove`")
+    return {row["case"]: row for row in rows}
