@@ -1,6 +1,8 @@
-"""Put a proof's short table into README.md and its picture into docs/.
+"""Put the proof's table into README.md and docs/proof.md, its picture and cases into docs/.
 
-Use: python scripts/write_proof_summary.py out/proof
+Use: python scripts/write_proof_summary.py w1=FOLDER w2=FOLDER ...
+
+Each folder is what `truck-blowout prove -o FOLDER` wrote for the sealed cases of a world.
 """
 
 from __future__ import annotations
@@ -10,22 +12,29 @@ import shutil
 import sys
 from pathlib import Path
 
-from truck_blowout_sim.proof.short import put_between, short_table
+from truck_blowout_sim.proof.short import put_between
+from truck_blowout_sim.proof.worlds import draw_power_by_world, worlds_table
 
 ROOT = Path(__file__).resolve().parents[1]
-PICTURE = "docs/proof_power.png"
-CAPTION = "Share of concealed effects that were noticed and named, by visibility"
+PICTURE = "proof_power.png"
+CAPTION = "Share of concealed effects that were named, against what an ideal detector sees"
 
 
 def main(words: list[str]) -> int:
-    if len(words) != 1 or not (Path(words[0]) / "proof.json").is_file():
+    runs = {world: Path(folder) for world, _, folder in (word.partition("=") for word in words)}
+    if not runs or not all((folder / "proof.json").is_file() for folder in runs.values()):
         print(__doc__, file=sys.stderr)
         return 2
-    proof, readme = Path(words[0]), ROOT / "README.md"
-    figures = json.loads((proof / "proof.json").read_text(encoding="utf-8"))
-    shutil.copy(proof / "power.png", ROOT / PICTURE)
-    inside = f"{short_table(figures)}\n\n![{CAPTION}]({PICTURE})"
-    readme.write_text(put_between(readme.read_text(encoding="utf-8"), inside), encoding="utf-8")
+    figures = {world: json.loads((folder / "proof.json").read_text(encoding="utf-8"))
+               for world, folder in runs.items()}  # fmt: skip
+    for world, folder in runs.items():
+        shutil.copy(folder / "cases.csv", ROOT / "docs" / f"proof_{world}_cases.csv")
+    (ROOT / "docs" / PICTURE).write_bytes(draw_power_by_world(figures).png())
+    table = worlds_table(figures)
+    for page, picture in (("README.md", f"docs/{PICTURE}"), ("docs/proof.md", PICTURE)):
+        path = ROOT / page
+        inside = f"{table}\n\n![{CAPTION}]({picture})"
+        path.write_text(put_between(path.read_text(encoding="utf-8"), inside), encoding="utf-8")
     return 0
 
 

@@ -18,6 +18,7 @@ from truck_blowout_sim.proof.seal import check_seals
 from truck_blowout_sim.proof.short import short_table
 from truck_blowout_sim.proof.summary import null_floor, summarize
 from truck_blowout_sim.proof.table import markdown
+from truck_blowout_sim.proof.worlds import seen_effects
 from truck_blowout_sim.recordings.atomic import replacing
 
 Figures = dict[str, Any]
@@ -42,6 +43,10 @@ def score_run(cases: Sequence[Case], lines: Mapping[str, Mapping[str, Any]], out
     figures["code"] = sorted({str(lines[case].get("code")) for case in truths})
     found, uniform = rows(scores, truths), uniformity(scores)
     figures["rows"], figures["null_p_values_uniform"] = as_json(found), uniform
+    figures["seen"] = seen_effects([
+        (cause.name, cause.sigma_b, scored.aliased) for score in scores
+        for scored, cause in zip(score.causes, truths[score.case].causes, strict=True)
+        if cause.kind == "physics" and score.group in ("single", "pair")])
     figures["each"] = [asdict(score) for score in scores]
     out.mkdir(parents=True, exist_ok=True)
     _write(out / "proof.json", json_text(figures))

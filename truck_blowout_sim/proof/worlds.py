@@ -1,0 +1,93 @@
+"""The proof over several worlds side by side: one table, and power against sigma_b.
+
+Validated with: test/proof/test_worlds.py.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from truck_blowout_sim.proof.statistics import Proportion, proportion
+from truck_blowout_sim.report.style import CYCLE, Picture, new_axes, styled
+
+Figures = Mapping[str, Any]
+BINS = (2.0, 6.0, 15.0, 40.0)  # of sigma_b; the last has no end
+# sought in W1, W2, W3 and W4, by the words of `rows.py`
+SOUGHT: Mapping[str, tuple[str, str, str, str]] = {
+    "false alarms, nothing missing": ("≤ 2 %",) * 4,
+    "effects seen by an ideal detector, among the causes named":
+        ("≥ 92 %", "≥ 88 %", "≥ 85 %", "≥ 80 %"),
+    "a wrong name stated, something missing": ("≤ 3 %", "≤ 4 %", "≤ 5 %", "≤ 4 %"),
+    "of no list: unknown": ("≥ 85 %", "≥ 80 %", "≥ 70 %", "≥ 60 %"),
+    "both of a pair": ("≥ 75 %", "≥ 70 %", "", ""),
+    "instrument told from truck": ("≥ 98 %", "≥ 97 %", "≥ 95 %", "≥ 93 %"),
+    "90 % intervals of amounts hold the truth": ("85–95 %",) * 4,
+    "90 % intervals of onsets hold the truth": ("85–95 %",) * 4,
+    "holdout better": ("≥ 97 %", "≥ 95 %", "≥ 95 %", "≥ 90 %"),
+}
+_UNIFORM = "p-values of nulls uniform (Kolmogorov-Smirnov)"
+
+
+def worlds_table(figures: Mapping[str, Figures]) -> str:
+    """What was sought and reached in each world, a Markdown row each.
+
+    ``figures``: of ``proof.json``, by world (``w1`` to ``w4``).
+    """
+    names = list(figures)
+    reached = {world: {row["row"]: row for row in one["rows"]} for world, one in figures.items()}
+    lines = ["| | " + " | ".join(f"{w.upper()} sought | reached" for w in names) + " |",
+             "|---" * (1 + 2 * len(names)) + "|"]
+    for row in next(iter(reached.values()), {}):
+        cells = []
+        for world in names:
+            entry = reached[world].get(row, {"hits": 0, "trials": 0})
+            cells += [SOUGHT.get(row, ("",) * 4)[int(world[1]) - 1],
+                      str(Proportion(entry["hits"], entry["trials"]))]
+        lines.append(f"| {row} | " + " | ".join(cells) + " |")
+    told = [one["null_p_values_uniform"] for one in figures.values()]
+    lines.append(f"| {_UNIFORM} | " + " | ".join(
+        f" | {'–' if p is None else f'{p:.2g}'}" for p in told) + " |")
+    return "\n".join(lines)
+
+
+def power(figures: Mapping[str, Figures]) -> dict[str, list[tuple[float, Proportion]]]:
+    """Of each world, for each bin of sigma_b its lower end and how many effects were named."""
+    found = {}
+    for world, one in figures.items():
+        seen = [(float(e["sigma_b"]), bool(e["named"])) for e in one["seen"]]
+        ends = (*BINS[1:], np.inf)
+        found[world] = [(low, proportion(named for size, named in seen if low <= size < high))
+                        for low, high in zip(BINS, ends, strict=True)]
+    return found
+
+
+@styled
+def draw_power_by_world(figures: Mapping[str, Figures]) -> Picture:
+    """Share of effects named against what an ideal detector sees, a curve for each world."""
+    figure, axes = new_axes(x="sigma_b: what an ideal detector sees", y="share of effects named")
+    place = np.arange(len(BINS), dtype=np.float64)
+    for k, (world, bins) in enumerate(power(figures).items()):
+        there = [(j, p) for j, (_, p) in enumerate(bins) if p.trials]
+        at = place[[j for j, _ in there]] + 0.08 * (k - 0.5 * (len(figures) - 1))
+        values = np.array([p.hits / p.trials for _, p in there])
+        ends = np.array([p.interval for _, p in there]).reshape(-1, 2)
+        arms = np.maximum(np.stack([values - ends[:, 0], ends[:, 1] - values]), 0.0)
+        axes.errorbar(at, values, yerr=arms, marker="o", capsize=3, color=CYCLE[k],
+                      label=f"{world.upper()} ({sum(p.trials for _, p in there)} effects)")
+    axes.set_xticks(place, [_words(k) for k in range(len(BINS))])
+    axes.set_ylim(-0.03, 1.03)
+    axes.legend(loc="upper left")
+    return Picture("power", "Power", "Bars: 95 % Wilson intervals.", figure)
+
+
+def _words(k: int) -> str:
+    return f"{BINS[k]:g}–{BINS[k + 1]:g}" if k + 1 < len(BINS) else f"≥ {BINS[k]:g}"
+
+
+def seen_effects(causes: Sequence[tuple[str, float | None, bool]]) -> list[dict[str, Any]]:
+    """Effects whose sigma_b was measured, as plain objects."""
+    return [{"name": name, "sigma_b": size, "named": named}
+            for name, size, named in causes if size is not None]
