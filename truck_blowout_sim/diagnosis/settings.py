@@ -157,7 +157,7 @@ def _stated(packed: Packed, spreads: Mapping[str, float], kind: str,
     What is stated of an axle says nothing about how its two hubs differ.
     """
     names = {name for name, _ in targets}
-    told = [name for name in names & spreads.keys() if not name.startswith("hub.")
+    told = [name for name in sorted(names & spreads.keys()) if not name.startswith("hub.")
             or {name.replace("_left.", "_right."), name.replace("_right.", "_left.")} <= names]
     sizes = [spreads[name] / (abs(packed[name]) or 1.0) if kind == "scale" else spreads[name]
              for name in told]
