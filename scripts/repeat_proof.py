@@ -9,7 +9,6 @@ close to its limit may differ.
 
 from __future__ import annotations
 
-import csv
 import subprocess
 import sys
 from pathlib import Path
@@ -17,12 +16,12 @@ from pathlib import Path
 from rich.console import Console
 from rich.table import Table
 
+from proving_ground.worlds import FIRST_SEED
 from truck_blowout_sim.errors import InputError
-from truck_blowout_sim.proof.published import Repeat, repeats
+from truck_blowout_sim.proof.published import Repeat, cases_in, repeats
 
 ROOT = Path(__file__).resolve().parents[1]
 WORLDS = ("w1", "w2", "w3")
-FIRST = {"w1": 2_000_000, "w2": 3_000_000, "w3": 4_000_000}  # `w3-4480168` is number 480168
 
 
 def published(world: str) -> Path:
@@ -32,9 +31,8 @@ def published(world: str) -> Path:
 
 def numbers(world: str, count: int) -> range:
     """The first published cases of a world, by number."""
-    with published(world).open(encoding="utf-8", newline="") as file:
-        cases = [row["case"] for row in csv.DictReader(file)]
-    first = min(int(case.partition("-")[2]) for case in cases) - FIRST[world]
+    cases = cases_in(published(world))
+    first = min(int(case.partition("-")[2]) for case in cases) - FIRST_SEED[world]
     return range(first, first + min(count, len(cases)))
 
 

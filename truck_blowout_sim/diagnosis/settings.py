@@ -112,8 +112,9 @@ def load_settings(packed: Packed, name: str = "default") -> Settings:
     method_keys = {f.name for f in fields(Settings)} - {
         "nuisances", "channels", "forms", "without"}
     check_keys(path, "method", tree["method"], method_keys, method_keys)
+    stated = packed_spreads(packed)
     nuisances = [number for key, entry in tree["sheet"].items()
-                 for number in _numbers(path, key, entry, packed)]
+                 for number in _numbers(path, key, entry, packed, stated)]
     method: dict[str, Any] = {key: number_at(path, f"method.{key}", entry, "value")
                               for key, entry in tree["method"].items()}
     channels = {key: _rule(path, key, entry) for key, entry in tree["channels"].items()}
@@ -123,8 +124,9 @@ def load_settings(packed: Packed, name: str = "default") -> Settings:
     return Settings(tuple(nuisances), channels, forms=forms, **method)
 
 
-def _numbers(path: Path, key: str, entry: Mapping[str, Any], packed: Packed) -> list[Nuisance]:
-    """One number for each part of the vehicle in one of its roles."""
+def _numbers(path: Path, key: str, entry: Mapping[str, Any], packed: Packed,
+             stated: Mapping[str, float]) -> list[Nuisance]:
+    """One number for each part of the vehicle in one of its roles; ``stated``: spreads."""
     where = f"sheet.{key}"
     check_keys(path, where, entry, _NUMBER_KEYS, {"for", "kind", "step", "targets"})
     check_keys(path, f"{where}.for", entry["for"], set(ROLES))
@@ -136,7 +138,6 @@ def _numbers(path: Path, key: str, entry: Mapping[str, Any], packed: Packed) -> 
     sign = number_at(path, where, {"sign": 1.0, **entry}, "sign")
     times = packed[_known(path, where, packed, entry["times"])] if "times" in entry else 1.0
     step, found = number_at(path, where, entry, "step") * times, []
-    stated = packed_spreads(packed)
     for role in entry["for"]:
         sigma = number_at(path, f"{where}.for", entry["for"], role) * times
         for part in parts_of(packed.vehicle, role):

@@ -50,6 +50,15 @@ def repeats(run: Path, published: Path) -> list[Repeat]:
     return found
 
 
+def cases_in(path: Path) -> list[str]:
+    """Names of the cases of a ``cases.csv``, in its order.
+
+    Raises:
+        InputError: the file is missing or no such table.
+    """
+    return list(_rows(path))
+
+
 def _answer(row: Mapping[str, str]) -> str:
     return ": ".join(row[key] for key in _ANSWER if row[key])
 
