@@ -188,6 +188,11 @@ def _height(unit: str) -> Channel:
     )  # fmt: skip
 
 
+def hub_of(channel: str) -> str:
+    """The hub's name in ``hub_speed_<hub>_radps``."""
+    return channel.removeprefix("hub_speed_").removesuffix("_radps")
+
+
 def _hub_speed(hub: str) -> Channel:
     place = Place("joint_states", JOINT_STATE, f"velocity[{hub}_spin]")
     return Channel(

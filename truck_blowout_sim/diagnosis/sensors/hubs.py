@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 from truck_blowout_sim.diagnosis.sensors.geometry import Geometry
 from truck_blowout_sim.diagnosis.sensors.identities import Identity, channel_names
 from truck_blowout_sim.diagnosis.sensors.signals import Signals, smoothed
+from truck_blowout_sim.recordings.channels import hub_of
 
 FloatArray = NDArray[np.float64]
 BoolArray = NDArray[np.bool_]
@@ -38,11 +39,6 @@ def hub_channels(signals: Signals, unit: str) -> tuple[str, ...]:
     names = [n for n in signals.values if n.startswith("hub_speed_")]
     mine = [n for n in names if hub_of(n).startswith("trailer") == (unit == "trailer")]
     return tuple(n for n in mine if not hub_of(n).startswith("drive"))
-
-
-def hub_of(channel: str) -> str:
-    """The hub's name in ``hub_speed_<hub>_radps``."""
-    return channel.removeprefix("hub_speed_").removesuffix("_radps")
 
 
 def free_rolling(signals: Signals, unit: str) -> BoolArray:

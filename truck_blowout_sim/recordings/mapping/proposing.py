@@ -20,6 +20,7 @@ from truck_blowout_sim.recordings.channels import (
     Channel,
     by_name,
     channels_for,
+    hub_of,
 )
 from truck_blowout_sim.recordings.logs.log import Column, Log
 from truck_blowout_sim.recordings.logs.vbo_log import KIND as VBO_KIND
@@ -79,16 +80,15 @@ class Wheels:
 
     def named(self, channel: str) -> str:
         """A hub's channel by this vehicle's name of the hub; empty where it has no such axle."""
-        hub = channel.removeprefix("hub_speed_").removesuffix("_radps")
-        if hub == channel or hub not in DEFAULT_HUBS:
+        hub = hub_of(channel)
+        if hub not in DEFAULT_HUBS:
             return channel
         at = DEFAULT_HUBS.index(hub)
         return f"hub_speed_{self.hubs[at]}_radps" if at < len(self.hubs) else ""
 
-    def radius_of(self, channel: str) -> float:
-        """Radius of the wheel that a hub's channel is of."""
-        return self.radius_m[self.hubs.index(
-            channel.removeprefix("hub_speed_").removesuffix("_radps"))]
+    def radius_of(self, hub: str) -> float:
+        """Radius of a hub's wheel."""
+        return self.radius_m[self.hubs.index(hub)]
 
 
 def propose(log: Log, taken: Mapping[str, object] | None = None, wheels: Wheels | None = None
@@ -193,7 +193,7 @@ def _of_wheel(name: str, unit: Unit | None, column: Column, channel: Channel, wh
     if unit.quantity != "speed":
         return None
     why = (*why, f"radius of {wheels.source}: take the one that the logger multiplies by")
-    return Proposal(name, channel.name, stated, why=why, radius_m=wheels.radius_of(channel.name))
+    return Proposal(name, channel.name, stated, why=why, radius_m=wheels.radius_of(channel.part))
 
 
 def _west_positive(proposal: Proposal) -> Proposal:
