@@ -10,6 +10,7 @@ from truck_blowout_sim.errors import InputError
 
 PACKAGE = "truck_blowout_sim"
 _SIMILAR = 0.5
+_SETTINGS = {"diagnosis": "settings"}  # a folder whose name is no plural
 
 
 def config_dir() -> Path:
@@ -49,7 +50,7 @@ def config_file(kind: str, name: str | os.PathLike[str]) -> Path:
     names = config_names(kind)
     near = get_close_matches(text.lower(), names, n=1, cutoff=_SIMILAR)
     raise InputError(
-        f"no {kind.removesuffix('s')} of the name {text!r} and no such file"
+        f"no {_SETTINGS.get(kind, kind.removesuffix('s'))} of the name {text!r} and no such file"
         + (f" (did you mean {near[0]!r}?)" if near else ""),
         expected=f"a path or one of: {', '.join(names) or 'none shipped'}",
     )

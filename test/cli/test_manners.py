@@ -5,11 +5,38 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 
 from truck_blowout_sim.cli.listing import listing, names_of
 from truck_blowout_sim.cli.main import main
+
+
+@pytest.mark.parametrize(("verb", "shown"), [
+    ("sweep", "blowout_in_lane"), ("compare", "test_2013_steer_blowout"),
+    ("diagnose", "rebuilt_record"), ("calibrate", "rigid_truck"), ("view", "East Liberty"),
+])  # fmt: skip
+def test_every_verb_that_takes_shipped_names_lists_them(
+    verb: str, shown: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main([verb, "--list"]) == 0
+    assert shown in capsys.readouterr().out
+
+
+def test_a_pipe_gets_the_error_line_and_nothing_else(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["compare", "no_such_recording", "-o", str(tmp_path)]) == 2
+    assert len(capsys.readouterr().err.splitlines()) == 1
+
+
+def test_a_sweep_in_which_every_run_fails_is_refused(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    study = ["--vary", "blowouts.failure.tires=steer_lft", "-o", str(tmp_path)]
+    assert main(["sweep", "blowout_in_lane", *study]) == 2
+    assert "did you mean 'steer_left'?" in capsys.readouterr().out
 
 
 def test_list_shows_shipped_files_with_titles(capsys: pytest.CaptureFixture[str]) -> None:
@@ -24,11 +51,12 @@ def test_list_shows_shipped_files_with_titles(capsys: pytest.CaptureFixture[str]
     (["run", "ster_axle_blowout"], "steer_axle_blowout"),
     (["vehicle", "rigid_trck"], "rigid_truck"),
     (["run", "coast_down", "--vehicle", "ferari"], "ferrari_250lm"),
+    (["diagnose", "test_2013_steer_blowout", "--settings", "rebuild_record"], "rebuilt_record"),
 ])  # fmt: skip
 def test_a_typo_is_answered_with_the_nearest_name(
-    words: list[str], near: str, capsys: pytest.CaptureFixture[str]
+    words: list[str], near: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    assert main(words) == 2
+    assert main([*words, *(["-o", str(tmp_path)] if words[0] == "diagnose" else [])]) == 2
     assert f"did you mean '{near}'?" in capsys.readouterr().err
 
 
@@ -36,6 +64,9 @@ def test_a_typo_is_answered_with_the_nearest_name(
     ("truck-blowout va", 1, "validate"),
     ("truck-blowout run steer_a", 2, "steer_axle_blowout"),
     ("truck-blowout compare --impose-s", 2, "--impose-speed"),
+    ("truck-blowout compare test_20", 2, "test_2013_steer_blowout"),
+    ("truck-blowout sweep fish", 2, "fishhook"),
+    ("truck-blowout diagnose log.csv --settings r", 4, "rebuilt_record"),
 ])  # fmt: skip
 def test_the_shell_completes_verbs_names_and_options(line: str, word: int, completed: str) -> None:
     done = subprocess.run(

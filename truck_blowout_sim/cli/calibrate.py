@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -10,6 +11,7 @@ import typer
 from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 
+from truck_blowout_sim.cli.listing import list_option, names_of
 from truck_blowout_sim.cli.outputs import FORCE, JSON, claim, say
 from truck_blowout_sim.cli.reading import AS_IT_IS, LogOptions, check_brakes, reads_logs, say_notes
 
@@ -25,22 +27,25 @@ _MOST_CHANNELS = 12
 def command(
     recordings: list[Path] = typer.Argument(
         help="Runs in which nothing is missing: bags, any log with a mapping, or the name of a"
-        " shipped recording."
+        " shipped recording.", autocompletion=names_of("recordings"),
     ),
     holdout: list[Path] = typer.Option(
         [], "--holdout", help="Runs that are predicted only, never fitted."
     ),
     vehicle: str = typer.Option(
-        "international_9400i_trailmobile", help="Vehicle file to start from, by name or path."
+        "international_9400i_trailmobile", help="Vehicle file to start from, by name or path.",
+        autocompletion=names_of("vehicles"),
     ),
     output: Path = typer.Option(..., "-o", "--output", help="Vehicle file to write, .yaml."),
     settings: str = typer.Option(
-        "default", help="File in config/diagnosis: spread of each number between trucks."
+        "default", help="File in config/diagnosis: spread of each number between trucks.",
+        autocompletion=names_of("settings"),
     ),
     impose_speed: bool | None = typer.Option(
         None, "--impose-speed/--no-impose-speed",
         help="Follow the recorded speed. By default only where throttle or brakes are missing."
     ),
+    listed: bool = list_option("recordings", "vehicles", "settings"),
     logs: LogOptions = AS_IT_IS,
     force: bool = FORCE,
     as_json: bool = JSON,
@@ -81,7 +86,8 @@ def say_roles(roles: dict[str, Sequence[Recording]]) -> None:
 
 def _progress() -> Progress:
     columns = (TextColumn("{task.description:<24.24}"), BarColumn(), TimeElapsedColumn())
-    return Progress(*columns, console=Console(stderr=True), transient=True)
+    return Progress(*columns, console=Console(stderr=True), transient=True,
+                    disable=not sys.stderr.isatty())
 
 
 def lines(found: Calibration, output: Path) -> Iterator[str]:

@@ -13,6 +13,7 @@ from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 from rich.table import Table
 
+from truck_blowout_sim.cli.listing import list_option, names_of
 from truck_blowout_sim.cli.outputs import FORCE, JSON, YES, ask_about, claim, say
 from truck_blowout_sim.cli.reading import AS_IT_IS, LogOptions, reads_logs
 from truck_blowout_sim.errors import InputError
@@ -35,9 +36,11 @@ def command(
     recordings: list[str] = typer.Argument(
         help="Bags, .mcap, .csv or .mat files, or the name of a shipped one:"
         " test_2013_steer_blowout.",
+        autocompletion=names_of("recordings"),
     ),
     vehicle: str = typer.Option(
-        "international_9400i_trailmobile", help="Vehicle file, by name or path."
+        "international_9400i_trailmobile", help="Vehicle file, by name or path.",
+        autocompletion=names_of("vehicles"),
     ),
     output: Path = typer.Option(
         Path("comparison"),
@@ -62,6 +65,7 @@ def command(
         False, "--hve", help="Of a .mat with the thesis's variables: compare HVE's run (_h) with"
         " the test too; a second page in the folder hve/."
     ),
+    listed: bool = list_option("recordings", "vehicles"),
     logs: LogOptions = AS_IT_IS,
     yes: bool = YES,
     force: bool = FORCE,
@@ -172,7 +176,8 @@ def _console() -> Console:
 
 def _progress() -> Progress:
     columns = (TextColumn("{task.description:<45.45}"), BarColumn(), TimeElapsedColumn())
-    return Progress(*columns, console=Console(stderr=True), transient=True)
+    return Progress(*columns, console=Console(stderr=True), transient=True,
+                    disable=not sys.stderr.isatty())
 
 
 def _print(console: Console, compared: Comparison, page: Path) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import sys
 import time
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
@@ -13,6 +14,7 @@ from rich.console import Console
 from rich.progress import BarColumn, Progress, TaskID, TextColumn, TimeElapsedColumn
 
 from truck_blowout_sim.cli.failures import interruptible
+from truck_blowout_sim.cli.listing import list_option, names_of
 from truck_blowout_sim.cli.outputs import FORCE, JSON, claim, say
 from truck_blowout_sim.cli.reading import AS_IT_IS, LogOptions, check_brakes, reads_logs, say_notes
 
@@ -29,7 +31,8 @@ _QUICK_PANELS = 3
 _FAR = 3.0  # prior sigmas from the sheet, beyond which a number is told
 _OF_SENSITIVITIES = 25.0  # as many times as long take four effects
 SETTINGS: Any = typer.Option(
-    "default", help="File in config/diagnosis: what is assumed of trucks and instruments."
+    "default", help="File in config/diagnosis: what is assumed of trucks and instruments.",
+    autocompletion=names_of("settings"),
 )
 IMPOSE_SPEED: Any = typer.Option(
     None, "--impose-speed/--no-impose-speed",
@@ -54,7 +57,8 @@ THOROUGH: Any = typer.Option(
 @reads_logs
 def command(
     recordings: list[Path] = typer.Argument(
-        help="Training recordings: bags, any log with a mapping, or the name of a shipped one."
+        help="Training recordings: bags, any log with a mapping, or the name of a shipped one.",
+        autocompletion=names_of("recordings"),
     ),
     baseline: list[Path] = typer.Option(
         [], "--baseline", help="Runs of the same truck without the effect."
@@ -63,7 +67,8 @@ def command(
         [], "--holdout", help="Runs that are predicted only, never fitted."
     ),
     vehicle: str = typer.Option(
-        "international_9400i_trailmobile", help="Vehicle file of the model, by name or path."
+        "international_9400i_trailmobile", help="Vehicle file of the model, by name or path.",
+        autocompletion=names_of("vehicles"),
     ),
     output: Path = typer.Option(
         ..., "-o", "--output", help="Folder for diagnosis.json, report.html and vehicle.yaml."
@@ -74,6 +79,7 @@ def command(
     quick: bool = QUICK,
     thorough: bool = THOROUGH,
     corrected: Path | None = CORRECTED,
+    listed: bool = list_option("recordings", "vehicles", "settings"),
     logs: LogOptions = AS_IT_IS,
     force: bool = FORCE,
     as_json: bool = JSON,
@@ -151,7 +157,8 @@ def _say_roles(train: Sequence[Recording], base: Sequence[Recording], hold: Sequ
 
 def _progress() -> Progress:
     columns = (TextColumn("{task.description:<20.20}"), BarColumn(), TimeElapsedColumn())
-    return Progress(*columns, console=Console(stderr=True), transient=True)
+    return Progress(*columns, console=Console(stderr=True), transient=True,
+                    disable=not sys.stderr.isatty())
 
 
 def _reporter(progress: Progress, task: TaskID, foretell: bool) -> Callable[[str, float], None]:

@@ -12,6 +12,7 @@ import typer
 from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn
 
+from truck_blowout_sim.cli.listing import names_of
 from truck_blowout_sim.cli.outputs import FORCE, JSON, claim, say
 from truck_blowout_sim.cli.reading import AS_IT_IS, LogOptions, reads_logs, say_notes
 from truck_blowout_sim.comparison.units import AXES, SYSTEMS
@@ -32,7 +33,8 @@ _FIRST = (
 @reads_logs
 def command(
     runs: list[str] = typer.Argument(
-        None, help="Bags, .mcap, .csv or .mat files, or the name of a shipped recording; overlaid."
+        None, help="Bags, .mcap, .csv or .mat files, or the name of a shipped recording; overlaid.",
+        autocompletion=names_of("recordings"),
     ),
     channels: list[str] = typer.Option(
         [], "--channels", "-c", help="A channel a panel; + joins channels in one panel; * and ?"
@@ -62,7 +64,7 @@ def command(
     for words, known, option in ((units, SYSTEMS, "--units"), (axes, AXES, "--axes"),
                                  *((form, _FORMATS, "--format") for form in forms)):
         if words not in known:
-            raise InputError(f"{option} {quoted(words)}", expected=nearest(words, known))
+            raise InputError(f"{option} {quoted(words)}", expected=" or ".join(known))
     if thesis:
         from truck_blowout_sim.cli.plot_thesis import plot_thesis
 

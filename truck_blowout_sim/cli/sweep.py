@@ -11,7 +11,8 @@ import typer
 from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
-from truck_blowout_sim.cli.failures import interruptible
+from truck_blowout_sim.cli.failures import REFUSED, interruptible
+from truck_blowout_sim.cli.listing import list_option, names_of
 from truck_blowout_sim.cli.outputs import FORCE, JSON, YES, claim, say
 
 if TYPE_CHECKING:
@@ -23,7 +24,9 @@ _CONTINUES = "the same command goes on from here"
 
 
 def command(
-    scenario: str = typer.Argument(help="Name of a shipped scenario, or a YAML file."),
+    scenario: str = typer.Argument(
+        help="Name of a shipped scenario, or a YAML file.", autocompletion=names_of("scenarios")
+    ),
     vary: list[str] = typer.Option(
         ..., "--vary", metavar="KEY=VALUES",
         help="Values a,b,c or lo:hi:n of any key of the scenario, vehicle, tire, blowout or road "
@@ -39,7 +42,8 @@ def command(
     ),
     seed: int = typer.Option(1, "--seed", help="Seed of the random sample."),
     vehicle: str = typer.Option(
-        "international_9400i_trailmobile", help="Name of a shipped vehicle, or a YAML file."
+        "international_9400i_trailmobile", help="Name of a shipped vehicle, or a YAML file.",
+        autocompletion=names_of("vehicles"),
     ),
     channels: list[str] = typer.Option(
         [], "--channels", "-c", metavar="C",
@@ -54,6 +58,7 @@ def command(
         "", "--scheduler", metavar="ADDRESS",
         help="Run on the Dask cluster of this scheduler, e.g. tcp://host:8786 (extra: dask)."
     ),
+    listed: bool = list_option("scenarios", "vehicles"),
     yes: bool = YES,
     force: bool = FORCE,
     as_json: bool = JSON,
@@ -78,6 +83,8 @@ def command(
         page, found = write_sweep_report(batch, [axis.key for axis in plan.axes],
                                          load_scenario(scenario).title, _command(plan), output)
     _tell(found, output, page, as_json=as_json)
+    if set(found.counts) == {"failed"}:
+        raise typer.Exit(REFUSED)
 
 
 def _tell(found: Findings, output: Path, page: Path, *, as_json: bool) -> None:

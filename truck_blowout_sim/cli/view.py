@@ -13,9 +13,10 @@ from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 
 from truck_blowout_sim.cli.drawn_vehicle import vehicle_of
+from truck_blowout_sim.cli.listing import list_option, names_of
 from truck_blowout_sim.cli.outputs import FORCE, JSON, claim, say
 from truck_blowout_sim.cli.reading import AS_IT_IS, LogOptions, reads_logs, say_notes
-from truck_blowout_sim.errors import InputError, nearest, quoted
+from truck_blowout_sim.errors import InputError, quoted
 from truck_blowout_sim.recordings import Recording
 
 if TYPE_CHECKING:
@@ -28,24 +29,28 @@ _VIEWS = ("chase", "front left", "front right", "side", "top", "driver")
 def command(
     runs: list[str] = typer.Argument(
         help="Bags, .mcap, .csv or .mat files, or the name of a shipped recording. The first run"
-        " is drawn solid, further ones as ghosts or side by side."
+        " is drawn solid, further ones as ghosts or side by side.",
+        autocompletion=names_of("recordings"),
     ),
     output: Path | None = typer.Option(
         None, "-o", "--output", help="HTML file to write; the first run's name by default."
     ),
     vehicle: str | None = typer.Option(
-        None, help="Vehicle file to draw, by name or path; by default the one the run names."
+        None, help="Vehicle file to draw, by name or path; by default the one the run names.",
+        autocompletion=names_of("vehicles"),
     ),
     video: Path | None = typer.Option(
         None, help="Film to write too, .mp4; needs ffmpeg and Chromium or Chrome."
     ),
-    camera: str = typer.Option("chase", help=f"Camera of the film: {', '.join(_VIEWS)}."),
+    camera: str = typer.Option("chase", help=f"Camera of the film: {', '.join(_VIEWS)}.",
+                               autocompletion=lambda: list(_VIEWS)),
     start_s: float | None = typer.Option(None, "--start", help="Start of the film, s."),
     end_s: float | None = typer.Option(None, "--end", help="End of the film, s."),
     speed: float = typer.Option(1.0, min=0.01, max=100.0,
                                 help="Seconds of the run per second of the film."),
     dark: bool = typer.Option(False, "--dark", help="Film in dark colors."),
     open_page: bool = typer.Option(False, "--open", help="Open the page in the browser."),
+    listed: bool = list_option("recordings", "vehicles"),
     logs: LogOptions = AS_IT_IS,
     force: bool = FORCE,
     as_json: bool = JSON,
@@ -87,7 +92,7 @@ def command(
 
 def _check_view(camera: str) -> None:
     if camera not in _VIEWS:
-        raise InputError(f"--camera {quoted(camera)}", expected=nearest(camera, _VIEWS))
+        raise InputError(f"--camera {quoted(camera)}", expected=", ".join(_VIEWS))
 
 
 def _shown(recording: Recording, wanted: str | None) -> RunToShow:
