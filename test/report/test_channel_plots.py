@@ -62,6 +62,16 @@ def test_another_channel_may_stand_on_the_horizontal_axis() -> None:
     assert lines(over)[0].get_xdata()[-1] == pytest.approx(80.0)
 
 
+def test_a_ring_under_the_curve_marks_the_blowout_over_another_channel() -> None:
+    axes = channel_plot([RUN], PlotRequest(YAW.panels, over="tractor_x_m", units="si"),
+                        "plot").figure.axes[0]  # fmt: skip
+    curve, ring = axes.lines
+    burst_s = RUN.blowouts[0].time_s
+    assert ring.get_xdata() == pytest.approx([RUN.at("tractor_x_m", np.array([burst_s]))[0]])
+    assert ring.get_zorder() < curve.get_zorder()
+    assert axes.texts[0].get_text() == "blown: steer_left"
+
+
 def test_every_format_is_written_and_dark_paper_is_dark(tmp_path: Path) -> None:
     words = ["plot", RECORD, "-c", "tractor_vx_mps", "steering_wheel_angle_rad", "--format", "png",
              "svg", "pdf", "--dark", "-o", str(tmp_path)]

@@ -60,6 +60,17 @@ def test_every_vehicle_has_its_pictures(name: str) -> None:
     assert "tires" in names
 
 
+def test_no_label_is_cut_off(vehicle: Vehicle) -> None:
+    run = drive()
+    for picture in run_pictures(run, motion_of(run, vehicle), vehicle):
+        picture.figure.draw_without_rendering()
+        paper = picture.figure.bbox
+        for axes in picture.figure.axes:
+            label = axes.yaxis.label.get_window_extent()
+            assert paper.y0 <= label.y0, (picture.name, label)
+            assert label.y1 <= paper.y1, (picture.name, label)
+
+
 def test_the_page_says_the_result_and_needs_no_other_file(tmp_path: Path, vehicle: Vehicle) -> None:
     run = drive()
     page = write_run_page(run, motion_of(run, vehicle), vehicle, "it stayed <in> its lane",

@@ -1,7 +1,8 @@
 """Plots of any channel of any run, overlaid.
 
 A panel shows one channel of several runs (a color each), or several channels (a color each, a dash
-for each further run). The blowout is a thin line under the curves with its name above the panel.
+for each further run). The blowout is a thin line under the curves with its name above the panel;
+over another channel than time it is a ring around the point of the curve.
 
 Validated with: test/report/test_channel_plots.py.
 """
@@ -12,6 +13,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
 from matplotlib.axes import Axes
 
 from truck_blowout_sim.comparison.units import axes_sign, display_unit
@@ -78,6 +80,8 @@ def _panel(axes: Axes, runs: Sequence[Recording], channels: Sequence[str], reque
             axes.plot(x, y, color=CYCLE[(c if several else r) % len(CYCLE)],
                       linestyle=_DASHES[r % len(_DASHES)],
                       label=", ".join(words) or channel, zorder=3)  # fmt: skip
+            if request.over != TIME:
+                _ring(axes, run, channel, request)
     axes.set_ylabel(_label(runs, channels[0], request) if len(channels) == 1
                     else _symbols(channels, request))
     if len(channels) > 1 or len(runs) > 1:
@@ -85,16 +89,37 @@ def _panel(axes: Axes, runs: Sequence[Recording], channels: Sequence[str], reque
 
 
 def _values(run: Recording, channel: str, request: PlotRequest) -> tuple[Any, Any]:
-    series = run[channel]
-    start = run.start_s if request.start_s is None else request.start_s
-    end = run.end_s if request.end_s is None else request.end_s
-    series = series.between(start, end)
-    y = series.value * display_unit(channel, request.units).per_si
-    y = y * axes_sign(channel, request.axes)
+    series = run[channel].between(*_span(run, request))
+    y = _shown(channel, series.value, request)
     if request.over == TIME:
         return series.time_s, y
-    across = run.at(request.over, series.time_s) * display_unit(request.over, request.units).per_si
-    return across * axes_sign(request.over, request.axes), y
+    return _shown(request.over, run.at(request.over, series.time_s), request), y
+
+
+def _span(run: Recording, request: PlotRequest) -> tuple[float, float]:
+    return (run.start_s if request.start_s is None else request.start_s,
+            run.end_s if request.end_s is None else request.end_s)
+
+
+def _shown(channel: str, values: Any, request: PlotRequest) -> Any:  # noqa: ANN401
+    """Values of a channel in the units and axes that were asked for."""
+    return values * (display_unit(channel, request.units).per_si
+                     * axes_sign(channel, request.axes))
+
+
+def _ring(axes: Axes, run: Recording, channel: str, request: PlotRequest) -> None:
+    """Blowouts on a curve over another channel than time: a ring around the point, named."""
+    start_s, end_s = _span(run, request)
+    for event in run.blowouts:
+        if not start_s <= event.time_s <= end_s:
+            continue
+        x, y = (float(_shown(name, run.at(name, np.array([event.time_s])), request)[0])
+                for name in (request.over, channel))
+        axes.plot(x, y, "o", markersize=9, markerfacecolor="none", markeredgecolor=EVENT,
+                  zorder=1)  # fmt: skip
+        axes.annotate("blown: " + ", ".join(event.tires), (x, y), xytext=(0, 9),
+                      textcoords="offset points", ha="center", va="bottom", color=EVENT,
+                      fontsize=8)  # fmt: skip
 
 
 def _label(runs: Sequence[Recording], channel: str, request: PlotRequest) -> str:

@@ -130,8 +130,8 @@ def _path(run: Recording, motion: Motion, vehicle: Vehicle) -> Picture:
         draw_above(scale, vehicle, motion, k, arrows=False, turn_rad=-yaw, center=(x0, y0))
     scale.margins(0.02, 0.15)
     scale.set_aspect("equal", adjustable="datalim")
-    scale.set_ylabel("to the left (m)")
-    stretched.set(xlabel="along the first heading (m)", ylabel="to the left (m), stretched")
+    scale.set_ylabel("left (m)")
+    stretched.set(xlabel="along the first heading (m)", ylabel="left (m), stretched")
     stretched.legend(loc="best")
     return Picture("path", "Path", "Above to scale, with the truck at the five instants; below the"
                    " same with the side stretched.", figure)  # fmt: skip

@@ -69,6 +69,12 @@ def blowout_line(axes: Axes, time_s: float, words: str = "blowout") -> None:
                       fontsize=8)  # fmt: skip
 
 
+def remark(axes: Axes, words: str) -> None:
+    """A sentence above the panel, at its right, where no curve runs."""
+    axes.annotate(words, (1.0, 1.0), xycoords="axes fraction", xytext=(0, 3),
+                  textcoords="offset points", ha="right", va="bottom", fontsize=8)
+
+
 def legend(axes: Axes, where: Literal["best", "upper left"] = "best") -> None:
     """Curves by name."""
     if axes.get_legend_handles_labels()[0]:

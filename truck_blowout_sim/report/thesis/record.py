@@ -17,6 +17,7 @@ from truck_blowout_sim.report.thesis.canvas import (
     canvas,
     curve,
     legend,
+    remark,
     shifted_path,
     stated_points,
 )
@@ -58,8 +59,7 @@ def record_path(data: ThesisData, stated: str) -> Figure:
     axes.plot(x, -y, color=MEASURED, label=_RECORD)
     axes.axhspan(-16.5, -15.5, **BAND)
     axes.axvline(1053.0, color=BAND["color"], linewidth=4, alpha=0.3, zorder=0.5)
-    axes.annotate("1,053 ft, about 16 ft (side not stated)", (0.5, 0.03), xycoords="axes fraction",
-                  fontsize=8, ha="center")  # fmt: skip
+    remark(axes, "1,053 ft, about 16 ft (side not stated)")
     axes.set_ylim(20, -20)
     axes.set(xlabel="along the skid pad (ft)", ylabel="across (ft), right positive, downward")
     legend(axes)
@@ -104,8 +104,7 @@ def lateral_speed(data: ThesisData, stated: str) -> Figure:
     figure, (axes,) = canvas(stated)
     for run, name, color in _runs(data):
         curve(axes, run, "tractor_vy_mps", name, color, axes_kind="sae")
-    axes.annotate("the rebuilt record has no lateral speed: no error can be drawn",
-                  (0.5, 0.02), xycoords="axes fraction", ha="center", fontsize=8)  # fmt: skip
+    remark(axes, "the rebuilt record has no lateral speed: no error can be drawn")
     return _over_time(figure, axes, "lateral speed of the model (mph), SAE axes")
 
 

@@ -15,6 +15,7 @@ from truck_blowout_sim.report.thesis.canvas import (
     blowout_line,
     canvas,
     legend,
+    remark,
 )
 from truck_blowout_sim.simulation.thesis_data import OURS, THESIS, ThesisData
 from truck_blowout_sim.vehicle.schema.axle import AxleSpec
@@ -71,10 +72,9 @@ def spring(data: ThesisData, stated: str, axle: str) -> Figure:
         _loop(axes, spec, preload, _LINES[sheet], sheet)
         axes.plot([0.0], [preload / 1e3], "o", color=_LINES[sheet], markersize=5, zorder=4)
     own = data.vehicles[OURS].spec.axles[axle].suspension
-    axes.annotate(f"{own.spring_npm / 1e3:.0f} N/mm, friction ±{own.friction_n / 1e3:.1f} kN,"
-                  f" stops at +{own.jounce_m * 1e3:.0f} and -{own.rebound_m * 1e3:.0f} mm; dot:"
-                  " at rest", (0.5, 0.02), xycoords="axes fraction", fontsize=8,
-                  ha="center")  # fmt: skip
+    remark(axes, f"{own.spring_npm / 1e3:.0f} N/mm, friction ±{own.friction_n / 1e3:.1f} kN,"
+                 f" stops at +{own.jounce_m * 1e3:.0f} and -{own.rebound_m * 1e3:.0f} mm; dot:"
+                 " at rest")  # fmt: skip
     axes.set(xlabel="compression from rest (mm)", ylabel="force of one side (kN)")
     legend(axes, "upper left")
     return figure

@@ -166,7 +166,8 @@ class App {
       const get = name => { const c = run.byName.get(name); return c ? valueAt(c, this.t) : NaN; };
       const sae = this.plots.axes === 'sae' ? -1 : 1, degrees = 180 / Math.PI;
       const speed = get('tractor_vx_mps'), parts = [];
-      const say = (v, digits, words) => { if (v === v) parts.push(`${v.toFixed(digits)} ${words}`); };
+      // The sum turns the -0 of a rounded small number into 0.
+      const say = (v, digits, words) => { if (v === v) parts.push(`${(+v.toFixed(digits) + 0).toFixed(digits)} ${words}`); };
       say(us ? speed / 0.44704 : speed, 1, us ? 'mph' : 'm/s');
       say(sae * get('tractor_yaw_rate_radps') * degrees, 1, 'deg/s yaw rate');
       say(sae * get('steering_wheel_angle_rad') * degrees, 0, 'deg hand wheel');
