@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 import pytest
 
-from truck_blowout_sim.diagnosis.case.usable import determined
+from truck_blowout_sim.diagnosis import calibrate, diagnose
+from truck_blowout_sim.diagnosis.case.usable import check_each_once, determined
 from truck_blowout_sim.errors import InputError
+from truck_blowout_sim.recordings import Recording, Series
 
 
 @determined
@@ -23,3 +27,22 @@ def test_a_singular_system_is_one_line_of_bad_input() -> None:
 def test_other_mistakes_stay_what_they_are() -> None:
     with pytest.raises(TypeError):
         determined(len)(1)  # type: ignore[arg-type]
+
+
+def run_of(name: str, speed_mps: float) -> Recording:
+    return Recording(name, {"tractor_vx_mps": Series(np.arange(3.0), np.full(3, speed_mps))})
+
+
+def test_a_run_in_two_roles_is_refused_under_whatever_name() -> None:
+    a, b, copy = run_of("a", 20.0), run_of("b", 21.0), run_of("copy", 20.0)
+    check_each_once({"fitted": [a], "only predicted": [b]})
+    for roles in ({"fitted": [a], "only predicted": [b, copy]}, {"fitted": [a, copy]}):
+        with pytest.raises(InputError, match="copy: is given twice: fitted as a"):
+            check_each_once(roles)
+
+
+@pytest.mark.parametrize("use", [diagnose, calibrate])
+def test_a_fitted_run_does_not_prove_itself(use: Callable[..., object]) -> None:
+    run = run_of("a", 20.0)
+    with pytest.raises(InputError, match="is given twice: fitted as a, only predicted as a"):
+        use([run], holdout=[run])

@@ -59,6 +59,41 @@ def test_structures_of_a_mat_file_are_read_by_path(tmp_path: Path) -> None:
         read_recording(path, mapping=rules)["tractor_vx_mps"].value, (72.0 + TIME) / 3.6)
 
 
+def test_vectors_are_on_the_time_of_their_own_structure(tmp_path: Path) -> None:
+    path, half = tmp_path / "log.mat", TIME[::2]
+    log = {"Speed": {"time": TIME, "value": 72.0 + TIME, "unit": "km/h"},
+           "Yaw": {"time": half, "value": np.sin(half), "unit": "deg/s"}}  # fmt: skip
+    scipy.io.savemat(path, {"log": log})
+    assert list(open_log(path).names) == ["log.Speed.value", "log.Yaw.value"]
+    rules = Rules(channels={"tractor_vx_mps": Source("log.Speed.value"),
+                            "tractor_yaw_rate_radps": Source("log.Yaw.value")})  # fmt: skip
+    read = read_recording(path, mapping=rules)
+    np.testing.assert_allclose(read["tractor_vx_mps"].value, (72.0 + TIME) / 3.6)
+    np.testing.assert_allclose(read["tractor_yaw_rate_radps"].time_s, half)
+
+
+@pytest.mark.parametrize("hdf5", [False, True])
+def test_columns_of_a_matrix_are_named_as_matlab_does(tmp_path: Path, hdf5: bool) -> None:
+    path, both = tmp_path / "log.mat", np.stack([72.0 + TIME, np.sin(TIME)], axis=1)
+    if hdf5:
+        h5py = pytest.importorskip("h5py")
+        with h5py.File(path, "w", userblock_size=512) as file:
+            file["out/time"], file["out/signals/values"] = TIME[None, :], both.T
+    else:
+        scipy.io.savemat(path, {"out": {"time": TIME, "signals": {"values": both}}})
+    rules = Rules(channels={"tractor_vx_mps": Source("out.signals.values(:,1)", "km/h"),
+                            "tractor_yaw_rate_radps": Source("out.signals.values(:,2)", "deg/s")})
+    read = read_recording(path, mapping=rules)
+    np.testing.assert_allclose(read["tractor_vx_mps"].value, (72.0 + TIME) / 3.6)
+    np.testing.assert_allclose(read["tractor_yaw_rate_radps"].value, np.radians(np.sin(TIME)))
+
+
+def test_a_mat_file_of_other_names_asks_for_a_mapping(tmp_path: Path) -> None:
+    scipy.io.savemat(tmp_path / "log.mat", {"t": TIME, "speed": TIME})
+    with pytest.raises(InputError, match="a mapping: --map FILE"):
+        read_recording(tmp_path / "log.mat")
+
+
 def test_version_7_3_is_read_by_h5py(tmp_path: Path) -> None:
     h5py = pytest.importorskip("h5py")
     path = tmp_path / "log.mat"

@@ -68,6 +68,24 @@ def test_columns_units_and_time_are_found(
     np.testing.assert_array_equal(opened.column(last).values, -np.arange(30.0))
 
 
+@pytest.mark.parametrize("cell", [
+    "14-Mar-2024 23:59:{:06.3f}", "2024-03-14T23:59:{:012.9f}Z", "2024-03-15 00:59:{:06.3f}+01:00",
+    "03/14/2024 11:59:{:06.3f} PM", "14/03/2024 23:59:{:06.3f}", "14.03.2024 23:59:{:06.3f}",
+    "14 Mar 2024 23:59:{:06.3f}", "2024/03/14 23:59:{:06.3f}",
+])  # fmt: skip
+def test_dates_as_loggers_and_matlab_write_them(tmp_path: Path, cell: str) -> None:
+    text = "Time,SWA\n" + "".join(f"{cell.format(0.01 * i)},{-i}\n" for i in ROWS)
+    times = times_of(open_log(log(tmp_path, text)), TimeRule())
+    np.testing.assert_allclose(times.time_s, 1710460740.0 + 0.01 * np.arange(30), atol=1e-6)
+
+
+@pytest.mark.parametrize(("form", "factor"), [("{} sec", 1.0), ("{} min", 60.0), ("{} hr", 3600.0)])
+def test_durations_as_matlab_writes_them(tmp_path: Path, form: str, factor: float) -> None:
+    text = "Time,SWA\n" + "".join(f"{form.format(0.01 * i)},{-i}\n" for i in ROWS)
+    times = times_of(open_log(log(tmp_path, text)), TimeRule())
+    np.testing.assert_allclose(times.time_s, factor * 0.01 * np.arange(30), atol=1e-9)
+
+
 @pytest.mark.parametrize("coding", ["utf-16", "utf-8-sig", "cp1252"])
 def test_encodings(tmp_path: Path, coding: str) -> None:
     assert "LWI" in open_log(log(tmp_path, EUROPEAN, coding=coding)).names

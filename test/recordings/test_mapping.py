@@ -136,6 +136,7 @@ def test_files_on_absolute_clocks_are_laid_on_the_first_ones(log: Path) -> None:
     assert read["tractor_vx_mps"].time_s[0] == 0.0
     assert read["steering_wheel_angle_rad"].time_s[0] == pytest.approx(0.5)
     assert float(read.metadata["clock_start_s"]) == pytest.approx(1706788800.0)
+    assert any("time 0 is 1706788800.000 s on the clock of" in note for note in read.notes)
 
 
 def test_an_instrument_off_base_link_is_moved_there() -> None:
@@ -165,6 +166,7 @@ def test_coordinates_of_the_earth_get_a_local_origin(tmp_path: Path) -> None:
     ({"tractor_yaw_rate_radps": math.pi / 180}, ("yaw_rate_radps is 0.0175 times", "for deg")),
     ({"tractor_vx_mps": 1 / 3.6}, ("m/s taken for km/h",)),
     ({"tractor_ay_mps2": 1 / 9.80665}, ("g taken for m/s2",)),
+    ({"tractor_az_mps2": 0.01}, ("accelerometers: gravity removed",)),
     ({"tractor_az_mps2": -1.0}, ("tractor_az_mps2 is -1 times what gravity says",)),
 ])  # fmt: skip
 def test_a_wrong_unit_shows_against_the_other_channels(

@@ -118,7 +118,7 @@ def test_the_thesis_variables_are_an_option_of_output(
 @pytest.mark.parametrize(
     ("content", "words"),
     [
-        ({"other": np.zeros(3)}, "time_e"),
+        ({"other": np.zeros(3)}, "or a mapping"),
         (variables(vx_e=np.full(1499, np.nan)), "sample 1"),
         (variables(vx_e=np.zeros(7)), "7 samples"),
         (variables(vx_e="fast"), "variable vx_e"),
@@ -127,7 +127,7 @@ def test_the_thesis_variables_are_an_option_of_output(
         (variables(time_e=TIME[::-1]), "does not follow"),
         (variables(time_e=np.full(1499, np.inf)), "inf"),
         (variables(vx_e=np.full(1499, 1e5)), "tractor_vx_mps"),
-        ({"time_e": TIME}, "none of the variables"),
+        ({"time_e": TIME}, "no channel among its variables"),
     ],
 )
 def test_bad_content_is_one_line(tmp_path: Path, content: dict[str, Any], words: str) -> None:

@@ -8,7 +8,12 @@ import numpy as np
 import pytest
 
 from truck_blowout_sim.recordings.logs.log import Column, Table
-from truck_blowout_sim.recordings.mapping.proposing import Wheels, propose, unit_by_size
+from truck_blowout_sim.recordings.mapping.proposing import (
+    Wheels,
+    gravity_is_removed,
+    propose,
+    unit_by_size,
+)
 from truck_blowout_sim.recordings.mapping.vocabulary import channel_hinted
 
 
@@ -16,7 +21,8 @@ from truck_blowout_sim.recordings.mapping.vocabulary import channel_hinted
     ("SteerAngle", "steering_wheel_angle_rad"), ("Steer_SW", "steering_wheel_angle_rad"),
     ("steering_wheel_angle", "steering_wheel_angle_rad"), ("StrWhlAng", "steering_wheel_angle_rad"),
     ("Lenkradwinkel", "steering_wheel_angle_rad"), ("SteeringWheelSpeed", ""),
-    ("Speed", "tractor_vx_mps"), ("VehSpd", "tractor_vx_mps"), ("Vx", "tractor_vx_mps"),
+    ("Speed", "tractor_vx_mps"), ("Vx_SM", "tractor_vx_mps"),
+    ("Pbk_Con", "brake_pressure_pa"), ("VehSpd", "tractor_vx_mps"), ("Vx", "tractor_vx_mps"),
     ("/vehicle/speed_report:speed", "tractor_vx_mps"), ("velocity", "tractor_vx_mps"),
     ("AVz", "tractor_yaw_rate_radps"), ("AVz_2", "trailer_yaw_rate_radps"),
     ("YawRate", "tractor_yaw_rate_radps"), ("Yaw rate", "tractor_yaw_rate_radps"),
@@ -63,6 +69,21 @@ def test_a_unit_in_the_name_goes_before_the_size(name: str, unit: str) -> None:
     column = Column(np.array([-30.0, 30.0]))
     (found,) = propose(Table(Path("log"), "bag (MCAP)", {name: column}))
     assert found.unit == unit
+
+
+@pytest.mark.parametrize(("upward_g", "sign", "removed"), [
+    (1.0, 1.0, False), (-1.0, -1.0, False), (-0.01, 1.0, True),
+])  # fmt: skip
+def test_the_vertical_acceleration_tells_axes_and_gravity(
+    upward_g: float, sign: float, removed: bool
+) -> None:
+    """At rest it reads 1 g, -1 g where z points down, and 0 where gravity is not in it (CarSim)."""
+    columns = {"Az": Column(np.array([upward_g, upward_g, upward_g + 0.02]), "g"),
+               "Ay": Column(np.array([0.0, 0.1, 0.2]), "g")}  # fmt: skip
+    log = Table(Path("log"), "text", columns)
+    found = propose(log)
+    assert {p.channel: p.sign for p in found} == {"tractor_ay_mps2": sign, "tractor_az_mps2": sign}
+    assert gravity_is_removed(log, found) is removed
 
 
 def wheel_log(*names: str) -> Table:

@@ -28,7 +28,7 @@ from truck_blowout_sim.diagnosis.case.nuisance import Nuisance
 from truck_blowout_sim.diagnosis.case.runs import prepare_run
 from truck_blowout_sim.diagnosis.case.sources import number_sources
 from truck_blowout_sim.diagnosis.case.study import FURTHEST, Study
-from truck_blowout_sim.diagnosis.case.usable import determined
+from truck_blowout_sim.diagnosis.case.usable import check_each_once, determined
 from truck_blowout_sim.diagnosis.fit.linear import Projector
 from truck_blowout_sim.diagnosis.fit.quantiles import NINETY
 from truck_blowout_sim.diagnosis.sensors import (
@@ -160,10 +160,11 @@ def calibrate(
         The calibration; :func:`write_calibrated_vehicle` makes a vehicle file of it.
 
     Raises:
-        InputError: no recording, or one that cannot drive the model.
+        InputError: no recording, one given twice, or one that cannot drive the model.
     """
     if not recordings:
         raise InputError("no recording to calibrate on", expected="at least one recording")
+    check_each_once({"fitted": recordings, "only predicted": holdout})
     tell = progress or _silent
     loaded = load_vehicle(vehicle) if isinstance(vehicle, str) else vehicle
     packed = pack(loaded)

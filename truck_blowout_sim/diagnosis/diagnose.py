@@ -16,7 +16,7 @@ from truck_blowout_sim.diagnosis.case.fingerprints import case_parts
 from truck_blowout_sim.diagnosis.case.resume import Keeps
 from truck_blowout_sim.diagnosis.case.runs import Run, prepare_run
 from truck_blowout_sim.diagnosis.case.study import Progress, Study, row_ranges
-from truck_blowout_sim.diagnosis.case.usable import determined
+from truck_blowout_sim.diagnosis.case.usable import check_each_once, determined
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.effort import USUAL, Effort
 from truck_blowout_sim.diagnosis.locate.lagging import lagging_wheel
@@ -72,11 +72,13 @@ def diagnose(recordings: Sequence[Recording], *, baseline: Sequence[Recording] =
         The diagnosis, and the diagnosed vehicle's packed parameters that differ from the given.
 
     Raises:
-        InputError: no recording, one that cannot drive the model, or no effect of such a name.
+        InputError: no recording, one given twice, one that cannot drive the model, or no effect
+                of such a name.
         OSError: the folder of ``kept`` cannot be written.
     """
     if not recordings:
         raise InputError("no recording to diagnose", expected="at least one recording")
+    check_each_once({"fitted": recordings, "baseline": baseline, "only predicted": holdout})
     loaded = load_vehicle(vehicle) if isinstance(vehicle, str) else vehicle
     packed = pack(loaded)
     rules = replace(load_settings(packed, settings), without=known_names(without))

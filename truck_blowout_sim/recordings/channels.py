@@ -98,8 +98,10 @@ def channels_for(
     rows += [_height(unit) for unit in units]
     if len(units) > 1:
         rows.append(_joint("articulation_rad", "articulation", "trailer yaw minus tractor yaw"))
-    rows += [_joint(f"{h}_steer_rad", f"{h}_steer", "road-wheel steer", h) for h in steered]
-    rows += [_joint(f"hub_spin_angle_{h}_rad", f"{h}_spin", "hub spin angle", h) for h in hubs]
+    rows += [_joint(f"{hub}_steer_rad", f"{hub}_steer", f"road-wheel steer of hub {hub}", hub)
+             for hub in steered]  # fmt: skip
+    rows += [_joint(f"hub_spin_angle_{hub}_rad", f"{hub}_spin", f"spin angle of hub {hub}", hub)
+             for hub in hubs]  # fmt: skip
     rows += [row for tire in tires for row in _contact_rows(tire)]
     return tuple(rows)
 
@@ -226,16 +228,17 @@ def _joint(name: str, joint: str, quantity: str, part: str = "") -> Channel:
 def _contact_rows(tire: str) -> list[Channel]:
     force, radius = f"tires/{tire}/force", f"tires/{tire}/loaded_radius"
     columns = (
-        (f"tire_fx_{tire}_n", "N", "force along the wheel plane",
+        (f"tire_fx_{tire}_n", "N", "force along the wheel plane of tire {}",
          Place(force, WRENCH, "wrench.force.x", tire)),
-        (f"tire_fy_{tire}_n", "N", "force across the wheel plane, left positive",
+        (f"tire_fy_{tire}_n", "N", "force across the wheel plane of tire {}, left positive",
          Place(force, WRENCH, "wrench.force.y", tire)),
-        (f"tire_fz_{tire}_n", "N", "vertical load", Place(force, WRENCH, "wrench.force.z", tire)),
-        (f"tire_loaded_radius_{tire}_m", "m", "hub height above the road",
+        (f"tire_fz_{tire}_n", "N", "vertical load of tire {}",
+         Place(force, WRENCH, "wrench.force.z", tire)),
+        (f"tire_loaded_radius_{tire}_m", "m", "hub height above the road of tire {}",
          Place(radius, FLOAT64, "data")),
     )
     return [
-        Channel(name, unit, f"{words} of tire {tire}", "tire_contact", "simulator",
+        Channel(name, unit, words.format(tire), "tire_contact", "simulator",
                 -1.0e9, 1.0e9, place, standard=False, part=tire)
         for name, unit, words, place in columns
     ]  # fmt: skip

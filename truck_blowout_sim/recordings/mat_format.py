@@ -57,20 +57,22 @@ def read_mat(
         InputError: neither of these, damaged, or with values that cannot be.
     """
     held = read_variables(path) if held is None else held
-    if TIME not in held:
+    thesis = has_thesis_variables(held)
+    if TIME not in held and thesis:
         return read_thesis_mat(path, source=source, held=held)
     parts = parts_of(held, hubs, tires)
     channels = {
         channel.name: _series(path, held, channel)
         for channel in parts.table()
-        if channel.name in held
+        if channel.name in held and TIME in held
     }
-    if not channels and has_thesis_variables(held):
+    if not channels and thesis:
         return read_thesis_mat(path, source=source, held=held)
     if not channels:
         raise InputError(
             f"no channel among its variables ({', '.join(list(held)[:5])} …)",
-            file=path, expected="variables named as the CSV columns, or a mapping (--map)",
+            file=path, expected="variables named as the CSV columns, or a mapping: --map FILE"
+            " (truck-blowout inspect LOG --write-map FILE begins one)",
         )  # fmt: skip
     name = _METADATA
     metadata = {part.name: part.text for part in held[name].inside} if name in held else {}
@@ -87,11 +89,9 @@ def write_mat(recording: Recording, path: Path) -> None:
     from scipy.io import savemat  # slow to load, and few need it
 
     variables = _variables(recording)
-    with replacing(path) as temporary:
-        savemat(
-            temporary, variables, appendmat=False, do_compression=True, oned_as="column",
-            long_field_names=True,
-        )  # fmt: skip
+    # opened here: scipy hides why a file cannot be
+    with replacing(path) as temporary, temporary.open("wb") as file:
+        savemat(file, variables, do_compression=True, oned_as="column", long_field_names=True)
 
 
 def _variables(recording: Recording) -> dict[str, Any]:

@@ -127,8 +127,8 @@ def write_thesis_mat(recording: Recording, path: Path, *, source: str = "experim
                 variables[variable.stem + suffix] = column
     from scipy.io import savemat  # slow to load, and few need it
 
-    with replacing(path) as temporary:
-        savemat(temporary, variables, appendmat=False)
+    with replacing(path) as temporary, temporary.open("wb") as file:
+        savemat(file, variables)
 
 
 def has_thesis_variables(names: Iterable[str]) -> bool:

@@ -1,4 +1,4 @@
-"""Cells of a text log as numbers: decimal comma, clock times, dates, words for "nothing"."""
+"""Cells of a text log as numbers: decimal comma, clock times, dates, durations, empty cells."""
 
 from __future__ import annotations
 
@@ -6,18 +6,24 @@ import math
 import re
 from collections.abc import Sequence
 from datetime import datetime, timezone
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
+
+from truck_blowout_sim.recordings.units import find_unit
 
 FloatArray = NDArray[np.float64]
 
 _NOTHING = frozenset({"", "-", "--", "nan", "na", "n/a", "null", "none", "inf", "-inf", "+inf",
                       "#n/a", "1.#qnan", "-1.#ind", "---"})  # fmt: skip
 _CLOCK = re.compile(r"(?:(\d+):)?(\d{1,2}):(\d{1,2}(?:[.,:]\d+)?)\s*(am|pm)?", re.IGNORECASE)
-_DATE = re.compile(r"\d{1,4}[-/.]\d{1,2}[-/.]\d{1,4}[ T]\d{1,2}:\d{2}.*")
-_DATE_FORMS = ("%d.%m.%Y %H:%M:%S.%f", "%d.%m.%Y %H:%M:%S", "%m/%d/%Y %H:%M:%S.%f",
-               "%m/%d/%Y %H:%M:%S", "%Y/%m/%d %H:%M:%S.%f", "%Y/%m/%d %H:%M:%S")  # fmt: skip
+_DURATION = re.compile(r"([-+]?\d+(?:[.,]\d+)?) ?(s|sec|min|hr)")  # as MATLAB writes them
+_DATE = re.compile(r"(\d{1,4}[-/. ](?:\d{1,2}|[a-z]{3})[-/. ]\d{1,4})(?: +|t)"
+                   r"(\d{1,2}:\d{2}(?::.*?)?)(?:z|([-+]\d{2}):?(\d{2}))?",
+                   re.IGNORECASE)  # fmt: skip
+_DAY_FORMS = ("%Y-%m-%d", "%d.%m.%Y", "%m/%d/%Y", "%d/%m/%Y", "%Y/%m/%d", "%d-%b-%Y", "%d-%m-%Y",
+              "%d %b %Y")  # fmt: skip
 _DAY_S = 86400.0
 
 
@@ -46,34 +52,38 @@ def number(cell: str, decimal: str = ".") -> float:
 
 
 def seconds(cell: str) -> float:
-    """Seconds since midnight of a clock time, since 1970 of a date; NaN if it is neither."""
+    """Seconds since midnight of a clock time, since 1970 of a date; of a duration; else NaN."""
     text = cell.strip().strip('"')
+    if match := _DURATION.fullmatch(text):
+        unit = find_unit(match[2])
+        return float(match[1].replace(",", ".")) * unit.factor if unit else math.nan
+    if match := _DATE.fullmatch(text):
+        day, clock, zone_h, zone_min = match.groups()
+        ahead_s = 60.0 * (60 * int(zone_h) + int(f"{zone_h[0]}{zone_min}")) if zone_h else 0.0
+        whole = clock if clock.count(":") > 1 else f"{clock}:00"
+        return _midnight(day) + _time_of_day(whole) - ahead_s
+    return _time_of_day(text)
+
+
+def _time_of_day(text: str) -> float:
     match = _CLOCK.fullmatch(text)
-    if match:
-        hours, minutes, rest, half = match.groups()
-        whole = int(hours or 0) % 12 + 12 * (half.lower() == "pm") if half else int(hours or 0)
-        # a colon before the fraction: hh:mm:ss:mmm
-        return 3600.0 * whole + 60.0 * int(minutes) + float(re.sub("[,:]", ".", rest))
-    return _date(text) if _DATE.fullmatch(text) else math.nan
+    if not match:
+        return math.nan
+    hours, minutes, rest, half = match.groups()
+    whole = int(hours or 0) % 12 + 12 * (half.lower() == "pm") if half else int(hours or 0)
+    # a colon before the fraction: hh:mm:ss:mmm
+    return 3600.0 * whole + 60.0 * int(minutes) + float(re.sub("[,:]", ".", rest))
 
 
-def _date(text: str) -> float:
-    plain = text.rstrip("Z").replace(",", ".")
-    try:
-        return _stamp(datetime.fromisoformat(plain.replace("T", " ")))
-    except ValueError:
-        pass
-    for form in _DATE_FORMS:
+@lru_cache(maxsize=64)
+def _midnight(day: str) -> float:
+    """Seconds from 1970 to a day; where day and month can be taken for each other, month first."""
+    for form in _DAY_FORMS:
         try:
-            return _stamp(datetime.strptime(plain, form))
+            return datetime.strptime(day, form).replace(tzinfo=timezone.utc).timestamp()
         except ValueError:
             continue
     return math.nan
-
-
-def _stamp(moment: datetime) -> float:
-    known = moment if moment.tzinfo else moment.replace(tzinfo=timezone.utc)
-    return known.timestamp()
 
 
 def column_of(cells: Sequence[str], decimal: str) -> tuple[FloatArray, str, int | None]:

@@ -10,6 +10,7 @@ Validated with: test/recordings/test_logs_binary.py.
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -25,6 +26,9 @@ HDF5 = b"\x89HDF\r\n\x1a\n"
 _HDF5_AT = 512
 _MOST_SAMPLES = 200_000_000
 _MOST_PARTS = 20_000
+_MOST_COLUMNS = 64  # of a matrix of signals; a wider one is an image or a map
+_TIMES = ("time", "t", "timestamp", "timestamps", "time_s")
+_LARGEST_STEP_S = 0.5
 _SAVE = "s = table2struct(T, 'ToScalar', true); save('log.mat', '-struct', 's')"
 _WAYS_OUT = {
     "table": f"T = {{}}; {_SAVE}",
@@ -67,12 +71,12 @@ def table_of(path: Path, held: dict[str, Variable]) -> Table:
     flat = {name: one for variable in held.values() for name, one in variable.flat()}
     texts = {name: one.text for name, one in flat.items() if one.text}
     for name, variable in flat.items():
-        values = _vector(variable.values)
-        if values is not None:
-            table.columns[name] = Column(values, _unit(name, texts))
-        elif not variable.text and not variable.inside and variable.name:
+        vectors = _vectors(name, variable.values)
+        for path_of, values in vectors:
+            table.columns[path_of] = Column(values, _unit(name, texts))
+        if not vectors and not variable.text and not variable.inside and variable.name:
             table.notes.append(f"variable {name} is {variable.kind}: not read{_way_out(variable)}")
-    return _checked(path, table)
+    return _checked(path, _with_own_times(table))
 
 
 def _way_out(variable: Variable) -> str:
@@ -113,14 +117,14 @@ def _open_hdf5(path: Path) -> Table:
             found = dict(_datasets(file, h5py))
             texts = {name: one.text for name, one in found.items() if one.text}
             for name, one in found.items():
-                if one.values is not None:
-                    table.columns[name] = Column(one.values, _unit(name, texts))
-                elif one.kind.startswith("an object"):
+                for path_of, values in _vectors(name, one.values):
+                    table.columns[path_of] = Column(values, _unit(name, texts))
+                if one.kind.startswith("an object"):
                     table.notes.append(f"variable {name} is {one.kind}: not read{_way_out(one)}")
     except Exception as error:  # noqa: BLE001 -- the library names damage in many ways
         words = str(error).splitlines()[0] if str(error) else type(error).__name__
         raise InputError(f"damaged: {words}", file=path, expected="a MATLAB 7.3 file") from None
-    return _checked(path, table)
+    return _checked(path, _with_own_times(table))
 
 
 def _datasets(group: Any, h5py: Any, prefix: str = "") -> Iterator[tuple[str, Variable]]:  # noqa: ANN401
@@ -146,7 +150,8 @@ def _dataset(item: Any, h5py: Any, prefix: str, key: str) -> Iterator[tuple[str,
         text = kind == b"char"
         values = np.asarray(item[()], dtype=np.float64)
         letters = "".join(map(chr, values.ravel().astype(int))) if text else ""
-        yield name, Variable(name, None if text else _vector(values), "numbers", letters)
+        # HDF5 counts the axes from the other end
+        yield name, Variable(name, None if text else values.T, "numbers", letters)
     elif h5py.check_ref_dtype(item.dtype) is not None:
         yield from _referenced(item, h5py, prefix, key)
 
@@ -167,10 +172,40 @@ def _referenced(item: Any, h5py: Any, prefix: str, key: str) -> Iterator[tuple[s
             yield from _dataset(held, h5py, before, last)
 
 
-def _vector(values: FloatArray | None) -> FloatArray | None:
-    if values is None or values.size < 2 or values.size != max(values.shape):
-        return None
-    return np.where(np.isfinite(values.ravel()), values.ravel(), np.nan)
+def _vectors(name: str, values: FloatArray | None) -> list[tuple[str, FloatArray]]:
+    """A vector under its name; the columns of a matrix as MATLAB names them, ``name(:,2)``."""
+    if values is None or values.size < 2:
+        return []
+    found = np.where(np.isfinite(values), values, np.nan)
+    if values.size == max(values.shape):
+        return [(name, found.ravel())]
+    if values.ndim != 2 or not values.shape[1] < min(values.shape[0], _MOST_COLUMNS + 1):
+        return []
+    return [(f"{name}(:,{k + 1})", found[:, k]) for k in range(values.shape[1])]
+
+
+def _with_own_times(table: Table) -> Table:
+    """Where several structures hold a time of their own in seconds, their vectors are on it."""
+    clocks = {name.rpartition(".")[0]: name for name, column in table.columns.items()
+              if name.rpartition(".")[2].lower() in _TIMES and _in_seconds(column)}
+    clocks.pop("", None)
+    if len(clocks) < 2:
+        return table
+    columns: dict[str, Column] = {}
+    for name, column in table.columns.items():
+        clock = clocks.get(name.rpartition(".")[0], name)
+        times = table.columns[clock].values
+        if clock != name and times.size == column.values.size:
+            columns[name] = replace(column, times={clock: times})
+        elif name not in clocks.values():
+            columns[name] = column
+    return replace(table, columns=columns)
+
+
+def _in_seconds(column: Column) -> bool:
+    """Whether a column counts on in steps that can only be seconds."""
+    steps = np.diff(column.values)
+    return bool(steps.size and (steps >= 0.0).all() and 0.0 < np.median(steps) < _LARGEST_STEP_S)
 
 
 def _unit(name: str, texts: dict[str, str]) -> str:

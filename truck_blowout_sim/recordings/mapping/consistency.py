@@ -37,6 +37,7 @@ _MISTAKES = (
     (1 / GRAVITY_MPS2, "reads like g taken for m/s2"),
     (-1.0, "reads like the opposite sign"),
 )
+_GRAVITY, _WEIGHTLESS = "gravity", 0.05  # below 1/9.8, which is another unit
 _CLOSE = 0.12
 _ALIKE = 0.8  # correlation below which two channels say nothing about each other
 _STEP_S = 0.1
@@ -48,6 +49,9 @@ def contradictions(recording: Recording) -> tuple[str, ...]:
     """Notes on channels that contradict another by the ratio of two units, or by sign."""
     notes = []
     for name, other, ratio in _ratios(recording):
+        if other == _GRAVITY and abs(ratio) < _WEIGHTLESS:
+            notes.append(f"{name} is {ratio:.2g} times gravity: reads like accelerations without"
+                         " it; if so, map metadata: {accelerometers: gravity removed}")
         for mistake, words in _MISTAKES:
             if abs(ratio / mistake - 1.0) < _CLOSE:
                 notes.append(f"{name} is {ratio:.3g} times what {other} says: {words}")
@@ -76,7 +80,7 @@ def _ratios(recording: Recording) -> Iterator[tuple[str, str, float]]:
             yield from _pair(unit, "ay_mps2", "speed times yaw rate", have["ay_mps2"], speed * rate)
         up = f"{unit}_az_mps2"
         if up in recording and "removed" not in recording.metadata.get("accelerometers", ""):
-            yield up, "gravity", float(np.median(recording[up].value)) / GRAVITY_MPS2
+            yield up, _GRAVITY, float(np.median(recording[up].value)) / GRAVITY_MPS2
 
 
 def _pair(unit: str, stem: str, other: str, one: FloatArray, reference: FloatArray

@@ -19,7 +19,12 @@ from truck_blowout_sim.recordings.logs.bag_log import BagLog, lateness_s
 from truck_blowout_sim.recordings.logs.log import Column
 from truck_blowout_sim.recordings.mapping.mapping_file import load_mapping
 from truck_blowout_sim.recordings.mapping.opened import Opened, open_test
-from truck_blowout_sim.recordings.mapping.proposing import Proposal, Wheels, propose
+from truck_blowout_sim.recordings.mapping.proposing import (
+    Proposal,
+    Wheels,
+    gravity_is_removed,
+    propose,
+)
 from truck_blowout_sim.recordings.mapping.rules import Rules, Source
 from truck_blowout_sim.recordings.mapping.times import time_column
 from truck_blowout_sim.recordings.units import find_unit
@@ -71,6 +76,7 @@ class Inventory:
     metadata: dict[str, str] = field(default_factory=dict)
     blowouts: tuple[tuple[float, str], ...] = ()
     time_guess: tuple[str, str] | None = None
+    gravity_removed: bool = False
 
     @property
     def unused(self) -> tuple[str, ...]:
@@ -108,7 +114,7 @@ def inspect_log(
         str(path), main.log.kind, rows.column if rows else "", rows.unit if rows else "",
         *span, tuple(lines), proposals, tuple(n for f in files for n in f.notes), main.metadata,
         tuple((b.time_s, "+".join(b.tires)) for b in (*blowouts, *rules.blowouts)),
-        _time_guess(main) if rows is None else None,
+        _time_guess(main) if rows is None else None, gravity_is_removed(main.log, proposals),
     )  # fmt: skip
 
 

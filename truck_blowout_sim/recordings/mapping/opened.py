@@ -89,6 +89,8 @@ def open_test(
     start_s = _start_s(main, rules)
     absolute = start_s is not None
     main.origin_s = _own_origin_s(main, start_s)
+    if start_s and not main.native:
+        main.notes.append(f"time 0 is {start_s:.3f} s on the clock of {path.name}")
     _align_native(main)
     files = [main]
     further = [(_beside(entry.file, path, base), entry) for entry in rules.also]

@@ -8,7 +8,7 @@ Validated with: test/recordings/test_proposing.py, test/recordings/test_bring_yo
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -39,6 +39,7 @@ FloatArray = NDArray[np.float64]
 
 _DOWNWARD = ("vy_mps", "y_m", "yaw_rad", "yaw_rate_radps", "pitch_rad", "pitch_rate_radps",
              "ay_mps2", "az_mps2")  # fmt: skip
+_HALF = 0.5  # of gravity: between an acceleration with it and one without
 _MOSTLY = 0.3  # correlation that a sign needs
 _COMPASS_DEG = 90.0
 _TRUCK_WHEEL_M = 0.5  # rolling radius of 11R22.5 and 295/75R22.5
@@ -223,18 +224,17 @@ def _rank(name: str, column: Column) -> float:
 def _with_signs(pairs: list[tuple[Proposal, Column]]) -> list[Proposal]:
     """Signs from gravity (z down) and from what must go together in a turn."""
     columns = {proposal.channel: column for proposal, column in pairs}
+    downward = {unit for unit in UNITS if upward_g(pairs, unit) < -_HALF}
     out = []
     for proposal, column in pairs:
         unit, _, stem = proposal.channel.partition("_")
-        upward = columns.get(f"{unit}_az_mps2")
-        down = upward is not None and float(np.nanmedian(upward.values)) < 0.0
         sign, why = 1.0, list(proposal.why)
-        if down and stem in _DOWNWARD:
+        if unit in downward and stem in _DOWNWARD:
             sign = -1.0
             why.append("sign: the vertical acceleration reads downward (SAE axes)")
         reference = columns.get("tractor_yaw_rate_radps")
         if proposal.channel == "steering_wheel_angle_rad" and reference is not None:
-            anchor = -1.0 if down_of(columns, "tractor") else 1.0
+            anchor = -1.0 if "tractor" in downward else 1.0
             if anchor * _together(column, reference) < -_MOSTLY:
                 sign = -1.0
                 why.append("sign: it turns against the yaw rate")
@@ -246,10 +246,19 @@ def _with_signs(pairs: list[tuple[Proposal, Column]]) -> list[Proposal]:
     return out
 
 
-def down_of(columns: Mapping[str, Column], unit: str) -> bool:
-    """Whether a unit's vertical acceleration says that its z axis points down."""
-    upward = columns.get(f"{unit}_az_mps2")
-    return upward is not None and float(np.nanmedian(upward.values)) < 0.0
+def upward_g(pairs: Iterable[tuple[Proposal, Column]], unit: str) -> float:
+    """Median vertical acceleration of a unit: 1; -1 where z points down; 0 or NaN."""
+    for proposal, column in pairs:
+        stated = find_unit(proposal.unit or column.unit)
+        if proposal.channel == f"{unit}_az_mps2" and stated is not None:
+            return float(np.nanmedian(column.values)) * stated.factor / GRAVITY_MPS2
+    return np.nan
+
+
+def gravity_is_removed(log: Log, proposals: Iterable[Proposal]) -> bool:
+    """Whether the vertical accelerations say that gravity is not in them, as CarSim's."""
+    pairs = [(one, log.column(one.column)) for one in proposals if one.channel.endswith("_az_mps2")]
+    return any(abs(upward_g(pairs, unit)) < _HALF for unit in UNITS)
 
 
 def _together(one: Column, other: Column) -> float:

@@ -59,9 +59,11 @@ def times_of(log: Log, rule: TimeRule, where: str = "key time") -> Times:
     """
     name = log.find(rule.column) if rule.column else time_column(log)
     if name is None:
-        asked = f"no column {quoted(rule.column)}" if rule.column else "no time column was found"
-        raise InputError(asked, file=log.path, where=where,
-                         expected=nearest(rule.column or "time", log.names))  # fmt: skip
+        if rule.column:
+            raise InputError(f"no column {quoted(rule.column)}", file=log.path, where=where,
+                             expected=nearest(rule.column, log.names))  # fmt: skip
+        raise InputError("no time column was found", file=log.path, where=where,
+                         expected="in the mapping: time: {from: COLUMN, unit: s}")  # fmt: skip
     column = log.column(name)
     unit, guessed = rule.unit or column.unit, False
     if column.unit in CLOCK_UNITS and not rule.unit:

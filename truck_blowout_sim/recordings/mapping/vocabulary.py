@@ -20,7 +20,7 @@ EXACT = {
     "steer sw": "steering_wheel_angle_rad", "throttle": "throttle", "velocity": "vx_mps",
     "heading": "yaw_rad", "longacc": "ax_mps2", "latacc": "ay_mps2",
     "swa": "steering_wheel_angle_rad", "lws angle": "steering_wheel_angle_rad",
-    "speed": "vx_mps", "r": "yaw_rate_radps", "pbk con": "brake_pressure_drive_pa",
+    "speed": "vx_mps", "r": "yaw_rate_radps", "pbk con": "brake_pressure_pa",
     "x": "x_m", "y": "y_m", "easting": "x_m", "northing": "y_m",
     "lat": "latitude_rad", "long": "longitude_rad", "lon": "longitude_rad",
     "lng": "longitude_rad", "altitude": "altitude_m", "alt": "altitude_m", "height": "altitude_m",
@@ -67,8 +67,8 @@ PATTERNS = tuple(
         (r"(lat\w* (vel\w*|speed)|vel\w* (lat\w*|y)|linear y|v ?y)\b", "vy_mps"),
         (r"(vert\w* (vel\w*|speed)|vel\w* (vert\w*|z)|linear z|wheel ?(speed|spd)|whl ?spd"
          r"|engine ?speed)", ""),
-        (r"(veh\w* ?(spd|speed|vel\w*)|speed|lon\w* vel\w*|vel\w* x|linear x|geschw\w*|velocity)",
-         "vx_mps"),
+        (r"(veh\w* ?(spd|speed|vel\w*)|speed|lon\w* vel\w*|vel\w* x|linear x|\bv ?x\b|geschw\w*"
+         r"|velocity)", "vx_mps"),
         (r"(yaw( ?angle)?|heading|course|psi|kurs)$", "yaw_rad"),
         (r"roll( ?angle)?$", "roll_rad"),
         (r"pitch( ?angle)?$", "pitch_rad"),

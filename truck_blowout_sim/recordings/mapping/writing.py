@@ -19,6 +19,8 @@ _HEAD = """\
 # Axes: x forward, y left, z up; yaw, yaw rate and hand wheel to the left are positive.
 """
 _NOTHING = "  # {}: nothing was recognized; e.g. tractor_vx_mps: {{from: COLUMN, unit: km/h}}\n"
+_GRAVITY_REMOVED = ("metadata: {accelerometers: gravity removed}"
+                    "  # GUESS: the vertical acceleration is 0 in the mean\n")
 _TAIL = """
 # Where the log does not mark the tire that lost its air:
 # blowouts: [{tire: steer_left, at_s: 4.92}]
@@ -42,6 +44,8 @@ def mapping_text(inventory: Inventory) -> str:
     out += [_entry(proposal) for proposal in inventory.proposals]
     if not inventory.proposals:
         out.append(_NOTHING.format("channels"))
+    if inventory.gravity_removed:
+        out.append(_GRAVITY_REMOVED)
     out.append(_TAIL)
     unused = [line for line in inventory.lines if not line.channel]
     if unused:
