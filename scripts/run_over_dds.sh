@@ -15,7 +15,7 @@ fi
 rm -rf "$folder"
 mkdir -p "$folder"
 # Nothing beyond this machine takes part, nor any other run on it.
-export ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST FASTDDS_BUILTIN_TRANSPORTS=UDPv4
+export ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST
 export ROS_DOMAIN_ID="${ROS_DOMAIN_ID:-$(($$ % 100 + 1))}" ROS_LOG_DIR="$folder/log"
 
 # The player keeps to the simulation's clock: on a busy machine both are late together.

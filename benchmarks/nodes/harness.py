@@ -17,7 +17,6 @@ import psutil
 
 ENVIRONMENT = {
     "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
-    "FASTDDS_BUILTIN_TRANSPORTS": "UDPv4",
     # two measurements at a time must not hear each other
     "ROS_DOMAIN_ID": str(os.getpid() % 90 + 10),
     "ROS_LOG_DIR": str(Path(tempfile.gettempdir()) / "truck_blowout_sim_benchmark_log"),
@@ -82,10 +81,10 @@ def lane_keeper() -> Iterator[None]:
 
 
 @contextmanager
-def listener() -> Iterator[None]:
+def listener(reliability: str = "reliable") -> Iterator[None]:
     """A process that subscribes to every output and throws it away."""
     process = subprocess.Popen(
-        [sys.executable, "-m", "benchmarks.nodes.listen", "discard"],
+        [sys.executable, "-m", "benchmarks.nodes.listen", reliability],
         env={**os.environ, **ENVIRONMENT}, stdout=subprocess.PIPE, text=True,
     )  # fmt: skip
     assert process.stdout is not None

@@ -1,4 +1,7 @@
-"""A listener: `listen SECONDS` reports arrivals and diagnostics, `listen discard` only reads."""
+"""A listener: `listen SECONDS` reports arrivals and diagnostics.
+
+`listen reliable` and `listen best_effort` only read, every output.
+"""
 
 from __future__ import annotations
 
@@ -13,7 +16,7 @@ import rclpy
 from diagnostic_msgs.msg import DiagnosticArray
 from nav_msgs.msg import Odometry
 from rclpy.node import Node
-from rclpy.qos import QoSProfile
+from rclpy.qos import QoSProfile, ReliabilityPolicy
 from rclpy.serialization import deserialize_message
 
 from truck_blowout_sim import load_vehicle
@@ -28,8 +31,9 @@ def _leave(number: int, frame: FrameType | None) -> None:
     raise SystemExit(0)
 
 
-def discard() -> None:
+def discard(reliability: ReliabilityPolicy) -> None:
     node = Node("benchmark_reader")
+    qos = QoSProfile(depth=10, reliability=reliability)
     seen = set()
     for channel in output_channels(load_vehicle("international_9400i_trailmobile")):
         for place in channel.places:
@@ -37,7 +41,7 @@ def discard() -> None:
                 seen.add(place.topic)
                 node.create_subscription(
                     message_class(place.ros_type), f"/truck/{place.topic}", lambda _: None,
-                    QoSProfile(depth=10), raw=True,
+                    qos, raw=True,
                 )  # fmt: skip
     executor = new_executor()
     executor.add_node(node)
@@ -86,7 +90,7 @@ def report(duration_s: float) -> None:
 if __name__ == "__main__":
     signal.signal(signal.SIGTERM, _leave)
     rclpy.init()
-    if sys.argv[1] == "discard":
-        discard()
+    if sys.argv[1] in ("reliable", "best_effort"):
+        discard(ReliabilityPolicy[sys.argv[1].upper()])
     else:
         report(float(sys.argv[1]))
