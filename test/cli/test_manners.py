@@ -10,7 +10,15 @@ from pathlib import Path
 import pytest
 
 from truck_blowout_sim.cli.listing import listing, names_of
-from truck_blowout_sim.cli.main import main
+from truck_blowout_sim.cli.main import VERBS, main
+
+
+@pytest.mark.parametrize("verb", VERBS)
+def test_the_help_of_every_verb_has_an_example(
+    verb: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main([verb, "--help"]) == 0
+    assert f"Example: truck-blowout {verb}" in " ".join(capsys.readouterr().out.split())
 
 
 @pytest.mark.parametrize(("verb", "shown"), [
@@ -70,7 +78,7 @@ def test_a_typo_is_answered_with_the_nearest_name(
 ])  # fmt: skip
 def test_the_shell_completes_verbs_names_and_options(line: str, word: int, completed: str) -> None:
     done = subprocess.run(
-        [sys.executable, "-c", "from truck_blowout_sim.cli.main import main; main(None)"],
+        [sys.executable, "-c", "from truck_blowout_sim.cli.main import VERBS, main; main(None)"],
         env={**os.environ, "_TRUCK_BLOWOUT_COMPLETE": "complete_bash", "COMP_WORDS": line,
              "COMP_CWORD": str(word)},
         capture_output=True, text=True, check=False,

@@ -84,7 +84,10 @@ def command(
     force: bool = FORCE,
     as_json: bool = JSON,
 ) -> None:
-    """Locate, name and fit what the model lacks to explain recordings."""
+    """Locate, name and fit what the model lacks to explain recordings.
+
+    Example: truck-blowout diagnose stop.csv --baseline calm.csv --holdout burst.csv -o diagnosis
+    """
     from truck_blowout_sim.diagnosis import diagnose, effort, keeping
     from truck_blowout_sim.vehicle import load_vehicle
 

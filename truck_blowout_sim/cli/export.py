@@ -32,7 +32,10 @@ def command(
     force: bool = FORCE,
     as_json: bool = JSON,
 ) -> None:
-    """Convert a bag to CSV: one row per instant, gauge pressures, empty where not measured."""
+    """Convert a bag to CSV: one row per instant, gauge pressures, empty where not measured.
+
+    Example: truck-blowout export out/steer_axle_blowout -o blowout.csv
+    """
     claim(output, inputs=[bag, *logs.files], force=force)
     recording = logs.read(bag)
     say_notes(recording)

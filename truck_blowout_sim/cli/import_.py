@@ -27,7 +27,10 @@ def command(
     force: bool = FORCE,
     as_json: bool = JSON,
 ) -> None:
-    """Convert a log of any logger to a bag: SI units, ISO axes, absolute pressures."""
+    """Convert a log of any logger to a bag: SI units, ISO axes, absolute pressures.
+
+    Example: truck-blowout import my_log.csv --map my_map.yaml -o my_bag
+    """
     claim(output, inputs=[log, *logs.files], force=force)
     recording = logs.read(log, source=source)
     say_notes(recording)

@@ -42,7 +42,10 @@ def command(
     force: bool = FORCE,
     as_json: bool = JSON,
 ) -> None:
-    """Show what a log holds: columns, units, rates, clocks, gaps, and the channels they become."""
+    """Show what a log holds: columns, units, rates, clocks, gaps, and the channels they become.
+
+    Example: truck-blowout inspect my_log.csv --write-map my_map.yaml
+    """
     from truck_blowout_sim.recordings.mapping.inventory import inspect_log
     from truck_blowout_sim.recordings.mapping.writing import mapping_text
     from truck_blowout_sim.vehicle import load_vehicle

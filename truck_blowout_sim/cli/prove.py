@@ -36,7 +36,10 @@ def command(
         True, "--baselines/--no-baselines", help="Also try the rivals on every case."
     ),
 ) -> None:
-    """Run the concealed-effect benchmark; an interrupted run resumes."""
+    """Run the concealed-effect benchmark; an interrupted run resumes.
+
+    Example: truck-blowout prove --set ci -o out/proof
+    """
     from truck_blowout_sim.proof.cases import find_cases
     from truck_blowout_sim.proof.generate import generate_set
     from truck_blowout_sim.proof.prove import score_run

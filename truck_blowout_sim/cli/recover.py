@@ -19,7 +19,10 @@ def command(
     force: bool = FORCE,
     as_json: bool = JSON,
 ) -> None:
-    """Repair a bag whose writer was killed; every whole chunk is kept."""
+    """Repair a bag whose writer was killed; every whole chunk is kept.
+
+    Example: truck-blowout recover killed_bag
+    """
     if not bag.exists():
         raise InputError(
             "no such file or directory", file=bag, expected="an .mcap file or a rosbag2 folder"

@@ -21,7 +21,10 @@ def command(
     force: bool = FORCE,
     as_json: bool = JSON,
 ) -> None:
-    """Measure the model against the published figures of the test, in both vehicles."""
+    """Measure the model against the published figures of the test, in both vehicles.
+
+    Example: truck-blowout validate -o validation.md
+    """
     if output is not None:
         claim(output, force=force)
     sections = validate(lambda words: typer.echo(words, err=True))

@@ -22,7 +22,8 @@ from truck_blowout_sim.nodes.parameters import Spec
 from truck_blowout_sim.nodes.qos import publisher, reliable, state, subscription
 from truck_blowout_sim.nodes.signals import StopFlag
 
-ABOUT = "Keeps a straight lane, also when a tire blows, using the simulator's topics alone."
+ABOUT = ("Keeps a straight lane, also when a tire blows, using the simulator's topics alone."
+         " Example: truck-blowout-lane-keeper --speed-mps 20")
 
 _FASTEST_MPS = 60.0
 _NOISE_M = 1.0

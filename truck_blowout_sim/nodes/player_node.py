@@ -33,7 +33,8 @@ from truck_blowout_sim.recordings.cdr import template
 from truck_blowout_sim.recordings.channels import BLOWOUT_EVENT, STRING, channels_for
 from truck_blowout_sim.recordings.shipped import find_recording
 
-ABOUT = "Plays a recording onto the simulator's command topics and blows its tires on time."
+ABOUT = ("Plays a recording onto the simulator's command topics and blows its tires on time."
+         " Example: truck-blowout player test_2013_steer_blowout --record-path again")
 
 COMMANDS = frozenset(row.topic for row in channels_for((), (), ()) if row.group == "input")
 _IDLE_S = 0.05

@@ -36,7 +36,8 @@ from truck_blowout_sim.nodes.simulator_parameters import (
 )
 from truck_blowout_sim.nodes.wheel_and_blowout_topics import accept_wheel_and_blowout
 
-ABOUT = "Simulates a truck in real time; steer, brake and blow its tires over ROS 2."
+ABOUT = ("Simulates a truck in real time; steer, brake and blow its tires over ROS 2."
+         " Example: truck-blowout simulator --initial-speed-mps 23")
 
 _IDLE_S = 0.1
 _SERVE_EVERY_S = 0.005
