@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from functools import cache
+from pathlib import Path
 from unittest.mock import patch
 
 import numpy as np
@@ -44,6 +45,15 @@ Studies = Callable[..., Study]
 def truck() -> Packed:
     """The default vehicle."""
     return pack(load_vehicle("international_9400i_trailmobile"))
+
+
+@pytest.fixture(scope="session")
+def ten_line_car(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A vehicle file of a car in the fewest lines; rules of thumb fill in the rest."""
+    path = tmp_path_factory.mktemp("vehicles") / "car.yaml"
+    path.write_text("title: car\nsingle_track: {kind: car, mass_kg: 1500, wheelbase_m: 2.7,"
+                    " cg_x_m: 1.25, steering_ratio: 16, tire: 205/55R16}\n")
+    return path
 
 
 @pytest.fixture(scope="session")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -17,9 +18,10 @@ from truck_blowout_sim.diagnosis.calibrate import (
     describe,
     write_calibrated_vehicle,
 )
-from truck_blowout_sim.diagnosis.settings import Settings
+from truck_blowout_sim.diagnosis.settings import Settings, load_settings
 from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.recordings import Recording
+from truck_blowout_sim.simulation import simulate
 from truck_blowout_sim.vehicle import Packed, load_vehicle, pack
 
 Drives = Callable[..., Recording]
@@ -80,6 +82,22 @@ def test_a_number_reads_as_a_sentence(found: Calibration) -> None:
 
 def test_plain_data_is_json(found: Calibration) -> None:
     json.dumps(as_plain(found, Path("x.yaml")), allow_nan=False)
+
+
+def test_a_long_coast_down_is_followed_to_a_millimeter_a_second(ten_line_car: Path) -> None:
+    """A car 3 % heavier and with 10 % more drag than its sheet: 0.2 m/s of error on the sheet."""
+    car = load_vehicle(ten_line_car)
+    sheet, settings = pack(car), load_settings(pack(car))
+    more = {"unit.tractor.mass_kg": HEAVY, "driveline.drag_n": HEAVY,
+            "unit.tractor.drag_area_m2": 1.1}  # fmt: skip
+    heavy = sheet.with_values({name: factor * sheet[name] for name, factor in more.items()})
+    few = [n for n in settings.nuisances if n.name in
+           ("tractor_mass", "rolling_resistance", "driveline_loss", "drag_area")]
+    found = calibrate([simulate(heavy, "coast_down")], vehicle=car,
+                      settings=replace(settings, nuisances=tuple(few)))  # fmt: skip
+    (speed,) = [c for c in found.changes if c.channel == "tractor_vx_mps"]
+    assert speed.before > 0.15
+    assert speed.after < 0.001
 
 
 def test_bad_input_is_one_line(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

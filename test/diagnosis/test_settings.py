@@ -103,6 +103,14 @@ def test_every_axle_of_any_vehicle_has_numbers_of_its_own(vehicle: str) -> None:
     assert "fifth_wheel.yaw_friction_nm" not in moved
 
 
+def test_drive_power_is_a_number_only_where_a_rule_of_thumb_stands_for_it(
+    ten_line_car: Path, truck: Packed
+) -> None:
+    found = {n.name: n for n in load_settings(pack(load_vehicle(ten_line_car))).nuisances}
+    assert found["drive_power"].sigma == pytest.approx(25.0 / 70.0)
+    assert "drive_power" not in {n.name for n in load_settings(truck).nuisances}
+
+
 def test_a_file_takes_over_what_it_does_not_say(tmp_path: Path, truck: Packed) -> None:
     path = tmp_path / "mine.yaml"
     path.write_text("extends: default\nwithout: [caster]\n"

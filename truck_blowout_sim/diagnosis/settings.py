@@ -146,8 +146,9 @@ def _numbers(path: Path, key: str, entry: Mapping[str, Any], packed: Packed,
             # a share of nothing says nothing
             if kind == "add" or any(packed[name] for name, _ in targets):
                 own = _stated(packed, stated, kind, targets)
-                found.append(Nuisance(part.named(key), kind, own or sigma, step, tuple(targets),
-                                      only, stated=own > 0.0))
+                if own or sigma:
+                    found.append(Nuisance(part.named(key), kind, own or sigma, step,
+                                          tuple(targets), only, stated=own > 0.0))
     return found
 
 
