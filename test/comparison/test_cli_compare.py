@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 import scipy.io
 
+from truck_blowout_sim import load_vehicle, simulate, write_recording
 from truck_blowout_sim.cli.compare import _folders
 from truck_blowout_sim.cli.main import main
 from truck_blowout_sim.recordings import read_recording
@@ -33,6 +34,17 @@ def test_a_shipped_record_is_compared_by_its_name(
     assert "report.html" in shown.out
     assert json.loads((tmp_path / "out" / "comparison.json").read_text())["recording"] == TEST_2013
     assert (tmp_path / "out" / "figures" / "yaw_rate_tractor.png").is_file()
+
+
+def test_each_channel_of_a_full_recording_is_one_line_in_a_pipe(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    run = simulate(load_vehicle("rigid_truck"), "coast_down").between(0.0, 1.5)
+    write_recording(run, tmp_path / "run.csv")
+    assert main(["compare", str(tmp_path / "run.csv"), "-o", str(tmp_path / "out")]) == 0
+    shown = capsys.readouterr().out
+    labels = [line.split("  ")[0] for line in shown.splitlines()]
+    assert "specific force to the left of the tractor" in labels
 
 
 def test_the_thesis_s_analysis_runs_with_steering_from_a_second_file(

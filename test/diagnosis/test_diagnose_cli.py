@@ -157,8 +157,10 @@ def test_thorough_says_how_long_and_follows_the_likelihood(
 ) -> None:
     assert main(["diagnose", str(case.train), "--holdout", str(case.holdout), "--settings",
                  str(case.settings), "--thorough", "-o", str(tmp_path / "out")]) == 0
-    assert "finding four effects would take about" in capsys.readouterr().err
+    shown = capsys.readouterr()
+    assert "finding four effects would take about" in shown.err
     answer = json.loads((tmp_path / "out" / "diagnosis.json").read_text(encoding="utf-8"))
+    assert f"how sure: {answer['summary']['sure']}" in shown.out.splitlines()  # a pipe: unbroken
     ratio, quick = (a["effects"][0]["parameters"]["torque_ratio"] for a in (answer, case.answer))
     assert answer["effects"][0]["name"] == "brake_imbalance"
     assert ratio["ci90"][0] < 0.3 < ratio["ci90"][1]

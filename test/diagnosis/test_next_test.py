@@ -102,5 +102,5 @@ def test_words_name_the_pair_and_its_places_where_names_are_the_same(truck: Pack
     assert plain.startswith("To tell brake_imbalance at trailer_2_left from brake_imbalance at ")
     best = Separation((left.hypothesis, right.hypothesis), "brake_stop", "speed", 11.6, 7)
     assert next_test(found, gate, best) == (
-        f"{plain} Of 7 simulated manoeuvres brake_stop separates them best: "
+        f"{plain} Of 7 simulated maneuvers brake_stop separates them best: "
         "speed would differ by 12 sigma.")

@@ -28,7 +28,9 @@ FOUND = {
                       "after": {"tractor_yaw_rate_radps": 9.2}}},
     "next_test": "Record the road wheel.",
 }  # fmt: skip
-NOTHING = {**FOUND, "verdict": "consistent", "effects": [], "alias_sets": [], "next_test": "",
+NOTHING = {**FOUND, "verdict": "consistent",
+           "summary": {"wrong": "The model explains this.", "sure": "Three of ten show as much."},
+           "effects": [], "alias_sets": [], "next_test": "",
            "location": {"channels": [], "interval_s": None, "body": None,
                         "wrench": {"fx_n": None, "fy_n": None, "mz_nm": None}},  # as it is written
            "fit": {"train": {"before": {}, "after": {}}}}  # fmt: skip
@@ -56,4 +58,6 @@ def test_the_page_tells_all_six_parts_in_order(story: Story, tmp_path: Path) -> 
 def test_a_consistent_record_has_a_page_too(story: Story, tmp_path: Path) -> None:
     page = write_story(replace(story, diagnosis=NOTHING), tmp_path / "index.html").read_text()
     assert "Nowhere beyond noise" in page
-    assert "Nothing was named: consistent" in page
+    assert "Verdict: consistent. The model explains this." in page
+    assert "Nothing was named: consistent. Three of ten show as much." in page
+    assert "with the named effects" not in page

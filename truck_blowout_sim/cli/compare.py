@@ -171,7 +171,7 @@ def _folders(recordings: list[str], output: Path) -> list[Path]:
 
 def _console() -> Console:
     """As wide as the terminal; wide enough for every column where the output is a file."""
-    return Console() if sys.stdout.isatty() else Console(width=110)
+    return Console() if sys.stdout.isatty() else Console(width=160)
 
 
 def _progress() -> Progress:

@@ -186,11 +186,13 @@ def _teller(progress: Progress) -> Callable[[str], None]:
 
 
 def _print(console: Console, answer: Diagnosis, folder: Path) -> None:
-    """The verdict, each effect, and where the rest is."""
+    """The verdict, each effect, and where the rest is; in a pipe each on one line."""
     from truck_blowout_sim.diagnosis.result import amount_text, label_of, summarize
 
+    piped = not console.is_terminal
+
     def line(text: str) -> None:
-        console.print(text, highlight=False, markup=False)
+        console.print(text, highlight=False, markup=False, soft_wrap=piped)
 
     summary = summarize(answer)
     console.print(f"[bold]{answer.verdict}[/]:", end=" ", highlight=False)
@@ -209,5 +211,5 @@ def _print(console: Console, answer: Diagnosis, folder: Path) -> None:
     if far:
         line("numbers pulled far from the sheet: "
              + ", ".join(f"{n.name.replace('_', ' ')} ({n.pull:+.1f} prior sigmas)" for n in far))
-    console.print(f"next test: {answer.next_test}", highlight=False)
+    line(f"next test: {answer.next_test}")
     console.print(str(folder / "report.html"), highlight=False, soft_wrap=True)

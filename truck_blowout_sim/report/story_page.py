@@ -58,6 +58,7 @@ def write_story(story: Story, path: Path) -> Path:
 def _content(story: Story) -> dict[str, object]:
     found = story.diagnosis
     location, fit = found["location"], found["fit"]["train"]
+    said = found.get("summary") or {}
     effects = [{
         "name": effect["name"].replace("_", " "), "sentence": effect["sentence"],
         "equation": effect["equation"], "where": _place(effect["where"]),
@@ -72,6 +73,7 @@ def _content(story: Story) -> dict[str, object]:
         "vehicle": story.before.vehicle.title, "result": verdict(story.before),
         "result_after": verdict(story.after),
         "verdict": found["verdict"].replace("_", " "), "effects": effects,
+        "wrong": said.get("wrong", ""), "sure": said.get("sure", ""),
         "aliases": [" or ".join(n.replace("_", " ") for n in names)
                     for names in found["alias_sets"] if len(names) > 1],
         "location": _located(location), "fit": rows, "next_test": found.get("next_test", ""),

@@ -93,7 +93,7 @@ def next_test(found: Found, gate: GateResult, best: Separation | None = None) ->
         return finding.next_test
     if found.named:
         return f"To confirm: {found.named[0].hypothesis.effect.splits}."
-    return "None is needed for these manoeuvres; a harder one would test more of the model."
+    return "None is needed for these maneuvers; a harder one would test more of the model."
 
 
 def _names(pair: Sequence[Hypothesis]) -> str:

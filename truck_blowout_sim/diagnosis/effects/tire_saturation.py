@@ -41,5 +41,5 @@ EFFECT = Effect(
     sentence="The tires of axle {where} give out earlier: their lateral force levels off at "
              "{value} times the modelled peak.",
     equation="F_y = D' sin(C atan(B alpha)),  D' = {value} * D, B C D' unchanged",
-    splits="a manoeuvre at high lateral acceleration",
+    splits="a maneuver at high lateral acceleration",
 )

@@ -54,9 +54,9 @@ class Separation:
 
     def __str__(self) -> str:
         if self.sigma < _CLEAR_SIGMA:
-            return (f"None of {self.tried} simulated manoeuvres would show a difference of more "
+            return (f"None of {self.tried} simulated maneuvers would show a difference of more "
                     f"than {max(self.sigma, 0.1):.1f} sigma in a channel recorded here.")
-        return (f"Of {self.tried} simulated manoeuvres {self.manoeuvre} separates them best: "
+        return (f"Of {self.tried} simulated maneuvers {self.manoeuvre} separates them best: "
                 f"{self.channel} would differ by {self.sigma:.0f} sigma.")
 
 
