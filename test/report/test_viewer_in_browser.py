@@ -128,6 +128,22 @@ def test_side_by_side_draws_both_halves(browser: Browser) -> None:
     browser.evaluate("app.mode = 'ghost', app.arrange() || true")
 
 
+FARTHEST_WORD = """(() => {
+  const canvas = CanvasRenderingContext2D.prototype, fillText = canvas.fillText; let reach = 0;
+  canvas.fillText = function (words, x, y) {
+    reach = Math.max(reach, x + this.measureText(words).width);
+    fillText.call(this, words, x, y);
+  };
+  app.picture(2.0, 240, 300);
+  canvas.fillText = fillText;
+  return reach;
+})()"""
+
+
+def test_no_word_over_a_picture_is_cut_off(browser: Browser) -> None:
+    assert 120.0 < browser.evaluate(FARTHEST_WORD) <= 240.0
+
+
 @pytest.mark.skipif(shutil.which("ffmpeg") is None, reason="no ffmpeg installed")
 def test_a_film_is_written(page: Path, tmp_path: Path) -> None:
     film = tmp_path / "film.mp4"

@@ -255,12 +255,17 @@ class App {
     this.draw(width, height);
     const page = document.createElement('canvas');
     page.width = width; page.height = height;
-    const g = page.getContext('2d'), size = Math.round(height / 34), style = getComputedStyle(document.documentElement);
+    const g = page.getContext('2d'), style = getComputedStyle(document.documentElement);
     g.imageSmoothingQuality = 'high';
     g.drawImage($('scene'), 0, 0, width, height);
-    g.font = `600 ${size}px system-ui, "DejaVu Sans", sans-serif`;
     g.textBaseline = 'top';
     const lines = [`${this.t.toFixed(2)} s`, ...[...$('readout').children].map(row => row.textContent)];
+    const font = px => { g.font = `600 ${px}px system-ui, "DejaVu Sans", sans-serif`; };
+    const usual = Math.round(height / 34);
+    font(usual);
+    const longest = Math.max(...lines.map(words => g.measureText(words).width)) + 2 * usual;
+    const size = usual * Math.min(1, width / longest);  // smaller where a line would be cut off
+    font(size);
     lines.forEach((words, k) => {
       const y = size * (0.8 + 1.55 * k);
       g.fillStyle = style.getPropertyValue('--glass');
