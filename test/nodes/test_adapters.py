@@ -89,6 +89,7 @@ class Node:
         self.taken: dict[str, Callable[[Any], None]] = {}
         self.sent: dict[str, list[Any]] = {}
         self.served: dict[str, Callable[[Any, Any], Any]] = {}
+        self.readers = 1
 
     def resolve_topic_name(self, topic: str) -> str:
         return topic
@@ -100,7 +101,10 @@ class Node:
         self.taken[topic] = callback
 
     def create_publisher(self, _: type, topic: str, *__: Any, **___: Any) -> SimpleNamespace:
-        return SimpleNamespace(publish=self.sent.setdefault(topic, []).append)
+        return SimpleNamespace(
+            publish=self.sent.setdefault(topic, []).append,
+            get_subscription_count=lambda: self.readers,
+        )
 
     def create_service(self, _: type, name: str, callback: Any) -> None:
         self.served[name] = callback
@@ -212,6 +216,17 @@ def test_autoware_takes_control_and_gives_reports(
     assert where.pose.pose.position.x < -2.0
     (acceleration,) = node.sent["/localization/acceleration"]
     assert acceleration.accel.accel.linear.z == pytest.approx(0.0, abs=0.2)
+
+
+def test_autoware_reports_are_made_only_where_somebody_reads_them(
+    monkeypatch: pytest.MonkeyPatch, node: Any, simulator: Any
+) -> None:
+    install(monkeypatch, "autoware_control_msgs", msg={"Control": object})
+    install(monkeypatch, "autoware_vehicle_msgs", msg=AUTOWARE, srv={"ControlModeCommand": object})
+    node.readers = 0
+    autoware.attach(node, simulator)
+    simulator.reports[0](1_500_000_000)
+    assert not any(node.sent.values())
 
 
 def test_autoware_changes_mode_and_gear(

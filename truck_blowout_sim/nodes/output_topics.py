@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from time import monotonic
 from typing import Any
 
 import numpy as np
@@ -25,12 +24,11 @@ from truck_blowout_sim.nodes.clock import NS
 from truck_blowout_sim.nodes.clock_topics import CLOCK, CLOCK_TYPE, clock_bytes
 from truck_blowout_sim.nodes.outputs import Batch, OutputTable
 from truck_blowout_sim.nodes.plant import Plant
-from truck_blowout_sim.nodes.publishing import make_publishers, message_class
+from truck_blowout_sim.nodes.publishing import Readers, make_publishers, message_class
 from truck_blowout_sim.nodes.qos import in_force, publisher, reliable, state
 from truck_blowout_sim.nodes.recorder import Recorder
 from truck_blowout_sim.nodes.simulator_parameters import Timing, Values
 
-_LOOK_FOR_READERS_EVERY_S = 0.02  # discovery takes longer than this to tell a reader of us
 FloatArray = NDArray[np.float64]
 
 
@@ -54,6 +52,7 @@ class OutputTopics:
         )
         self._publishers = make_publishers(node, self._table.types)
         self._publishers |= self._make_scene_publishers(node, tf=values["publish_tf"])
+        self._readers = Readers(self._publishers)
         for made in self._publishers.values():
             recorder.offered(made.topic_name, in_force(made))
         self._blowouts_shared = bool(values["blowout_input"])
@@ -64,7 +63,6 @@ class OutputTopics:
         self._read_batches: tuple[Batch, ...] = ()
         self._read_display = False
         self._no_display = np.zeros(len(self._table.display.channels))
-        self._look_at_s = 0.0
         self._others: list[Callable[[int], None]] = []
         self._tick = 0
         self._last_ns: int | None = None
@@ -173,16 +171,11 @@ class OutputTopics:
         return self._recorder.active or topic in self._read
 
     def _look_for_readers(self) -> None:
-        """Which topics are read; asking at every tick would cost as much as publishing."""
-        now_s = monotonic()
-        if now_s >= self._look_at_s:
-            self._look_at_s = now_s + _LOOK_FOR_READERS_EVERY_S
-            read = frozenset(topic for topic, made in self._publishers.items()
-                             if made.get_subscription_count() > 0)  # fmt: skip
-            if read != self._read:
-                self._read = read
-                self._read_batches = self._table.read_by(read)
-                self._read_display = self._table.needs_display(self._read_batches)
+        read = self._readers.topics()
+        if read != self._read:
+            self._read = read
+            self._read_batches = self._table.read_by(read)
+            self._read_display = self._table.needs_display(self._read_batches)
 
     def _send(self, topic: str, now_ns: int, data: bytes) -> None:
         if topic in self._read:

@@ -24,6 +24,7 @@ from rclpy.node import Node
 from truck_blowout_sim.nodes.adapters.commands import ForeignCommands
 from truck_blowout_sim.nodes.adapters.rear_axle import Motion, RearAxle
 from truck_blowout_sim.nodes.clock import NS
+from truck_blowout_sim.nodes.publishing import Readers
 from truck_blowout_sim.nodes.qos import publisher, reliable, subscription
 
 if TYPE_CHECKING:
@@ -73,14 +74,15 @@ class AutowareVehicle:
         gears = [getattr(msg.GearCommand, f"DRIVE_{n}") for n in range(2, 19)]
         self._gears = {msg.GearCommand.DRIVE, msg.GearCommand.NEUTRAL, msg.GearCommand.PARK,
                        msg.GearCommand.LOW, msg.GearCommand.LOW_2, *gears}  # fmt: skip
-        self._send = {
-            topic: publisher(node, kind, topic, reliable(1)).publish
+        self._publishers = {
+            topic: publisher(node, kind, topic, reliable(1))
             for topic, kind in (
                 (VELOCITY, msg.VelocityReport), (STEERING, msg.SteeringReport),
                 (GEAR, msg.GearReport), (MODE, msg.ControlModeReport),
                 (KINEMATIC_STATE, Odometry), (ACCELERATION, AccelWithCovarianceStamped),
             )
         }  # fmt: skip
+        self._readers = Readers(self._publishers)
 
     def take(self, message: Any) -> None:  # noqa: ANN401  # a message class without types
         """A control command."""
@@ -110,25 +112,37 @@ class AutowareVehicle:
         return response
 
     def report(self, now_ns: int) -> None:
-        """Publish every report of one instant."""
-        motion = self._axle.motion(now_ns, self._plant.outputs())
-        velocity = self._msg.VelocityReport()
-        _stamp(velocity.header, now_ns, _FRAME)
-        velocity.longitudinal_velocity = float(motion.velocity_mps[0])
-        velocity.lateral_velocity = float(motion.velocity_mps[1])
-        velocity.heading_rate = float(motion.rate_radps[2])
-        self._send[VELOCITY](velocity)
-        for topic, kind, key, value in (
-            (STEERING, self._msg.SteeringReport, "steering_tire_angle", self._commands.steer_rad),
-            (GEAR, self._msg.GearReport, "report", self._gear),
-            (MODE, self._msg.ControlModeReport, "mode", self._mode),
-        ):
-            message = kind()
-            message.stamp.sec, message.stamp.nanosec = divmod(now_ns, NS)
-            setattr(message, key, value)
-            self._send[topic](message)
-        self._send[KINEMATIC_STATE](_odometry(now_ns, motion))
-        self._send[ACCELERATION](_acceleration(now_ns, motion))
+        """Publish the reports of one instant that somebody reads."""
+        read = self._readers.topics()
+        if read:
+            motion = self._axle.motion(now_ns, self._plant.outputs())
+            for topic in read:
+                self._publishers[topic].publish(self._message(topic, now_ns, motion))
+
+    def _message(self, topic: str, now_ns: int, motion: Motion) -> Any:  # noqa: ANN401
+        if topic == KINEMATIC_STATE:
+            return _odometry(now_ns, motion)
+        if topic == ACCELERATION:
+            return _acceleration(now_ns, motion)
+        if topic == VELOCITY:
+            return self._velocity(now_ns, motion)
+        kind, key, value = {
+            STEERING: (self._msg.SteeringReport, "steering_tire_angle", self._commands.steer_rad),
+            GEAR: (self._msg.GearReport, "report", self._gear),
+            MODE: (self._msg.ControlModeReport, "mode", self._mode),
+        }[topic]
+        message = kind()
+        message.stamp.sec, message.stamp.nanosec = divmod(now_ns, NS)
+        setattr(message, key, value)
+        return message
+
+    def _velocity(self, now_ns: int, motion: Motion) -> Any:  # noqa: ANN401
+        out = self._msg.VelocityReport()
+        _stamp(out.header, now_ns, _FRAME)
+        out.longitudinal_velocity = float(motion.velocity_mps[0])
+        out.lateral_velocity = float(motion.velocity_mps[1])
+        out.heading_rate = float(motion.rate_radps[2])
+        return out
 
 
 def _odometry(now_ns: int, motion: Motion) -> Odometry:
