@@ -19,6 +19,7 @@ from std_srvs.srv import Trigger
 from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.nodes import blow_schedule
 from truck_blowout_sim.nodes.blow_schedule import BlowSchedule
+from truck_blowout_sim.nodes.signals import CAUGHT, Interrupted
 from truck_blowout_sim.nodes.steering_gear import _gear
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -70,6 +71,28 @@ def test_ctrl_c_in_the_first_second_leaves_no_traceback(start: Any, after_s: flo
     status = node.stop(signal.SIGINT)
     assert "Traceback" not in node.output
     assert status in (0, -signal.SIGINT)  # the latter before Python itself is up
+
+
+def test_an_interruption_that_an_import_wraps_in_an_error_is_still_one(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    from truck_blowout_sim.nodes import door
+
+    def wrap(_: str) -> None:
+        # as Python 3.11 does with what is raised in __set_name__
+        try:
+            signal.raise_signal(signal.SIGINT)
+        except Interrupted as error:
+            raise RuntimeError("Error calling __set_name__") from error
+
+    handlers = {number: signal.getsignal(number) for number in CAUGHT}
+    monkeypatch.setattr(door, "import_module", wrap)
+    try:
+        assert door.open_node("player", []) == 0
+    finally:
+        for number, handler in handlers.items():
+            signal.signal(number, handler)
+    assert capsys.readouterr().err == "player: SIGINT while starting\n"
 
 
 @pytest.mark.parametrize("name", ["simulator", "player"])

@@ -11,7 +11,7 @@ import threading
 from collections.abc import Sequence
 from importlib import import_module
 
-from truck_blowout_sim.nodes.signals import Interrupted, StopFlag
+from truck_blowout_sim.nodes.signals import StopFlag
 
 COMPILER = "compiler"
 """Name of the thread that compiles the model; see `plant.Plant.build`."""
@@ -35,8 +35,10 @@ def open_node(name: str, arguments: Sequence[str] | None = None) -> int:
             module = import_module(f"truck_blowout_sim.nodes.{name}_node")
             stop.at_once = False
             status = int(module.main(arguments, stop))
-        except Interrupted as reason:
-            print(f"{name}: {reason} while starting", file=sys.stderr)
+        except BaseException:
+            if not stop.interrupted:
+                raise
+            print(f"{name}: {stop.reason} while starting", file=sys.stderr)
             status = 0
         if any(thread.name == COMPILER for thread in threading.enumerate()):
             # A compiler cannot be interrupted, and the interpreter must not end under its feet.

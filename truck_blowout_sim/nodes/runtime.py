@@ -71,7 +71,9 @@ def run(
     except _usage_errors() as error:
         print(f"{name}: {_first_line(error)}", file=sys.stderr)
         return 2
-    except Exception:  # noqa: BLE001  # the last door: printed in full, status 1
+    except Exception:  # the last door: printed in full, status 1
+        if stop.interrupted:
+            raise
         traceback.print_exc()
         return 1
     finally:

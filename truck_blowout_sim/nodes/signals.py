@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import signal
 from types import FrameType, TracebackType
+from typing import NoReturn
 
 CAUGHT = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 
@@ -27,6 +28,7 @@ class StopFlag:
     def __init__(self) -> None:
         self.stopped = False
         self.at_once = False
+        self.interrupted = False  # what is being imported may wrap `Interrupted` in another error
         self.reason = ""
         self._before: dict[int, object] = {}
 
@@ -52,8 +54,16 @@ class StopFlag:
         """Ask the loop to end, from inside the program."""
         self.stopped, self.reason = True, reason
 
+    def interrupt(self) -> NoReturn:
+        """End what has not begun.
+
+        Raises:
+            Interrupted: always.
+        """
+        self.at_once, self.interrupted = False, True
+        raise Interrupted(self.reason)
+
     def _catch(self, number: int, frame: FrameType | None) -> None:
         self.stop(signal.Signals(number).name)
         if self.at_once:
-            self.at_once = False
-            raise Interrupted(self.reason)
+            self.interrupt()

@@ -27,7 +27,7 @@ from truck_blowout_sim.nodes.plant import Plant
 from truck_blowout_sim.nodes.recorder import Recorder
 from truck_blowout_sim.nodes.report import Reporter
 from truck_blowout_sim.nodes.services import Reply, serve
-from truck_blowout_sim.nodes.signals import Interrupted, StopFlag
+from truck_blowout_sim.nodes.signals import StopFlag
 from truck_blowout_sim.nodes.simulator_parameters import (
     SPECS,
     initial_state,
@@ -247,7 +247,7 @@ class Simulator:
         work = Background(self.plant.build, COMPILER)
         while not work.done:
             if stop:
-                raise Interrupted(stop.reason)
+                stop.interrupt()
             self.reporter.spin(monotonic())
             executor.spin_once(timeout_sec=_BUILDING_TURN_S)
         work.check()
