@@ -18,6 +18,8 @@ from std_msgs.msg import Float64, String
 from std_srvs.srv import Trigger
 
 from truck_blowout_sim import Blowout, Recording, Series, write_recording
+from truck_blowout_sim.nodes.playlist import Playlist
+from truck_blowout_sim.recordings.channels import channels_for
 
 ALONE = ("--wait-for-simulator-s", 0)
 TIMES_S = np.arange(0.0, 1.5, 0.01)
@@ -175,3 +177,19 @@ def test_bad_usage_is_one_line_and_status_2(
     assert player.wait() == 2
     assert said in player.output
     assert "Traceback" not in player.output
+
+
+def test_a_gauge_that_reads_below_zero_at_rest_is_no_refused_command() -> None:
+    """Noise around a released pedal: the simulator would hold the last value before it."""
+    times = np.array([0.0, 0.1, 0.2])
+    log = Recording("log", {"brake_pressure_trailer_pa": Series(times, [2e5, 3e3, -700.0]),
+                            "throttle": Series(times, [-0.02, 0.5, 1.03]),
+                            "steering_wheel_angle_rad": Series(times, [-0.5, 0.0, 0.5])})
+    (track,) = Playlist(log).tracks
+    sent = dict(zip((c.name for c in log_rows(log)), track.values.T.tolist(), strict=True))
+    assert sent == {"steering_wheel_angle_rad": [-0.5, 0.0, 0.5], "throttle": [0.0, 0.5, 1.0],
+                    "brake_pressure_trailer_pa": [2e5, 3e3, 0.0]}
+
+
+def log_rows(log: Recording) -> list[Any]:
+    return [row for row in channels_for() if row.name in log]

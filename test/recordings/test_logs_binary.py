@@ -17,7 +17,7 @@ from truck_blowout_sim.recordings import read_recording
 from truck_blowout_sim.recordings.logs import open_log
 from truck_blowout_sim.recordings.mapping.rules import Rules, Source
 
-IN_TMP = settings(suppress_health_check=[HealthCheck.function_scoped_fixture], max_examples=25)
+IN_TMP = settings(suppress_health_check=[HealthCheck.function_scoped_fixture], max_examples=12)
 TIME = 0.01 * np.arange(200)
 RULES = Rules(channels={"tractor_vx_mps": Source("VehSpd"),
                         "tractor_yaw_rate_radps": Source("YawRate")})  # fmt: skip
@@ -159,19 +159,28 @@ def test_structure_arrays_and_cells_of_version_7_3_are_followed(tmp_path: Path) 
 
 
 @pytest.fixture(scope="module")
-def mdf_bytes(tmp_path_factory: pytest.TempPathFactory) -> bytes:
-    return mdf(tmp_path_factory.mktemp("mdf") / "log.mf4", "4.10").read_bytes()
+def whole(tmp_path_factory: pytest.TempPathFactory) -> dict[str, bytes]:
+    """A file of each kind that a library reads."""
+    folder = tmp_path_factory.mktemp("whole")
+    h5py = pytest.importorskip("h5py")
+    with h5py.File(folder / "log.mat", "w", userblock_size=512) as file:
+        file["time"], file["VehSpd"] = TIME[None, :], (72.0 + TIME)[None, :]
+        file["log/YawRate"] = np.sin(TIME)[None, :]
+    mdf(folder / "log.mf4", "4.10")
+    mdf(folder / "log.mdf", "3.30")
+    return {path.name: path.read_bytes() for path in folder.iterdir()}
 
 
+@pytest.mark.parametrize("name", ["log.mf4", "log.mdf", "log.mat"])
 @IN_TMP
 @given(st.randoms(use_true_random=False), st.booleans())
 def test_damage_gives_a_recording_or_one_line(
-    tmp_path: Path, mdf_bytes: bytes, dice: random.Random, cut: bool
+    tmp_path: Path, whole: dict[str, bytes], name: str, dice: random.Random, cut: bool
 ) -> None:
-    data = bytearray(mdf_bytes)
+    data = bytearray(whole[name])
     for _ in range(4):
         data[dice.randrange(8, len(data))] = dice.randrange(256)
-    path = tmp_path / "damaged.mf4"
+    path = tmp_path / f"damaged_{name}"
     path.write_bytes(data[: dice.randrange(len(data))] if cut else data)
     line = ""
     try:

@@ -99,7 +99,6 @@ def command(
     check_brakes(loaded, *train, *base, *hold)
     if not as_json:
         _say_roles(train, base, hold)
-    output.mkdir(parents=True, exist_ok=True)
     level = effort.QUICK if quick else effort.THOROUGH if thorough else effort.USUAL
     with (_progress() as progress, keeping(output / _KEPT, _teller(progress)) as kept,
           interruptible(lambda: _CONTINUES if kept.begun else "")):
@@ -145,6 +144,7 @@ def _write(answer: Diagnosis, vehicle: Vehicle, base: str, values: Mapping[str, 
     from truck_blowout_sim.diagnosis import write_diagnosed_vehicle, write_diagnosis
     from truck_blowout_sim.report.diagnosis_page import write_diagnosis_report
 
+    folder.mkdir(parents=True, exist_ok=True)
     write_diagnosis(answer, folder / "diagnosis.json")
     write_diagnosed_vehicle(folder / "vehicle.yaml", base, values, answer)
     write_diagnosis_report(answer, vehicle, folder / "report.html", panels)

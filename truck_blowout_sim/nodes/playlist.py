@@ -18,6 +18,8 @@ from truck_blowout_sim.recordings.recording import Recording
 FloatArray = NDArray[np.float64]
 _NS = 1_000_000_000
 _NOWHERE = 1e-9
+_ANY = (-np.inf, np.inf)
+_PEDALS = {"1": (0.0, 1.0), "Pa": (0.0, np.inf)}
 
 
 @dataclass(frozen=True)
@@ -132,4 +134,6 @@ def _patterns(
 
 def _at(recording: Recording, channel: Channel, instants: FloatArray) -> FloatArray:
     series = recording[channel.name]
-    return series.value[np.searchsorted(series.time_s, instants)]
+    values = series.value[np.searchsorted(series.time_s, instants)]
+    # the simulator refuses what a pedal cannot do, and a gauge at rest reads a little below zero
+    return np.clip(values, *_PEDALS.get(channel.unit, _ANY)) if channel.group == "input" else values
