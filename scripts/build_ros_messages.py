@@ -145,18 +145,19 @@ def _library(name: str, package: Package, sources: Path, links: Sequence[str], s
 
 def _compile_python(package: Package) -> None:
     made, target = package.work / "rosidl_generator_py" / package.name, PACKAGES / package.name
-    shutil.rmtree(target, ignore_errors=True)
-    shutil.copytree(made, target)
-    (target / "__init__.py").touch()
+    (made / "__init__.py").touch()
     own = [f"{package.name}__rosidl_generator_c", f"{package.name}__rosidl_typesupport_c"]
     theirs = [f"{one}__rosidl_generator_py" for one in package.depends]
-    converters = [str(path) for path in target.rglob("*_s.c")]
+    converters = [str(path) for path in made.rglob("*_s.c")]
     shared = f"{package.name}__rosidl_generator_py"
     _compile(LIBRARIES / f"lib{shared}.so", converters, package, [*own, *theirs])
     for support in SUPPORTS:
-        entry = target / f"_{package.name}_s.ep.{support}.c"
+        entry = made / f"_{package.name}_s.ep.{support}.c"
         links = [shared, *own, f"{package.name}__{support}", "rosidl_runtime_c", "rcutils"]
-        _compile(target / f"{package.name}_s__{support}.so", [str(entry)], package, links)
+        _compile(made / f"{package.name}_s__{support}.so", [str(entry)], package, links)
+    # last: nodes that find a package count on all of it
+    shutil.rmtree(target, ignore_errors=True)
+    shutil.copytree(made, target)
 
 
 def _compile(output: Path, files: Sequence[str], package: Package, links: Sequence[str]) -> None:
