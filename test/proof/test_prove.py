@@ -40,8 +40,9 @@ def test_a_case_from_truth_to_table(tmp_path: Path) -> None:
                                                     "gaussian_process", "sparse_regression"}
     # A second run finds the line and only scores.
     before = (out / "results.jsonl").read_bytes()
-    subprocess.run(words, check=True)
+    told = subprocess.run([*words, "--json"], check=True, capture_output=True, text=True)
     assert (out / "results.jsonl").read_bytes() == before
+    assert json.loads(told.stdout)["seals"]["holds"] == ["short"]
     assert "brake_imbalance trailer_2_left" in (out / "cases.csv").read_text()
 
 

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import os
+import sys
 from pathlib import Path
 from typing import Any
 
 import typer
 from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
+
+from truck_blowout_sim.cli.outputs import JSON
 
 
 def command(
@@ -35,6 +38,7 @@ def command(
     baselines: bool = typer.Option(
         True, "--baselines/--no-baselines", help="Also try the rivals on every case."
     ),
+    as_json: bool = JSON,
 ) -> None:
     """Run the concealed-effect benchmark; an interrupted run resumes.
 
@@ -60,12 +64,16 @@ def command(
                                        markup=False)
     figures = score_run(found, read_lines(output / RESULTS), output,
                         manifest or find_manifest(root, "" if cases else name))
-    _print(figures, output)
+    if as_json:
+        typer.echo((output / "proof.json").read_text(encoding="utf-8"), nl=False)
+    else:
+        _print(figures, output)
 
 
 def _progress() -> Progress:
     return Progress(TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(),
-                    TimeRemainingColumn(), console=Console(stderr=True))
+                    TimeRemainingColumn(), console=Console(stderr=True),
+                    disable=not sys.stderr.isatty())
 
 
 def _print(figures: dict[str, Any], output: Path) -> None:

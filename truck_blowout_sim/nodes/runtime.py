@@ -10,7 +10,7 @@ import argparse
 import sys
 import traceback
 from collections.abc import Callable, Sequence
-from typing import Any, Protocol
+from typing import Any, NoReturn, Protocol
 
 import rclpy
 from rclpy._rclpy_pybind11 import RCLError
@@ -20,7 +20,7 @@ from rclpy.node import Node
 from rclpy.parameter import Parameter
 from rclpy.signals import SignalHandlerOptions
 
-from truck_blowout_sim.errors import InputError
+from truck_blowout_sim.errors import InputError, nearest
 from truck_blowout_sim.nodes.parameters import Spec, declare
 from truck_blowout_sim.nodes.signals import StopFlag
 
@@ -135,10 +135,21 @@ def _life(
         node.destroy_node()
 
 
+class _Parser(argparse.ArgumentParser):
+    """A parser whose errors are one line, with the nearest option for a typo."""
+
+    def error(self, message: str) -> NoReturn:
+        expected = "options as --help shows them"
+        wrong = next((w for w in message.split() if w.startswith("--")), "").split("=")[0]
+        if wrong and message.startswith("unrecognized"):
+            expected = nearest(wrong, self._option_string_actions, expected)
+        raise InputError(message, expected=expected)
+
+
 def _parse(
     name: str, specs: Sequence[Spec], about: str, words: Sequence[str], positional: str | None
 ) -> list[Parameter[Any]]:
-    parser = argparse.ArgumentParser(
+    parser = _Parser(
         prog=name,
         description=about,
         epilog="Every option is a parameter, too: --ros-args -p name:=value, --params-file FILE.",
