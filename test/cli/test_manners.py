@@ -44,7 +44,9 @@ def test_a_sweep_in_which_every_run_fails_is_refused(
 ) -> None:
     study = ["--vary", "blowouts.failure.tires=steer_lft", "-o", str(tmp_path)]
     assert main(["sweep", "blowout_in_lane", *study]) == 2
-    assert "did you mean 'steer_left'?" in capsys.readouterr().out
+    said = capsys.readouterr().out
+    assert said.startswith("1 run, 1 failed")
+    assert "did you mean 'steer_left'?" in said
 
 
 def test_list_shows_shipped_files_with_titles(capsys: pytest.CaptureFixture[str]) -> None:

@@ -58,7 +58,7 @@ def test_unit_sign_and_offset(log: Path) -> None:
     steer = read["steering_wheel_angle_rad"]
     np.testing.assert_allclose(steer.value, np.radians(np.arange(N) - 2.0))
     np.testing.assert_allclose(steer.time_s, 0.01 * np.arange(N))
-    assert any("2 columns are not used: YawRate, Roll" in note for note in read.notes)
+    assert any("2 unused columns: YawRate, Roll" in note for note in read.notes)
 
 
 def test_shifts_blowouts_exclusions_and_metadata(log: Path) -> None:

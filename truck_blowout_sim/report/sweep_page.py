@@ -115,7 +115,8 @@ def headline(found: Findings) -> str:
     others = [f"{n} {status}" for status, n in sorted(found.counts.items()) if status != "ok"]
     left = found.outcomes["left_lane"]
     lane = f"; a tire left the lane in {left.mean():.0f} % of them" if left.size else ""
-    return f"{total} runs" + (f", {', '.join(others)}" if others else ", none failed") + lane
+    runs = "1 run" if total == 1 else f"{total} runs"
+    return runs + (f", {', '.join(others)}" if others else ", none failed") + lane
 
 
 def pictures(found: Findings) -> tuple[Picture, ...]:

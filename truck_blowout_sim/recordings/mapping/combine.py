@@ -259,7 +259,7 @@ def _tell_unused(files: list[Opened], made: Mapped) -> None:
         left = [n for n in opened.log.names if n not in used | own | opened.native_columns]
         if left:
             shown = ", ".join(left[:_MOST_UNUSED]) + (" …" if len(left) > _MOST_UNUSED else "")
-            made.notes.append(f"{opened.path.name}: {len(left)} columns are not used: {shown}")
+            made.notes.append(f"{opened.path.name}: {len(left)} unused columns: {shown}")
 
 
 def _error(rules: Rules, key: str, problem: str, expected: str) -> InputError:
