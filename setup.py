@@ -24,7 +24,7 @@ def present(verb: str) -> bool:
 # `install` or `develop`. pip puts programs on everybody's PATH, where `run` or `import` would hide
 # others, so it gets the one command that holds all verbs.
 for_colcon = bool({"install", "develop"} & set(sys.argv))
-programs = ["truck-blowout = truck_blowout_sim.cli.main:main"]
+programs = ["truck-blowout = truck_blowout_sim.cli.start:main"]
 DOORS = "truck_blowout_sim.nodes.door"
 if not for_colcon:
     programs += [

@@ -14,6 +14,7 @@ import pytest
 
 import truck_blowout_sim.cli as cli
 from truck_blowout_sim.cli import main as main_module
+from truck_blowout_sim.cli import start
 from truck_blowout_sim.cli.main import VERBS, main, ros2_verb, without_ros_arguments
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -51,6 +52,17 @@ def test_bad_input_is_one_line_and_status_2(
     assert lines(capsys.readouterr().err) == [
         "truck-blowout: log.csv, line 7: -3 Pa; expected a pressure"
     ]
+
+
+def test_ctrl_c_before_a_verb_has_begun_is_one_line_and_status_130(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def interrupted() -> int:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(main_module, "main", interrupted)
+    assert start.main() == 130
+    assert lines(capsys.readouterr().err) == ["truck-blowout: interrupted"]
 
 
 def test_internal_failure_is_one_line_with_its_place_and_status_1(

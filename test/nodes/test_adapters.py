@@ -14,9 +14,8 @@ from typing import Any, ClassVar
 import numpy as np
 import pytest
 
-from truck_blowout_sim import InitialState, Inputs, Truck, load_vehicle
+from truck_blowout_sim import InitialState, load_vehicle
 from truck_blowout_sim.nodes.adapters import ackermann, attach_all, autoware, interfaces
-from truck_blowout_sim.nodes.adapters.rear_axle import RearAxle
 from truck_blowout_sim.nodes.inputs import InputBank
 from truck_blowout_sim.nodes.plant import Plant
 from truck_blowout_sim.nodes.simulator_parameters import SPECS, inputs_of
@@ -184,11 +183,14 @@ AUTOWARE = {
 }
 
 
-def test_autoware_takes_control_and_gives_reports(
-    monkeypatch: pytest.MonkeyPatch, node: Any, simulator: Any
-) -> None:
+@pytest.fixture
+def autoware_messages(monkeypatch: pytest.MonkeyPatch) -> None:
     install(monkeypatch, "autoware_control_msgs", msg={"Control": object})
     install(monkeypatch, "autoware_vehicle_msgs", msg=AUTOWARE, srv={"ControlModeCommand": object})
+
+
+@pytest.mark.usefixtures("autoware_messages")
+def test_autoware_takes_control_and_gives_reports(node: Any, simulator: Any) -> None:
     assert autoware.attach(node, simulator)
     along = SimpleNamespace(velocity=20.0, acceleration=5.0, is_defined_acceleration=False)
     node.taken["/control/command/control_cmd"](
@@ -218,22 +220,16 @@ def test_autoware_takes_control_and_gives_reports(
     assert acceleration.accel.accel.linear.z == pytest.approx(0.0, abs=0.2)
 
 
-def test_autoware_reports_are_made_only_where_somebody_reads_them(
-    monkeypatch: pytest.MonkeyPatch, node: Any, simulator: Any
-) -> None:
-    install(monkeypatch, "autoware_control_msgs", msg={"Control": object})
-    install(monkeypatch, "autoware_vehicle_msgs", msg=AUTOWARE, srv={"ControlModeCommand": object})
+@pytest.mark.usefixtures("autoware_messages")
+def test_autoware_reports_are_made_for_readers_only(node: Any, simulator: Any) -> None:
     node.readers = 0
     autoware.attach(node, simulator)
     simulator.reports[0](1_500_000_000)
     assert not any(node.sent.values())
 
 
-def test_autoware_changes_mode_and_gear(
-    monkeypatch: pytest.MonkeyPatch, node: Any, simulator: Any
-) -> None:
-    install(monkeypatch, "autoware_control_msgs", msg={"Control": object})
-    install(monkeypatch, "autoware_vehicle_msgs", msg=AUTOWARE, srv={"ControlModeCommand": object})
+@pytest.mark.usefixtures("autoware_messages")
+def test_autoware_changes_mode_and_gear(node: Any, simulator: Any) -> None:
     assert autoware.attach(node, simulator)
     take = node.taken["/control/command/control_cmd"]
     along = SimpleNamespace(velocity=25.0, acceleration=0.0, is_defined_acceleration=False)
@@ -258,27 +254,6 @@ def test_autoware_changes_mode_and_gear(
     take(command)
     assert simulator.applied["throttle"] == 0.0
     assert simulator.applied["brake_pressure_drive_pa"] > 0.0
-
-
-def test_motion_at_the_rear_axle_is_that_of_a_rigid_body() -> None:
-    vehicle = load_vehicle("international_9400i_trailmobile")
-    truck = Truck(vehicle, initial=InitialState(speed_mps=15.0))
-    axle = RearAxle(vehicle, truck.output_names)
-    before = None
-    for tick in range(300):
-        truck.advance(Inputs(2.0, 0.3), 10)
-        now = axle.motion((tick + 1) * 10_000_000, truck.output_vector())
-        if before is not None and tick > 250:
-            moved = (now.place_m - before.place_m) / 0.01
-            yaw = 2 * np.arctan2(now.turn[2], now.turn[3])
-            along = np.cos(yaw) * moved[0] + np.sin(yaw) * moved[1]
-            across = np.cos(yaw) * moved[1] - np.sin(yaw) * moved[0]
-            assert along == pytest.approx(now.velocity_mps[0], abs=0.05)
-            assert across == pytest.approx(now.velocity_mps[1], abs=0.05)
-        before = now
-    # in a steady turn the rear axle is drawn toward the center by v times yaw rate
-    centripetal = now.velocity_mps[0] * now.rate_radps[2]
-    assert now.acceleration_mps2[1] == pytest.approx(centripetal, rel=0.1)
 
 
 class Goal:

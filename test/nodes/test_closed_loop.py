@@ -90,7 +90,7 @@ def test_the_node_keeps_the_lane_over_dds(start: Any, client: Any) -> None:
     offsets_m = [abs(message.pose.pose.position.y) for message in odometry]
     assert max(offsets_m) < 1.5
     assert offsets_m[-1] < LANE_HALF_M - TRUCK_HALF_M
-    keeper.wait_for("steer_left has blown")
+    keeper.wait_for("blown: steer_left")
     _is_put_back(client, keeper)
     assert keeper.stop() == 0
     assert simulator.stop() == 0

@@ -107,7 +107,7 @@ class LaneKeeperNode:
     def _blown(self, message: String) -> None:
         """The state, not the event: a reset makes tires whole, a restarted simulator too."""
         if message.data:
-            self.log.info(f"{message.data.replace('+', ' and ')} has blown")
+            self.log.info(f"blown: {message.data.replace('+', ' and ')}")
         self.released = self.release and bool(message.data)
 
 
