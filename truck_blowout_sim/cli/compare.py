@@ -6,7 +6,7 @@ import sys
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import typer
 from rich.console import Console
@@ -25,6 +25,10 @@ if TYPE_CHECKING:
     from truck_blowout_sim.vehicle import Vehicle
 
 Tell = Callable[[str, float], None]
+VEHICLE: Any = typer.Option(
+    "international_9400i_trailmobile", help="Vehicle file, by name or path.",
+    autocompletion=names_of("vehicles"),
+)
 HVE = "hve"  # folder of the second page
 _NUMBERS = (
     ("rms error", 11), ("peak error", 11), ("at", 8), ("noise σ", 7), ("lag", 8), ("ISO 18571", 14)
@@ -38,10 +42,7 @@ def command(
         " test_2013_steer_blowout.",
         autocompletion=names_of("recordings"),
     ),
-    vehicle: str = typer.Option(
-        "international_9400i_trailmobile", help="Vehicle file, by name or path.",
-        autocompletion=names_of("vehicles"),
-    ),
+    vehicle: str = VEHICLE,
     output: Path = typer.Option(
         Path("comparison"),
         "-o",

@@ -5,7 +5,7 @@ from __future__ import annotations
 import shlex
 import sys
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import typer
 from rich.console import Console
@@ -20,6 +20,10 @@ if TYPE_CHECKING:
     from truck_blowout_sim.simulation.studies.sweep import Plan
 
 SEVERAL = ("--vary", "--channels", "-c")
+VEHICLE: Any = typer.Option(
+    "international_9400i_trailmobile", help="Name of a shipped vehicle, or a YAML file.",
+    autocompletion=names_of("vehicles"),
+)
 _CONTINUES = "the same command goes on from here"
 
 
@@ -41,10 +45,7 @@ def command(
         help="N runs of a random sample instead of every combination; lo:hi is then enough."
     ),
     seed: int = typer.Option(1, "--seed", help="Seed of the random sample."),
-    vehicle: str = typer.Option(
-        "international_9400i_trailmobile", help="Name of a shipped vehicle, or a YAML file.",
-        autocompletion=names_of("vehicles"),
-    ),
+    vehicle: str = VEHICLE,
     channels: list[str] = typer.Option(
         [], "--channels", "-c", metavar="C",
         help="Outputs and inputs to keep over time in the table; one or several."

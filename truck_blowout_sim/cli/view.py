@@ -6,7 +6,7 @@ import sys
 import webbrowser
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import typer
 from rich.console import Console
@@ -22,6 +22,10 @@ from truck_blowout_sim.recordings import Recording
 if TYPE_CHECKING:
     from truck_blowout_sim.report.viewer import RunToShow
 
+VEHICLE: Any = typer.Option(
+    None, help="Vehicle file to draw, by name or path; by default the one the run names.",
+    autocompletion=names_of("vehicles"),
+)
 _VIEWS = ("chase", "front left", "front right", "side", "top", "driver")
 
 
@@ -35,10 +39,7 @@ def command(
     output: Path | None = typer.Option(
         None, "-o", "--output", help="HTML file to write; the first run's name by default."
     ),
-    vehicle: str | None = typer.Option(
-        None, help="Vehicle file to draw, by name or path; by default the one the run names.",
-        autocompletion=names_of("vehicles"),
-    ),
+    vehicle: str | None = VEHICLE,
     video: Path | None = typer.Option(
         None, help="Film to write too, .mp4; needs ffmpeg and Chromium or Chrome."
     ),
