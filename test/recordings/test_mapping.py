@@ -93,6 +93,9 @@ def test_shifts_blowouts_exclusions_and_metadata(log: Path) -> None:
     (channels() | {"time": {"from": "Tme"}}, "no column 'Tme'"),
     (channels() | {"time": {"from": "Steer", "unit": "s"}}, "do not run backwards"),
     (channels() | {"also": ["gone.csv"]}, "gone.csv: no such file"),
+    (channels() | {"shift_s": {"Speeed": 0.1}}, "shift_s.Speeed: no file, and no column or topic"
+     " that the mapping takes; expected Speed (the nearest)"),
+    (channels() | {"shift_s": {"Roll": 0.1}}, "shift_s.Roll"),
     (channels() | {"sensors": {"cab": {}}}, "expected tractor, trailer"),
     ({"chanels": {}}, "unknown key; expected channels"),
     ({}, "no column becomes a channel"),

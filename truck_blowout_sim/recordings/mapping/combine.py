@@ -67,6 +67,7 @@ def combine(
             raise _error(rules, source.key, f"no channel {quoted(name)}",
                          nearest(name, table, "a channel of docs/recordings.md"))  # fmt: skip
         made.channels[name] = _mapped(files, rules, source, table[name], made)
+    _check_shifts(files, rules, made)
     _tell_unused(files, made)
     channels, origin, notes = _resolved(made, rules)
     main = files[0]
@@ -74,6 +75,17 @@ def combine(
     metadata = {**main.metadata, **origin, **rules.metadata}
     return Recording(main.name, channels, blowouts, metadata,
                      (*(n for f in files for n in f.notes), *made.notes, *notes))  # fmt: skip
+
+
+def _check_shifts(files: list[Opened], rules: Rules, made: Mapped) -> None:
+    """Refuse a shift of what is neither a file nor a column or topic that became a channel."""
+    names = [name for used in made.used.values() for name in sorted(used)]
+    known = dict.fromkeys([*names, *(name.partition(":")[0] for name in names),
+                           *(f.path.name for f in files), *(f.stated for f in files if f.stated)])
+    for key in rules.shift_s:
+        if key not in known:
+            raise _error(rules, f"shift_s.{key}", "no file, and no column or topic that the"
+                         " mapping takes", nearest(key, known))  # fmt: skip
 
 
 def _resolved(
