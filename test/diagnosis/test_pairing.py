@@ -13,7 +13,7 @@ from truck_blowout_sim.diagnosis.effects import LIBRARY, Effect
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.fit.attribute import Ranked
 from truck_blowout_sim.diagnosis.fit.refit import refit
-from truck_blowout_sim.diagnosis.fit.scatter import Chance, Scatter
+from truck_blowout_sim.diagnosis.fit.scatter import SCATTERS, Chance, Scatter
 from truck_blowout_sim.diagnosis.name.judging import Found
 from truck_blowout_sim.diagnosis.name.pairing import pair_with, settled
 from truck_blowout_sim.diagnosis.prove.holdout import predict
@@ -21,7 +21,7 @@ from truck_blowout_sim.vehicle import Packed
 
 TRUE = {"driveline_drag": 2500.0, "axle_misalignment": 0.006}
 Studies = Callable[..., Study]
-CHANCE = Chance(Scatter(np.eye(12)[0]), 20.0, 0.02)  # runs of a model of the same form
+CHANCE = Chance(Scatter(np.eye(SCATTERS.size)[0]), 20.0, 0.02)  # runs of a model of the same form
 
 
 def changes(truck: Packed) -> dict[str, float]:

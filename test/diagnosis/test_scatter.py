@@ -14,6 +14,7 @@ from scipy.stats import chi2
 from truck_blowout_sim.diagnosis.case.runs import Run
 from truck_blowout_sim.diagnosis.fit.linear import Projector
 from truck_blowout_sim.diagnosis.fit.scatter import (
+    SCATTERS,
     Chance,
     Part,
     Scatter,
@@ -23,14 +24,15 @@ from truck_blowout_sim.diagnosis.fit.scatter import (
 )
 
 ROLES = np.array([1.0, 1.0, 1.0, 0.0, 0.0])  # three training runs, two baseline runs
-CERTAIN = Scatter(np.eye(12)[0])  # no scatter at all
+CERTAIN = Scatter(np.eye(SCATTERS.size)[0])  # no scatter at all
 
 
 def shown(amounts: np.ndarray, sigma: float = 0.1, strays: tuple[float, ...] = (0.0,)) -> Shown:
     """Runs that show independent amounts, each with the same standard error."""
     information = np.eye(amounts.size) / sigma**2
     alike = np.ones((amounts.size, amounts.size))
-    return Shown(information, information @ amounts, ROLES[:amounts.size], alike, strays)
+    return Shown(information, information @ amounts, ROLES[:amounts.size], alike,
+                 np.eye(amounts.size), strays)
 
 
 def test_without_scatter_the_support_is_the_fall_of_the_sum_of_squares() -> None:

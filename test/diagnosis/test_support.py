@@ -11,13 +11,13 @@ from truck_blowout_sim.diagnosis.case.study import Study
 from truck_blowout_sim.diagnosis.effects import LIBRARY
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.fit.attribute import Ranked
-from truck_blowout_sim.diagnosis.fit.scatter import Chance, Scatter
+from truck_blowout_sim.diagnosis.fit.scatter import SCATTERS, Chance, Scatter
 from truck_blowout_sim.diagnosis.fit.support import Beside, supported
 from truck_blowout_sim.vehicle import Packed
 
 Studies = Callable[..., Study]
 HUB = "trailer_2_left"
-CHANCE = Chance(Scatter(np.eye(12)[0]), 20.0, 0.02)  # runs of a model of the same form
+CHANCE = Chance(Scatter(np.eye(SCATTERS.size)[0]), 20.0, 0.02)  # runs of a model of the same form
 
 
 def weak_brake(truck: Packed) -> Mapping[str, float]:

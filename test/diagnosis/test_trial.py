@@ -10,12 +10,12 @@ import pytest
 from truck_blowout_sim.diagnosis.effects import LIBRARY
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.fit.attribute import Ranked
-from truck_blowout_sim.diagnosis.fit.scatter import Chance, Scatter
+from truck_blowout_sim.diagnosis.fit.scatter import SCATTERS, Chance, Scatter
 from truck_blowout_sim.diagnosis.name.judging import weakness
 from truck_blowout_sim.diagnosis.name.trial import Fate, Rule
 from truck_blowout_sim.diagnosis.result.parts import Place
 
-CHANCE = Chance(Scatter(np.eye(12)[0]), 20.0, 0.02)
+CHANCE = Chance(Scatter(np.eye(SCATTERS.size)[0]), 20.0, 0.02)
 BANK = next(e for e in LIBRARY if e.name == "road_bank")
 
 

@@ -97,7 +97,7 @@ class Effect:
 
         A number of the sheet may be wrong: then four times as much.
         """
-        usual = 0.0 if self.met else 0.5 * self.amount.material
+        usual = 0.5 * self.amount.material
         return (usual, _WRONG_SHEET * usual) if self.absorbs and not self.met else (usual,)
 
     @property

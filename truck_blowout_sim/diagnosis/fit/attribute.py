@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from truck_blowout_sim.diagnosis.case.driven import driven
 from truck_blowout_sim.diagnosis.case.runs import Run
 from truck_blowout_sim.diagnosis.case.study import Progress, Study, row_ranges
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
@@ -89,6 +90,7 @@ def rank_steady(study: Study, candidates: Sequence[Hypothesis],
     residual, rows = study.residual(), row_ranges(study)
     usual = study.projector(named)
     free, episode_s = usual.chi2(residual), study.settings.episode_s
+    manner = driven(study)
     ranked, shown, trained = [], [], np.zeros(residual.size)
     for i in study.train:
         trained[rows[i]] = 1.0
@@ -105,7 +107,7 @@ def rank_steady(study: Study, candidates: Sequence[Hypothesis],
                              promise=found.delta))
         shown.append(Shown.of(projector, removed, [
             part for i, at_i in enumerate(rows) for part in parts_of(
-                study.runs[i], at_i.start, column[at_i], i in study.train, episode_s)],
+                study.runs[i], at_i.start, column[at_i], i in study.train, episode_s, manner[i])],
             candidate.effect.strays, (amount.low - at, amount.high - at),
             removed - found.amount * projector.remove(column * trained)))
     scatter = Scatter.of([one for one in shown if one is not None])

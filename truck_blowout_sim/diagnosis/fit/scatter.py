@@ -37,7 +37,11 @@ from truck_blowout_sim.diagnosis.fit.linear import Projector
 
 Floats = NDArray[np.float64]
 # tau in standard errors of a training run, from none to more than any model is off
-_SCATTERS: Floats = np.concatenate([[0.0], 2.0 ** np.arange(-2.0, 9.0)])
+_SIZES: Floats = np.concatenate([[0.0], 2.0 ** np.arange(-2.0, 9.0)])
+_SHARES: Floats = np.array([0.0, 0.5, 0.9])  # of tau^2 that runs have in common if driven alike
+SCATTERS: Floats = np.repeat(_SIZES, _SHARES.size)
+_SHARED: Floats = np.tile(_SHARES, _SIZES.size)
+_ANEW = 0.25  # of the variance of single trucks: of wear, warmth and load, which change by the day
 _WRONG_SHEETS = 0.1  # of its numbers
 _PRIOR_WORTH = 5.0  # hypotheses that equal weights count as
 _ROUNDS = 50
@@ -51,12 +55,14 @@ class Part:
     Attributes:
         rows: where; ``column``: over these, per unit of the amount.
         trained: whether the effect may act in the run; ``blown``: whether a tire was lost in it.
+        driven: unit vector, what the run asks of the sheet; None: unlike every other.
     """
 
     rows: slice
     column: Floats
     trained: bool
     blown: bool = False
+    driven: Floats | None = None
 
     @property
     def strength(self) -> float:
@@ -68,12 +74,14 @@ class Part:
         return 1.0 / max(float(np.mean(np.square(left[self.rows]))), 1.0)
 
 
-def parts_of(run: Run, first: int, column: Floats, trained: bool, least_s: float) -> list[Part]:
+def parts_of(run: Run, first: int, column: Floats, trained: bool, least_s: float,
+             driven: Floats | None = None) -> list[Part]:
     """What a hypothesis changes in a run whose rows begin at ``first``, a part for each episode.
 
     ``column`` is over the rows of the run.
     """
-    return [Part(rows, column[rows.start - first:rows.stop - first], trained, run.has_blowout)
+    return [Part(rows, column[rows.start - first:rows.stop - first], trained, run.has_blowout,
+                 driven)
             for rows in run.episodes(first, least_s)]
 
 
@@ -85,6 +93,7 @@ class Shown:
         information: [n, n] d_i' C^-1 d_j; ``gradient``: [n] d_i' C^-1 r.
         trained: [n] 1 where the effect may act, else 0.
         alike: [n, n] 1 where two runs share what the truck strays by, else 0.
+        likeness: [n, n] how alike two runs were driven, from 0 to 1.
         strays: 1 sigma by which single trucks differ in this amount, and, one in ten, where the
             sheet is wrong.
         bounds: between which the amount lies.
@@ -94,6 +103,7 @@ class Shown:
     gradient: Floats
     trained: Floats
     alike: Floats
+    likeness: Floats
     strays: tuple[float, ...] = (0.0,)
     bounds: tuple[float, float] = (-np.inf, np.inf)
 
@@ -115,37 +125,55 @@ class Shown:
         gradient = np.array([float(p.column @ removed[p.rows]) for p in kept])
         weight = np.array([1.0 if left is None else p.weight(left) for p in kept])
         return Shown(information * np.sqrt(np.outer(weight, weight)), gradient * weight,
-                     np.array([float(part.trained) for part in kept]), _alike(kept), strays, bounds)
+                     np.array([float(part.trained) for part in kept]), _alike(kept),
+                     _likeness(kept), strays, bounds)
+
+    @property
+    def same_day(self) -> Floats:
+        """[n, n] 1 where both runs are baseline or neither is: these may be of another day."""
+        return np.asarray(np.equal.outer(self.trained, self.trained), dtype=np.float64)
 
     @cached_property
     def likelihoods(self) -> tuple[Floats, Floats]:
         """Log-likelihoods [k] for each scatter, without the effect and at its best amount."""
         chance = np.log([1.0, _WRONG_SHEETS][:len(self.strays)])
-        both = np.array([[self._likelihood(scatter, stray) for stray in self.strays]
-                         for scatter in _SCATTERS]) + chance[:, None]
-        without, best = np.logaddexp.reduce(both, axis=1).T
+        both = [[more + part for part in self._likelihood(stray)]
+                for more, stray in zip(chance, self.strays, strict=True)]
+        without, best = np.logaddexp.reduce(np.array(both), axis=0)
         return without, best
 
-    def _likelihood(self, scatter: float, stray: float) -> tuple[float, float]:
-        """Log-likelihoods for one scatter and one stray."""
+    def _likelihood(self, stray: float) -> tuple[Floats, Floats]:
+        """Log-likelihoods [k] for each scatter and one stray."""
         trained, n = self.trained, self.trained.size
         scale = trained.sum() / max(float(np.diag(self.information) @ trained), 1e-12)
-        spread = scatter**2 * scale * np.eye(n) + stray**2 * self.alike
+        shared = _SHARED[:, None, None]
+        spread = (np.square(SCATTERS)[:, None, None] * scale
+                  * ((1.0 - shared) * np.eye(n) + shared * self.likeness)
+                  + self.alike * (stray**2 - (1.0 - self.same_day) * _ANEW * self.strays[0]**2))
         widened = np.eye(n) + self.information @ spread
         taken = spread @ np.linalg.inv(widened)
         common = self.information @ trained
-        slope = float(trained @ self.gradient - common @ taken @ self.gradient)
-        bend = max(float(trained @ common - common @ taken @ common), 1e-12)
-        without = 0.5 * (float(self.gradient @ taken @ self.gradient)
-                         - float(np.linalg.slogdet(widened)[1]))
-        amount = min(max(slope / bend, self.bounds[0]), self.bounds[1])
-        return without, without + amount * slope - 0.5 * amount**2 * bend
+        slope = trained @ self.gradient - (common @ taken) @ self.gradient
+        bend = np.maximum(trained @ common - (common @ taken) @ common, 1e-12)
+        without = 0.5 * ((self.gradient @ taken) @ self.gradient - np.linalg.slogdet(widened)[1])
+        amount = np.clip(slope / bend, *self.bounds)
+        return without, without + amount * slope - 0.5 * np.square(amount) * bend
 
 
 def _alike(parts: Sequence[Part]) -> Floats:
     """1 where both runs lost a tire, or neither did."""
     blown = np.array([part.blown for part in parts])
     return np.asarray(blown[:, None] == blown, dtype=np.float64)
+
+
+def _likeness(parts: Sequence[Part]) -> Floats:
+    """Cosines between what the runs ask of the sheet; 1 with itself."""
+    found = np.eye(len(parts))
+    for i, one in enumerate(parts):
+        for j, other in enumerate(parts[:i]):
+            if one.driven is not None and other.driven is not None:
+                found[i, j] = found[j, i] = float(one.driven @ other.driven)
+    return found
 
 
 @dataclass(frozen=True, eq=False)
@@ -161,7 +189,7 @@ class Scatter:
     @staticmethod
     def of(hypotheses: Sequence[Shown]) -> Scatter:
         """Weights that a case's hypotheses share, most of them taken to be idle."""
-        prior = np.full(_SCATTERS.size, 1.0 / _SCATTERS.size)
+        prior = np.full(SCATTERS.size, 1.0 / SCATTERS.size)
         weights, idle = prior, -np.log(max(len(hypotheses), 1))
         pairs = [one.likelihoods for one in hypotheses]
         for _ in range(_ROUNDS):

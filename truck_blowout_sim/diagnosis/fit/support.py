@@ -16,6 +16,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from truck_blowout_sim.diagnosis.case.driven import driven
 from truck_blowout_sim.diagnosis.case.study import Study, row_ranges
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.fit.attribute import Ranked, with_effects
@@ -36,6 +37,7 @@ class Beside:
             none where one of them begins at an instant.
         columns: [rows, k] of the nuisances over all runs, unseen too, and ``gram``, their products;
             empty where no unseen run is asked.
+        driven: what each run asks of the sheet, unseen ones last.
     """
 
     named: tuple[Hypothesis, ...]
@@ -43,16 +45,19 @@ class Beside:
     unseen: tuple[Floats, ...]
     columns: Floats
     gram: Floats
+    driven: tuple[Floats, ...]
 
     @staticmethod
     def of(study: Study, named: Sequence[Hypothesis], models: Sequence[Floats]) -> Beside:
         """With the holdout simulated."""
         nothing: Floats = np.zeros((0, 0))
+        manners = tuple(driven(study))
         if not study.holdout or any(h.effect.timed for h in named):
-            return Beside(tuple(named), tuple(models), (), nothing, nothing)
+            return Beside(tuple(named), tuple(models), (), nothing, nothing, manners)
         unseen = _unseen(study, named) if named else study.holdout_models
         columns = np.concatenate([study.columns, *study.holdout_columns])
-        return Beside(tuple(named), tuple(models), tuple(unseen), columns, columns.T @ columns)
+        return Beside(tuple(named), tuple(models), tuple(unseen), columns, columns.T @ columns,
+                      manners)
 
 
 def supported(study: Study, one: Ranked, beside: Beside, chance: Chance) -> Ranked:
@@ -68,7 +73,8 @@ def supported(study: Study, one: Ranked, beside: Beside, chance: Chance) -> Rank
     rows, residual = row_ranges(study), study.residual(dict(enumerate(models)))
     columns = {i: study.runs[i].change(model, models[i]) / away for i, model in changed.items()}
     parts = [part for i, column in columns.items() for part in parts_of(
-        study.runs[i], rows[i].start, column, i in study.train, study.settings.episode_s)]
+        study.runs[i], rows[i].start, column, i in study.train, study.settings.episode_s,
+        None if h.effect.timed else beside.driven[i])]
     projector, more = study.projector([*beside.named, h]), list[Part]()
     if beside.unseen and not h.effect.timed and not h.effect.met:
         projector, residual, more = _with_unseen(study, projector, residual, h, beside, away)
@@ -86,10 +92,11 @@ def _with_unseen(study: Study, seen: Projector, residual: Floats, h: Hypothesis,
     """Nuisances and residual of the unseen runs too, and what the hypothesis changes in these."""
     projector = Projector.of(beside.columns, seen.kept.tolist(), beside.gram)
     first, parts = residual.size, list[Part]()
-    for run, base, model in zip(study.holdout, beside.unseen, _unseen(study, (*beside.named, h)),
-                                strict=True):
+    for run, base, model, manner in zip(
+            study.holdout, beside.unseen, _unseen(study, (*beside.named, h)),
+            beside.driven[len(study.runs):], strict=True):
         change = run.change(model, base) / away
-        parts += parts_of(run, first, change, True, study.settings.episode_s)
+        parts += parts_of(run, first, change, True, study.settings.episode_s, manner)
         residual = np.concatenate([residual, run.residual(base)])
         first += change.size
     return projector, residual, parts

@@ -154,10 +154,15 @@ def channel_gains(smooth: Signals, identity: Identity) -> dict[str, FloatArray]:
         base = smooth[channel]
         up = identity.algebraic(smooth.with_values({channel: base + _STEP}))
         down = identity.algebraic(smooth.with_values({channel: base - _STEP}))
-        gains[channel] = np.nan_to_num((up - down) / (2.0 * _STEP))
+        gains[channel] = _known((up - down) / (2.0 * _STEP))
     for channel, _ in identity.rates:
         gains.setdefault(channel, np.zeros_like(smooth.time_s))
     return gains
+
+
+def _known(values: FloatArray) -> FloatArray:
+    """The values, 0 where nothing was measured."""
+    return np.where(np.isfinite(values), values, 0.0)
 
 
 def channel_slopes(
@@ -169,7 +174,7 @@ def channel_slopes(
         for channel in distortion.channels:
             if channel in smooth:
                 slope = distortion.slope(parameter, channel, smooth.__getitem__, period_s)
-                out.setdefault(channel, []).append((index, np.nan_to_num(slope)))
+                out.setdefault(channel, []).append((index, _known(slope)))
     return out
 
 

@@ -30,6 +30,7 @@ from truck_blowout_sim.diagnosis.sensors.steady import chances, independent_cand
 from truck_blowout_sim.diagnosis.sensors.system import System, assemble, normal_equations
 
 FloatArray = NDArray[np.float64]
+Amounts = Sequence[tuple[float, ...]]
 
 _FAMILY_P = 1e-4
 _MOST_FAULTS = 5
@@ -106,16 +107,16 @@ def search(case: Case, false_alarms: float = FALSE_ALARMS) -> SearchResult:
         best = _next(case, system, chosen, refused, estimate, inflation)
         if best is None:
             break
-        hypothesis, estimate, near = best
+        hypothesis, tried, near = best
         rivals[hypothesis] = near
-        chosen.append(hypothesis)
-        system = assemble(case, _amounts_out(chosen, estimate))
-        inflation = noise_inflation(system)
-        chosen, estimate = _pruned(case, chosen, estimate, inflation, highest)
-        if hypothesis not in chosen:
+        trial = [*chosen, hypothesis]
+        cleaned = assemble(case, _amounts_out(trial, tried))
+        scatter = noise_inflation(cleaned)
+        kept, refined = _pruned(case, trial, tried, scatter, highest)
+        if hypothesis in kept:
+            chosen, estimate, system, inflation = kept, refined, cleaned, scatter
+        else:  # as before it was tried
             refused.append(hypothesis)
-            system = assemble(case, _amounts_out(chosen, estimate))
-            inflation = noise_inflation(system)
     return _summary(case, chosen, rivals, before, estimate)
 
 
@@ -131,6 +132,7 @@ def _next(
     normal = normal_equations(system, inflation)
     base = solve(case, normal, chosen)
     scored: list[tuple[float, int, Hypothesis]] = []
+    starts: dict[Hypothesis, Amounts] = {}
     for order, hypothesis in enumerate(case.hypotheses):
         if hypothesis in chosen or hypothesis in refused:
             continue
@@ -140,15 +142,17 @@ def _next(
         significant = family_p(gain, size, len(case.hypotheses)) < _FAMILY_P
         if significant and admissible(hypothesis, trial.amounts[-1]):
             scored.append((handicap(case, hypothesis) - gain, order, hypothesis))
+            # with nothing taken out yet, this trial is the first step of the nonlinear fit
+            starts[hypothesis] = [*found.amounts, (0.0,) * size] if chosen else trial.amounts
     if not scored:
         return None
     scored.sort()
-    return _refined_best(case, scored, chosen, found, inflation)
+    return _refined_best(case, scored, chosen, starts, inflation)
 
 
 def _refined_best(
     case: Case, scored: Sequence[tuple[float, int, Hypothesis]], chosen: Sequence[Hypothesis],
-    found: Estimate, inflation: Mapping[str, float],
+    starts: Mapping[Hypothesis, Amounts], inflation: Mapping[str, float],
 ) -> tuple[Hypothesis, Estimate, tuple[tuple[Hypothesis, float], ...]]:  # fmt: skip
     """Compare the leaders at their own nonlinear optimum; the linear score ranks the rest."""
     linear = {h: score for score, _, h in scored}
@@ -156,8 +160,7 @@ def _refined_best(
     exact: dict[Hypothesis, float] = {}
     estimates: dict[Hypothesis, Estimate] = {}
     for hypothesis in short[:_SHORTLIST]:
-        start = [*found.amounts, (0.0,) * len(hypothesis.distortion.parameters)]
-        estimates[hypothesis] = refine(case, [*chosen, hypothesis], inflation, start)
+        estimates[hypothesis] = refine(case, [*chosen, hypothesis], inflation, starts[hypothesis])
         exact[hypothesis] = estimates[hypothesis].chi2 + handicap(case, hypothesis)
         if not admissible(hypothesis, estimates[hypothesis].amounts[-1]):
             exact[hypothesis] += _FORBIDDEN

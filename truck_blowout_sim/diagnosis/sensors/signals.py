@@ -9,7 +9,7 @@ Validated with: test/diagnosis/test_sensors_identities.py.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -45,6 +45,8 @@ class Signals:
     values: Mapping[str, FloatArray]
     gravity: float
     blown_since_s: Mapping[str, float]
+    _remembered: dict[tuple[str, float, float], tuple[FloatArray | None, FloatArray]] = field(
+        default_factory=dict, compare=False, repr=False)
 
     @property
     def period_s(self) -> float:
@@ -75,8 +77,17 @@ class Signals:
         """
         width = _SMOOTH_S / self.period_s
         known = sigma or {}
-        values = {name: smoothed(x, width, known.get(name, 0.0)) for name, x in self.values.items()}
+        values = {name: self._smoothed(name, width, known.get(name, 0.0)) for name in self.values}
         return replace(self, values=values)
+
+    def _smoothed(self, name: str, width_samples: float, sigma: float) -> FloatArray:
+        """:func:`smoothed` of a channel, remembered as long as the channel stays the same."""
+        key, values = (name, width_samples, sigma), self.values[name]
+        seen, found = self._remembered.get(key, (None, values))
+        if seen is not values:
+            found = smoothed(values, width_samples, sigma)
+            self._remembered[key] = values, found
+        return found
 
 
 def smoothed(values: FloatArray, width_samples: float, sigma: float = 0.0) -> FloatArray:

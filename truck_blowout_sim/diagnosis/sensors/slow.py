@@ -11,7 +11,7 @@ Validated with: test/diagnosis/test_sensors_identities.py.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -56,14 +56,29 @@ class SlowRows:
     raw_slopes: FloatArray
 
 
+@dataclass(frozen=True)
+class _Moves:
+    """How each unknown moves each channel, made once for all relations of a recording.
+
+    Attributes:
+        smooth: channels without their noise.
+        by_channel: column and slope of each unknown that moves it; ``columns``: how many unknowns.
+    """
+
+    smooth: Signals
+    by_channel: Mapping[str, Sequence[tuple[int, FloatArray]]]
+    columns: int
+
+
 def slow_rows(
     signals: Signals, geometry: Geometry, columns: Sequence[tuple[Distortion, int]]
 ) -> tuple[SlowRows, ...]:
     """Rows of the slow relations that a recording can be asked."""
-    found = []
+    found, smooth = [], signals.smooth()
+    moves = _Moves(smooth, channel_slopes(smooth, columns, signals.period_s), len(columns))
     for identity in hitch_position(geometry):
         if identity.available(signals):
-            found.append(_block_rows(signals, identity, columns, _BLOCK_S, _wander))
+            found.append(_block_rows(signals, identity, moves, _BLOCK_S, _wander))
     closure = yaw_closure()
     if closure.available(signals) and channel_names("trailer")["yaw"] not in signals:
         change, sigma = bend_change(signals, geometry)
@@ -71,7 +86,7 @@ def slow_rows(
         expected, spread = change / lasted, (sigma / lasted) ** 2
         found.append(
             _block_rows(
-                signals, yaw_closure(expected), columns, np.inf,
+                signals, yaw_closure(expected), moves, np.inf,
                 lambda time_s, length_s: np.full((1, 1), spread),
             )
         )  # fmt: skip
@@ -127,18 +142,16 @@ def _hitch_point(
 
 
 def _block_rows(
-    signals: Signals, identity: Identity, columns: Sequence[tuple[Distortion, int]],
-    block_s: float, covariance: Callable[[FloatArray, FloatArray], FloatArray],
+    signals: Signals, identity: Identity, moves: _Moves, block_s: float,
+    covariance: Callable[[FloatArray, FloatArray], FloatArray],
 ) -> SlowRows | None:  # fmt: skip
     value = identity.algebraic(signals)
     known = np.isfinite(value)
     if known.sum() < 100:
         return None
-    smooth = signals.smooth()
-    slopes = np.zeros((value.size, len(columns)))
-    slope_of = channel_slopes(smooth, columns, signals.period_s)
-    for channel, gain in channel_gains(smooth, identity).items():
-        for index, slope in slope_of.get(channel, ()):
+    slopes = np.zeros((value.size, moves.columns))
+    for channel, gain in channel_gains(moves.smooth, identity).items():
+        for index, slope in moves.by_channel.get(channel, ()):
             slopes[:, index] += gain * slope
     count = max(1, int(value.size * signals.period_s / block_s))
     parts = [part for part in np.array_split(np.arange(value.size), count) if known[part].any()]

@@ -102,7 +102,7 @@ def refine(
     """
     amounts: list[FloatArray] = [np.zeros(len(h.distortion.parameters)) for h in hypotheses]
     if start is not None:
-        amounts = [np.array(s, dtype=np.float64) for s in start]
+        amounts = [_held(h, np.array(s)) for h, s in zip(hypotheses, start, strict=True)]
     for _ in range(_STEPS):
         applied = [Applied(h, tuple(a)) for h, a in zip(hypotheses, amounts, strict=True)]
         system = assemble(case, applied, [h.distortion for h in hypotheses])
