@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from truck_blowout_sim.diagnosis.case.runs import Run, simulate_bins
 from truck_blowout_sim.diagnosis.case.trust import calm, demand
+from truck_blowout_sim.diagnosis.effects import Effect
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.effort import USUAL
 from truck_blowout_sim.diagnosis.fit.linear import Projector
@@ -47,6 +48,7 @@ class Study:
         known: sheet nuisances that the baseline runs determine: what differs from them in training
             is an effect, and both can be fitted together.
         quiet: by candidate, what it would change in the baseline runs, per unit of its amount.
+        seconds: by event, what it would change over each second of the baseline runs.
         simulations: how many were asked for; ``simulated`` gives the bin means of one.
     """
 
@@ -64,6 +66,8 @@ class Study:
     amounts: dict[str, float] = field(default_factory=dict)
     known: frozenset[str] = frozenset()
     quiet: dict[tuple[str, str], dict[int, Floats]] = field(default_factory=dict)
+    seconds: dict[tuple[Effect, str], dict[int, list[tuple[float, Floats]]]] = field(
+        default_factory=dict)
     simulations: int = 0
     simulated: Callable[[Run, Packed], Floats] = Run.simulated
     _projectors: dict[frozenset[str], Projector] = field(default_factory=dict)

@@ -101,6 +101,11 @@ class Effect:
         return (usual, _WRONG_SHEET * usual) if self.absorbs and not self.met else (usual,)
 
     @property
+    def adds_up(self) -> bool:
+        """Whether an event's responses add up: a force that acts either way, at any size."""
+        return self.timed is not None and self.amount.low < 0.0 and not self.amount.grid
+
+    @property
     def edges(self) -> int:
         """How many instants of a run are free: start and end of what ends, else the start."""
         return 2 if self.timing in ("pulse", "ramp") else 1

@@ -20,10 +20,10 @@ from truck_blowout_sim.diagnosis.case.driven import driven
 from truck_blowout_sim.diagnosis.case.study import Study, row_ranges
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.fit.attribute import Ranked, with_effects
+from truck_blowout_sim.diagnosis.fit.instants import grid_of
 from truck_blowout_sim.diagnosis.fit.linear import Projector
 from truck_blowout_sim.diagnosis.fit.refit import models_at
 from truck_blowout_sim.diagnosis.fit.scatter import Chance, Part, Shown, parts_of
-from truck_blowout_sim.diagnosis.fit.timed import grid_of
 
 Floats = NDArray[np.float64]
 

@@ -13,39 +13,24 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import cho_solve
 
-from truck_blowout_sim.diagnosis.case.runs import Run
 from truck_blowout_sim.diagnosis.case.study import Study, row_ranges
 from truck_blowout_sim.diagnosis.effects import Effect
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.fit.attribute import Ranked, with_effects
+from truck_blowout_sim.diagnosis.fit.instants import bins_between, delayed, grid_of, spacing_s
 from truck_blowout_sim.diagnosis.fit.linear import Projector, score
 from truck_blowout_sim.diagnosis.fit.refit import chi2_of, models_at
+from truck_blowout_sim.diagnosis.fit.seconds import windows_of
 from truck_blowout_sim.diagnosis.result.parts import Place
 
 Floats = NDArray[np.float64]
 Times = Mapping[str, tuple[float, float]]
-_GRID_S = 1.0
-_MOST_INSTANTS = 20
-_MARGIN_S = 0.5
-_FINER_BINS = 2
-_DELAYED_OVER = 3  # instants: so long, what a ramp does hardly depends on when it begins
 _REFINE_S = (0.5, 0.25, 0.12)
-
-
-def grid_of(run: Run, effect: Effect) -> Floats:
-    """Instants of an effect simulated in a run."""
-    return np.arange(run.edges_s[0] + _MARGIN_S, run.edges_s[-1] - _MARGIN_S,
-                     spacing_s(run) * (_DELAYED_OVER if effect.timing == "ramp" else 1))
-
-
-def spacing_s(run: Run) -> float:
-    """Distance of the instants tried in a run: a second, more in long runs."""
-    return max(_GRID_S, run.length_s / _MOST_INSTANTS)
 
 
 def scan(study: Study, projector: Projector, effect: Effect, place: Place,
          named: Sequence[Hypothesis] = ()) -> Ranked:
-    """Best instants on the grid in all training runs, and the common amount."""
+    """Best instants on the grid in all training runs, the common amount, and its support."""
     step = effect.amount.step
     jobs, keys = [], []
     for i in study.train:
@@ -59,13 +44,16 @@ def scan(study: Study, projector: Projector, effect: Effect, place: Place,
             keys.append((i, k))
     results = dict(zip(keys, study.simulate(jobs), strict=True))
     removed = projector.remove(study.residual())
+    support = 0.0
+    if effect.adds_up:
+        support = windows_of(study, projector, effect, place, removed, results).support()
     best: Ranked | None = None
     for sign in (1.0, -1.0):
         found = _best_of_sign(study, projector, effect, place, results, removed, sign)
         if best is None or found.delta > best.delta:
             best = found
     assert best is not None
-    return best
+    return replace(best, support=support)
 
 
 def _best_of_sign(study: Study, projector: Projector, effect: Effect, place: Place,
@@ -102,23 +90,6 @@ def _responses(study: Study, effect: Effect, i: int, results: Mapping[tuple[int,
             times.append(time + bins * study.settings.bin_s)
             found.append(run.change(delayed(change, bins), np.zeros(1)) / effect.amount.step)
     return np.array(times), found
-
-
-def delayed(change: Floats, bins: int) -> Floats:
-    """What an event changes [n, m], had it come so many bins later."""
-    moved = np.zeros(change.shape)
-    moved[bins:] = change[:change.shape[0] - bins]
-    return moved
-
-
-def bins_between(effect: Effect, run: Run, bin_s: float) -> range:
-    """By how many bins to delay the response to one instant tried, up to the next instant.
-
-    What a ramp does soon after it begins is as short as the ramp; other events begin slowly enough.
-    """
-    if effect.timing != "ramp":
-        return range(1)
-    return range(0, round(_DELAYED_OVER * spacing_s(run) / bin_s), _FINER_BINS)
 
 
 def _best_span(study: Study, projector: Projector, effect: Effect, i: int, grid: Floats,

@@ -119,7 +119,7 @@ def _events(study: Study, beside: Beside, chi2: float, chance: Chance,
         scanned.append(scan(study, projector, effect, place, named))
         if progress:
             progress("events", (k + 1) / len(places))
-    scanned.sort(key=lambda r: -r.delta)
+    scanned.sort(key=lambda r: (r.support < chance.asked, -r.delta))
     large = _large([*steady, *scanned], chance)
     worth = max(chance.asked, _HALF * max((r.delta for r in steady if r.refitted), default=0.0))
     keys: set[tuple[str, str]] = set()
@@ -130,11 +130,14 @@ def _events(study: Study, beside: Beside, chi2: float, chance: Chance,
             max((r.delta for r in found), default=0.0) < _MUCH * excess)
         among = one.hypothesis.key in keys or len(keys) < study.refits[1]
         worth = max(worth, _HALF * max((r.delta for r in found), default=0.0))
-        if one.hypothesis.times and (curved or (among and one.delta - cost > worth)):
+        if one.hypothesis.times and (curved or (among and (
+                one.delta - cost > worth or one.support > chance.asked))):
             keys.add(one.hypothesis.key)
+            support = one.support
             one = refine_times(study, one, chi2, named)
             one = fit_event(study, refit(study, one, chi2, named), chi2, named)
-            one = supported(study, one, beside, chance)
+            one = (replace(one, support=support) if one.hypothesis.effect.adds_up
+                   else supported(study, one, beside, chance))
             cost = _TIMED_COST * len(one.hypothesis.times) + _TIMED_SHARE * max(one.delta, 0.0)
         found.append(replace(one, delta=one.delta - cost, evidence=one.evidence - cost))
     return found

@@ -1,0 +1,86 @@
+"""An event must stand out of what its force seems to do at all other times."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from truck_blowout_sim.diagnosis.fit.windows import Windows
+
+SECONDS = 14
+RUNS = 5  # the first two are training
+
+
+def windows(amounts: np.ndarray, sigma: float = 0.5, ends: bool = True, ambient: float = 0.5,
+            low: float = -40.0) -> Windows:
+    """Seconds [runs, seconds] that show independent amounts, with the same standard error."""
+    runs, seconds = amounts.shape
+    information = np.eye(amounts.size) / sigma**2
+    run = np.repeat(np.arange(runs), seconds)
+    return Windows(information, information @ amounts.ravel(), run,
+                   np.tile(np.arange(float(seconds)), runs), run < 2, ends, (low, 40.0), ambient,
+                   10.0)
+
+
+def noise(rng: np.random.Generator, size: float, length_s: float = 0.0) -> np.ndarray:
+    """Apparent amounts of a model of another form, and of the instruments."""
+    apart = np.abs(np.subtract.outer(np.arange(SECONDS), np.arange(SECONDS)))
+    root = np.linalg.cholesky(np.exp(-apart / length_s) if length_s else np.eye(SECONDS))
+    return size * rng.normal(size=(RUNS, SECONDS)) @ root.T + rng.normal(0.0, 0.5, (RUNS, SECONDS))
+
+
+def gust(amounts: np.ndarray, strength: float) -> np.ndarray:
+    """The same with three seconds of wind in both training runs, at other instants."""
+    moved = amounts.copy()
+    moved[0, 4:7] += strength
+    moved[1, 8:11] += strength
+    return moved
+
+
+@pytest.mark.parametrize(("size", "length_s"), [(0.0, 0.0), (2.0, 0.0), (2.0, 3.0), (2.0, 20.0)])
+def test_a_restless_force_is_no_event(size: float, length_s: float) -> None:
+    """Beyond 2 ln k in less than one of k cases, whatever the force does, and little on average."""
+    rng = np.random.default_rng(4)
+    found = np.array([windows(noise(rng, size, length_s)).support() for _ in range(50)])
+    assert np.mean(found > 2.0 * np.log(50.0)) <= 0.05
+    assert np.median(found) < 0.0
+
+
+def test_a_gust_stands_out_of_a_calm_force_and_not_of_a_wild_one() -> None:
+    rng = np.random.default_rng(5)
+    calm, wild = noise(rng, 0.5), noise(rng, 8.0)
+    assert windows(gust(calm, 8.0)).support() > 20.0
+    assert windows(gust(wild, 8.0)).support() < 5.0
+
+
+def test_wind_of_everyday_size_is_no_finding() -> None:
+    """However well it shows."""
+    rng = np.random.default_rng(6)
+    clear = gust(0.1 * noise(rng, 0.0), 3.0)
+    assert windows(clear, sigma=0.05, ambient=0.2).support() > 20.0
+    assert windows(clear, sigma=0.05, ambient=2.0).support() < 5.0
+
+
+def test_what_acts_all_the_time_is_no_event() -> None:
+    """Nor what baseline runs show as well."""
+    rng = np.random.default_rng(7)
+    steady = noise(rng, 0.5)
+    steady[:2] += 8.0
+    assert windows(steady, ends=False).support() < 5.0
+    lasting = noise(rng, 0.5)
+    lasting[0, 5:] += 8.0
+    lasting[1, 9:] += 8.0
+    assert windows(lasting, ends=False).support() > 20.0
+
+
+def test_an_amount_beyond_its_bounds_is_no_event() -> None:
+    rng = np.random.default_rng(8)
+    assert windows(gust(noise(rng, 0.5), -8.0), low=-0.1).support() < 3.0
+
+
+def test_where_nothing_shows_the_force_nothing_is_said() -> None:
+    blind = windows(np.zeros((RUNS, SECONDS)), sigma=1e9)
+    assert blind.support() < 1.0
+    empty = Windows(np.zeros((2, 2)), np.zeros(2), np.array([0, 1]), np.zeros(2),
+                    np.array([True, False]), True, (-1.0, 1.0), 0.1, 0.5)
+    assert empty.support() == 0.0

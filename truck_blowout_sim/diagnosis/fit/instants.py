@@ -1,0 +1,52 @@
+"""Instants at which an event is tried in a run."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from truck_blowout_sim.diagnosis.case.runs import Run
+from truck_blowout_sim.diagnosis.effects import Effect
+
+Floats = NDArray[np.float64]
+_GRID_S = 1.0
+_MOST_INSTANTS = 20
+_MARGIN_S = 0.5
+_FINER_BINS = 2
+_DELAYED_OVER = 3  # instants: so long, what a ramp does hardly depends on when it begins
+
+
+def grid_of(run: Run, effect: Effect) -> Floats:
+    """Instants of an effect simulated in a run."""
+    return np.arange(run.edges_s[0] + _MARGIN_S, run.edges_s[-1] - _MARGIN_S,
+                     spacing_s(run) * (_DELAYED_OVER if effect.timing == "ramp" else 1))
+
+
+def spacing_s(run: Run) -> float:
+    """Distance of the instants tried in a run: a second, more in long runs."""
+    return max(_GRID_S, run.length_s / _MOST_INSTANTS)
+
+
+def delayed(change: Floats, bins: int) -> Floats:
+    """What an event changes [n, m], had it come so many bins later."""
+    moved = np.zeros(change.shape)
+    moved[bins:] = change[:change.shape[0] - bins]
+    return moved
+
+
+def bins_between(effect: Effect, run: Run, bin_s: float) -> range:
+    """By how many bins to delay the response to one instant tried, up to the next instant.
+
+    What a ramp does soon after it begins is as short as the ramp; other events begin slowly enough.
+    """
+    if effect.timing != "ramp":
+        return range(1)
+    return range(0, round(_DELAYED_OVER * spacing_s(run) / bin_s), _FINER_BINS)
+
+
+def every_instant(effect: Effect, run: Run, bin_s: float) -> range:
+    """By how many bins to delay the response to one instant tried, to have all of the grid."""
+    if effect.timing != "ramp":
+        return range(1)
+    step = max(round(spacing_s(run) / bin_s), 1)
+    return range(0, _DELAYED_OVER * step, step)

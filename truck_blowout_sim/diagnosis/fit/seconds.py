@@ -1,0 +1,89 @@
+"""What each second of each run shows of an event's force: the evidence of `windows.py`."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from truck_blowout_sim.diagnosis.case.study import Study, row_ranges
+from truck_blowout_sim.diagnosis.effects import Effect
+from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
+from truck_blowout_sim.diagnosis.fit.instants import delayed, every_instant, grid_of, spacing_s
+from truck_blowout_sim.diagnosis.fit.linear import Projector
+from truck_blowout_sim.diagnosis.fit.windows import Windows
+from truck_blowout_sim.diagnosis.result.parts import Place
+
+Floats = NDArray[np.float64]
+_WIDE = 0.25  # of its bound: an event is rarely as strong as can be
+
+
+def windows_of(study: Study, projector: Projector, effect: Effect, place: Place, removed: Floats,
+               trained: Mapping[tuple[int, int], Floats]) -> Windows:
+    """The seconds of all runs.
+
+    Args:
+        study: the case.
+        projector: removes the nuisances.
+        effect: the event.
+        place: where it acts.
+        removed: what the projector leaves of the residual.
+        trained: bin means of training runs with the event begun at each instant tried, by run
+            and instant.
+    """
+    quiet = _quiet(study, effect, place)
+    rows, columns, run, time_s = row_ranges(study), [], [], []
+    for i in (*study.train, *study.baseline):
+        found = quiet[i] if i in quiet else _seconds(study, effect, i, [
+            trained[i, k] for k in range(grid_of(study.runs[i], effect).size)])
+        for time, column in found:
+            whole = np.zeros(removed.size)
+            whole[rows[i]] = column
+            columns.append(whole)
+            run.append(i)
+            time_s.append(time)
+    matrix = np.stack(columns, axis=1)
+    reach = projector.reach(matrix)
+    amount = effect.amount
+    return Windows(
+        matrix.T @ matrix - reach.T @ projector.solve(reach), matrix.T @ removed, np.array(run),
+        np.array(time_s), np.isin(run, study.train), effect.timing == "pulse",
+        (amount.low, amount.high), effect.strays[0], _WIDE * amount.high)
+
+
+def _quiet(study: Study, effect: Effect, place: Place
+           ) -> Mapping[int, Sequence[tuple[float, Floats]]]:
+    """The seconds of the baseline runs, simulated once for a case."""
+    key = (effect, str(place))
+    if key not in study.seconds:
+        jobs, owners = [], []
+        for i in study.baseline:
+            run, name = study.runs[i], study.runs[i].recording.name
+            still = Hypothesis(effect, place, effect.amount.step)
+            for time in grid_of(run, effect).tolist():
+                span = (time, effect.end_s(time, spacing_s(run)))
+                jobs.append(study.job(run, study.packed, replace(still, times={name: span})))
+                owners.append(i)
+        models = study.simulate(jobs)
+        study.seconds[key] = {i: _seconds(study, effect, i, [
+            model for model, owner in zip(models, owners, strict=True) if owner == i])
+            for i in study.baseline}
+    return study.seconds[key]
+
+
+def _seconds(study: Study, effect: Effect, i: int, models: Sequence[Floats]
+             ) -> list[tuple[float, Floats]]:
+    """When each second begins, and the whitened response to the force over that second."""
+    run, bin_s = study.runs[i], study.settings.bin_s
+    found = []
+    for time, model in zip(grid_of(run, effect).tolist(), models, strict=True):
+        for bins in every_instant(effect, run, bin_s):
+            change = run.change(delayed(model - study.models[i], bins), np.zeros(1))
+            found.append((time + bins * bin_s, change / effect.amount.step))
+    if effect.timing == "pulse":
+        return found
+    # what lasts is the sum of all seconds from its instant on
+    later = [column for _, column in found[1:]] + [np.zeros_like(found[-1][1])]
+    return [(time, column - rest) for (time, column), rest in zip(found, later, strict=True)]

@@ -1,0 +1,144 @@
+"""Whether an event stands out of what its force seems to do at all other times.
+
+Every second of every run, baseline too, gives an apparent amount of the event's force there, since
+no model is exact. These amounts a are taken as a process without rest,
+
+    a ~ N(0, tau^2 [(1 - rho) I + rho exp(-|t_i - t_j| / l) within a run])
+
+and the event as one common amount A over one stretch of each training run. The support is twice
+the log of
+
+    sum_process L(process, stretches free, A ~ N(0, wide^2))
+    / sum_process [L(process) + L(process, stretches free, A ~ N(0, ambient^2))]
+
+with the stretches of each run averaged over, so that a free choice costs what it must, and with
+wind, slope and sliding of everyday size on the other side. Size, share and length of the process
+are summed over a grid: the recordings decide.
+
+References: Kass and Raftery 1995 (Bayes factors); Rasmussen and Williams 2006, ch. 2 and 5 (process
+and its marginal likelihood).
+Known limits: linear in the amount, so not for what acts near a limit only (loss of grip, a lost
+tire); stretches begin and end at whole seconds; what acts from the first second on is steady.
+Validated with: test/diagnosis/test_windows.py (closed forms; false alarms of simulated processes).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import product
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.special import logsumexp
+
+Floats = NDArray[np.float64]
+# tau in standard errors of one second, from none to more than any model is off
+_SIZES: Floats = np.concatenate([[0.0], 2.0 ** np.arange(-4.0, 7.0)])
+_SHARES = (0.5, 0.9)  # rho: from half of it to nearly all
+_LENGTHS_S = (3.0, np.inf)  # l: of a maneuver, or as long as the run
+_UNLIKELY = 20.0  # log-likelihood by which a size is worse than the best: not looked at
+_AMOUNTS: Floats = np.geomspace(0.5, 200.0, 30)  # standard errors of the clearest stretch
+_DIM = 1e-9
+
+
+@dataclass(frozen=True, eq=False)
+class Windows:
+    """What each second of each run shows of an event's force, the nuisances marginalized.
+
+    Attributes:
+        information: [n, n] w_i' C^-1 w_j of the responses to a force over one second; ``gradient``:
+            [n] w_i' C^-1 r.
+        run: [n] position of the run; ``time_s``: [n] when the second begins.
+        trained: [n] whether the event may act in the run.
+        ends: whether the event ends again; if not, it lasts to the end of the run.
+        bounds: between which the amount lies; ``ambient``: its everyday size, 1 sigma; ``wide``: 1
+            sigma of what an event may be.
+    """
+
+    information: Floats
+    gradient: Floats
+    run: NDArray[np.int64]
+    time_s: Floats
+    trained: NDArray[np.bool_]
+    ends: bool
+    bounds: tuple[float, float]
+    ambient: float
+    wide: float
+
+    @cached_property
+    def scale(self) -> float:
+        """Information on the amount in a middling second."""
+        own = np.diag(self.information)
+        seen = own[own > _DIM * max(float(own.max(initial=0.0)), 1e-300)]
+        return float(np.median(seen)) if seen.size else 0.0
+
+    def support(self) -> float:
+        """Twice the log of the odds, at even odds before; 0 where no run shows the event."""
+        if self.scale <= 0.0 or not self.trained.any():
+            return 0.0
+        found = [one for process in self._processes() for one in self._weighed(process)]
+        idle, ambient, wide = np.array(found).T if found else np.zeros((3, 1))
+        return float(2.0 * (logsumexp(wide) - logsumexp([idle, ambient])))
+
+    def _processes(self) -> Iterator[Floats]:
+        """Square roots [n, n] of the correlations that the restless force may have."""
+        same = self.run[:, None] == self.run[None, :]
+        apart = np.abs(self.time_s[:, None] - self.time_s[None, :])
+        kinds = [np.eye(self.run.size)] + [
+            (1.0 - share) * np.eye(self.run.size) + share * same * np.exp(-apart / length)
+            for share, length in product(_SHARES, _LENGTHS_S)]
+        return (np.linalg.cholesky(kind) for kind in kinds)
+
+    def _weighed(self, root: Floats) -> Iterator[tuple[float, float, float]]:
+        """Log-likelihoods for each size: nothing, an everyday event, an event of any size."""
+        value, vector = np.linalg.eigh(root.T @ self.information @ root / self.scale)
+        value = np.maximum(value, 0.0)
+        seen = vector.T @ (root.T @ self.gradient) / np.sqrt(self.scale)
+        widened = 1.0 + np.square(_SIZES)[:, None] * value
+        idle = 0.5 * (np.square(_SIZES)[:, None] * np.square(seen) / widened
+                      - np.log(widened)).sum(axis=1)
+        loaded = root @ vector
+        for size, wide, rest in zip(_SIZES, widened, idle, strict=True):
+            if rest < idle.max() - _UNLIKELY:
+                continue
+            taken = (loaded * (size**2 / wide)) @ loaded.T / self.scale
+            ambient, event = self._events(
+                self.gradient - self.information @ (taken @ self.gradient),
+                self.information - self.information @ taken @ self.information)
+            yield rest, rest + ambient, rest + event
+
+    def _events(self, slope: Floats, bend: Floats) -> tuple[float, float]:
+        """Log-likelihood gained by an everyday event and by one of any size, stretches averaged."""
+        stretches = [self._stretches(slope[own], bend[np.ix_(own, own)])
+                     for own in (np.flatnonzero(self.run == k)
+                                 for k in np.unique(self.run[self.trained]))]
+        stretches = [one for one in stretches if one[0].size]
+        clearest = max((float(one[1].max()) for one in stretches), default=0.0)
+        if clearest <= 0.0:
+            return 0.0, 0.0
+        amounts = np.concatenate([-_AMOUNTS[::-1], _AMOUNTS]) / np.sqrt(clearest)
+        amounts = amounts[(amounts > self.bounds[0]) & (amounts < self.bounds[1])]
+        if amounts.size < 2:
+            return 0.0, 0.0
+        gained = np.sum([logsumexp(np.outer(amounts, s) - 0.5 * np.outer(amounts**2, b), axis=1)
+                         - np.log(s.size) for s, b in stretches], axis=0)
+        return self._over(amounts, gained, self.ambient), self._over(amounts, gained, self.wide)
+
+    def _stretches(self, slope: Floats, bend: Floats) -> tuple[Floats, Floats]:
+        """Slope and bend of every stretch of one run that begins after its first second."""
+        n = slope.size
+        sums = np.concatenate([[0.0], np.cumsum(slope)])
+        both = np.zeros((n + 1, n + 1))
+        both[1:, 1:] = np.cumsum(np.cumsum(bend, axis=0), axis=1)
+        first, end = np.array([(a, b) for a in range(1, n - 1) for b in (
+            range(a + 1, n + 1) if self.ends else (n,))], dtype=np.int64).reshape(-1, 2).T
+        return (sums[end] - sums[first],
+                both[end, end] - both[first, end] - both[end, first] + both[first, first])
+
+    @staticmethod
+    def _over(amounts: Floats, gained: Floats, sigma: float) -> float:
+        """Log of the mean of a likelihood over amounts of this sigma."""
+        density = gained - 0.5 * np.square(amounts / sigma) + np.log(np.abs(np.gradient(amounts)))
+        return float(logsumexp(density)) - np.log(sigma * np.sqrt(2.0 * np.pi))
