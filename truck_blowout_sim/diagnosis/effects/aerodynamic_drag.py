@@ -6,12 +6,13 @@ from truck_blowout_sim.diagnosis.effects.base import (
     Amount,
     Effect,
     added,
+    drag_area_m2,
     each_unit,
 )
 
 EFFECT = Effect(
     name="aerodynamic_drag",
-    amount=Amount("extra_drag_area_m2", "m^2", step=1.0, low=-6.0, high=30.0, material=0.9,
+    amount=Amount("extra_drag_area_m2", "m^2", step=1.0, low=-6.0, high=30.0, material=0.16,
                   grid=(3.0,)),
     places=each_unit,
     values=lambda packed, place, a: added(packed, f"unit.{place.body}.drag_area_extra_m2", a),
@@ -19,5 +20,6 @@ EFFECT = Effect(
     equation="F_x = -0.5 rho (CdA + {value} m^2) v^2",
     splits="a coast-down at two speeds",
     drags=True,
+    grows_with=drag_area_m2,
     absorbs="drag_area",
 )

@@ -28,7 +28,8 @@ class Amount:
         name, unit: as ``diagnosis.json`` reports it.
         step: finite difference for its sensitivity.
         low, high: physical bounds.
-        material: by so much 19 of 20 trucks of one kind stray from another at most.
+        material: by so much 19 of 20 trucks of one kind stray from another at most; a share, where
+            it grows with the vehicle.
         report: value to report from the amount; identity by default.
         grid: where a nonlinear search may start.
     """
@@ -67,6 +68,7 @@ class Effect:
         variant: another form of an effect of the same name. One with an onset is tried where the
             steady form, if there is one, explains something.
         drags: slows the truck without holding back a wheel more than its law says.
+        grows_with: what `material` is a share of; 1 where it is an amount.
         neutral: amount at which a vehicle is as given; 0 unless it lacks the part altogether.
         absorbs: calibration number that means the same as this amount; ``{hub}`` and ``{role}``
             (of the axle) are filled in.
@@ -89,15 +91,15 @@ class Effect:
     met: bool = False
     variant: bool = False
     drags: bool = False
+    grows_with: Callable[[Packed], float] = lambda packed: 1.0
     neutral: Callable[[Packed], float] = lambda packed: 0.0
 
-    @property
-    def strays(self) -> tuple[float, ...]:
-        """1 sigma by which trucks of one kind differ in the amount: none of what they meet.
+    def strays(self, packed: Packed) -> tuple[float, ...]:
+        """1 sigma by which trucks of one kind differ in the amount, and roads, winds and loads.
 
         A number of the sheet may be wrong: then four times as much.
         """
-        usual = 0.5 * self.amount.material
+        usual = 0.5 * self.amount.material * self.grows_with(packed)
         return (usual, _WRONG_SHEET * usual) if self.absorbs and not self.met else (usual,)
 
     @property
@@ -113,6 +115,19 @@ class Effect:
     def end_s(self, start_s: float, spacing_s: float) -> float:
         """End to begin with, of an event found on a grid of that spacing."""
         return start_s + {"pulse": spacing_s, "ramp": self.ramp_s}.get(self.timing, np.inf)
+
+
+def drag_area_m2(packed: Packed) -> float:
+    """Of the whole vehicle."""
+    return sum(packed[f"unit.{name}.drag_area_m2"] for name in packed.vehicle.units)
+
+
+def weight_n(packed: Packed) -> float:
+    """Of the whole vehicle."""
+    vehicle = packed.vehicle
+    mass = [packed[f"unit.{name}.mass_kg"] for name in vehicle.units]
+    mass += [packed[f"axle.{name}.mass_kg"] for name in vehicle.axles]
+    return sum(mass) * packed["world.gravity_mps2"]
 
 
 def whole_truck(vehicle: Vehicle) -> Sequence[Place]:

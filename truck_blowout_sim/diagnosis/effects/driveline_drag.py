@@ -8,12 +8,13 @@ from truck_blowout_sim.diagnosis.effects.base import (
     Amount,
     Effect,
     added,
+    weight_n,
     whole_truck,
 )
 
 EFFECT = Effect(
     name="driveline_drag",
-    amount=Amount("extra_drag_n", "N", step=800.0, low=-1500.0, high=40000.0, material=600.0,
+    amount=Amount("extra_drag_n", "N", step=800.0, low=-1500.0, high=40000.0, material=0.0026,
                   grid=(3000.0, 9000.0)),
     places=whole_truck,
     values=lambda packed, place, a: added(packed, "driveline.drag_extra_n", a),
@@ -22,6 +23,7 @@ EFFECT = Effect(
     equation="F_x,drive = -(F_drag + {value} N) (1 - throttle)",
     splits="the slip of the drive hubs when the throttle goes",
     drags=True,
+    grows_with=weight_n,
     absorbs="driveline_loss",
 )
 

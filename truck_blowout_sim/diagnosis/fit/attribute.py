@@ -108,7 +108,7 @@ def rank_steady(study: Study, candidates: Sequence[Hypothesis],
         shown.append(Shown.of(projector, removed, [
             part for i, at_i in enumerate(rows) for part in parts_of(
                 study.runs[i], at_i.start, column[at_i], i in study.train, episode_s, manner[i])],
-            candidate.effect.strays, (amount.low - at, amount.high - at),
+            candidate.effect.strays(study.packed), (amount.low - at, amount.high - at),
             removed - found.amount * projector.remove(column * trained)))
     scatter = Scatter.of([one for one in shown if one is not None])
     ranked = [replace(r, support=scatter.support(one)) if one else r

@@ -50,7 +50,7 @@ def windows_of(study: Study, projector: Projector, effect: Effect, place: Place,
     return Windows(
         matrix.T @ matrix - reach.T @ projector.solve(reach), matrix.T @ removed, np.array(run),
         np.array(time_s), np.isin(run, study.train), effect.timing == "pulse",
-        (amount.low, amount.high), effect.strays[0], _WIDE * amount.high)
+        (amount.low, amount.high), effect.strays(study.packed)[0], _WIDE * amount.high)
 
 
 def _quiet(study: Study, effect: Effect, place: Place

@@ -81,7 +81,7 @@ def supported(study: Study, one: Ranked, beside: Beside, chance: Chance) -> Rank
     fitted = np.concatenate([study.stack({i: c for i, c in columns.items() if i in study.train}),
                              *(part.column for part in more)])
     removed = projector.remove(residual)
-    shown = Shown.of(projector, removed, [*parts, *more], h.effect.strays,
+    shown = Shown.of(projector, removed, [*parts, *more], h.effect.strays(study.packed),
                      (min(away, 0.0), max(away, 0.0)), removed - away * projector.remove(fitted))
     found = 0.0 if shown is None else chance.scatter.support(shown)
     return replace(one, support=found - _search_cost(study, h))
