@@ -7,17 +7,20 @@ good models differ by does neither. So the residual is taken as
     r = J phi + sum_i d_i (a_i + u + A [run i is training]) + e,   a_i ~ N(0, tau^2), u ~ N(0, s^2)
 
 with the nuisances J phi, the effect's column d_i in run i, its scatter tau, and what single trucks
-stray by, s; on a tire that was lost it strays anew. The likelihood ratio of A free against A = 0 is
-the support; tau is integrated over a grid whose weights all hypotheses of the case share (empirical
-Bayes). Where runs scatter much, as with a rough log or a model of another form, the same fall of
-the sum of squares says less. A run that nothing explains weighs less. Of a long run each episode
-counts as a run.
+stray by, s; on a tire that was lost it strays anew, and a part of s^2 is new from day to day. A
+part of tau^2 is common to runs that are driven alike (`driven.py`). The likelihood ratio of A free
+against A = 0 is the support; tau and its common part are integrated over a grid whose weights all
+hypotheses of the case share (empirical Bayes). Where runs scatter much, as with a rough log or a
+model of another form, the same fall of the sum of squares says less. A run that nothing explains
+weighs less. Of a long run each episode counts as a run.
 
-References: Laird and Ware 1982 (random effects); DerSimonian and Laird 1986 (several studies of
-one effect); Efron 2010, ch. 1 (empirical Bayes); Edwards 1972 (support); Li and Ji 2005 (how many
-of correlated tests are independent); Birge 1932 (widths by what is left).
+References: Laird and Ware 1982 (random effects); DerSimonian and Laird 1986 (several studies of one
+effect); Kennedy and O'Hagan 2001 (a model's error as a function of its inputs); Efron 2010, ch. 1
+(empirical Bayes); Edwards 1972 (support); Li and Ji 2005 (how many of correlated tests are
+independent); Birge 1932 (widths by what is left).
 Known limits: linear in the amount, at the amount fitted; a run is one sample of what models differ
-by, so few runs support little; where five runs scatter much, chance is stated up to half too low.
+by, so few runs support little; where five runs scatter much, chance is stated up to half too low;
+how much of a truck's stray changes by the day is a judgement, no measurement.
 Validated with: test/diagnosis/test_scatter.py (closed forms; false alarms of simulated nulls).
 """
 

@@ -4,7 +4,7 @@ Runs of every role are asked how much of it each of them shows: baseline runs, w
 none of it, and unseen runs, which the amount was not fitted to.
 
 References, known limits: see `scatter.py`. What begins at an instant, or is met on the way, is
-asked of training only.
+asked of training only; wind, slope and load from an instant on by `windows.py`.
 Validated with: test/diagnosis/test_support.py.
 """
 
