@@ -1,31 +1,97 @@
-"""MDF 3 and 4, as CAN loggers write them, by asammdf (an extra).
+"""MDF 3 and 4, as CAN loggers write them, read by `mdf_decoder` in a process of its own.
 
 References: ASAM MDF 3.3 and 4.2.
-Known limits: channels that hold numbers only; raw CAN frames are to be decoded by the logger's own
-tool or asammdf first; about one damaged file in a hundred ends the process in asammdf's C code.
+Known limits: those of `mdf_decoder`; starting its process takes about a second.
 Validated with: test/recordings/test_logs_binary.py.
 """
 
 from __future__ import annotations
 
 import contextlib
-import gc
-import logging
+import os
+import pickle
+import signal
+import subprocess
 import sys
-from collections import Counter
-from collections.abc import Iterator, Sequence
+import weakref
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
-
-import numpy as np
 
 from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.recordings.logs.log import Column, find_name
+from truck_blowout_sim.recordings.logs.mdf_decoder import EXPECTED, Contents
 
-CLOCK = "time stamp"
-_TIME_CHANNELS = frozenset({2, 3})  # master and virtual master, MDF 4
-_EXPECTED = "an MDF file of version 3 or 4"
+_START = (
+    "import sys; sys.path[:] = sys.argv[2:]; "
+    "from truck_blowout_sim.recordings.logs.mdf_decoder import serve; serve(sys.argv[1])"
+)
+_PATIENCE_S = 5.0  # for a process that closed its pipe to end
+
+
+class _Decoder:
+    """The process that reads one file; ends with this object.
+
+    It has the caller's `sys.path`, never its `__main__`; a session of its own, so that Ctrl-C comes
+    to the caller alone; and a temporary folder, as what asammdf puts there survives a crash.
+    """
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+        folder = TemporaryDirectory(prefix="truck_blowout_sim_")
+        self._process = subprocess.Popen(
+            [sys.executable, "-c", _START, str(path), *sys.path],
+            stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL,
+            start_new_session=True, env={**os.environ, "TMPDIR": folder.name},
+        )  # fmt: skip
+        weakref.finalize(self, _end, self._process, folder)
+
+    def answer(self, name: str | None = None) -> Any:  # noqa: ANN401 -- of the kind that is asked for
+        """The contents, which come first and unasked, or the named column.
+
+        Raises:
+            InputError: the decoder's own, or it ended without an answer.
+        """
+        requests, answers = self._process.stdin, self._process.stdout
+        assert requests is not None
+        assert answers is not None
+        try:
+            if name is not None:
+                pickle.dump(name, requests)
+                requests.flush()
+            found = pickle.load(answers)
+        except Exception:  # noqa: BLE001 -- a pipe that broke, or a pickle cut anywhere
+            where = "" if name is None else f"channel {name}"
+            raise InputError(f"damaged: {_last_words(self._process)}", file=self.path,
+                             where=where, expected=EXPECTED) from None  # fmt: skip
+        except BaseException:
+            self._process.kill()  # its late answer must not be taken for that of the next request
+            raise
+        if isinstance(found, InputError):
+            raise found
+        return found
+
+
+def _last_words(process: subprocess.Popen[bytes]) -> str:
+    try:
+        status = process.wait(_PATIENCE_S)
+    except subprocess.TimeoutExpired:
+        return "its decoder gave no answer"
+    if status < 0:
+        return f"its decoder ended by signal {-status} ({signal.strsignal(-status)})"
+    return f"its decoder ended without an answer (status {status})"
+
+
+def _end(process: subprocess.Popen[bytes], folder: TemporaryDirectory[str]) -> None:
+    process.kill()
+    process.wait()
+    for pipe in (process.stdin, process.stdout):
+        with contextlib.suppress(OSError):  # a request that nobody read
+            if pipe is not None:
+                pipe.close()
+    folder.cleanup()
 
 
 @dataclass
@@ -34,19 +100,14 @@ class MdfLog:
 
     path: Path
     kind: str
-    file: Any
-    places: dict[str, tuple[int, int]]
+    names: Sequence[str]
+    decoder: _Decoder
     notes: list[str] = field(default_factory=list)
     metadata: dict[str, str] = field(default_factory=dict)
 
-    @property
-    def names(self) -> Sequence[str]:
-        """Channels, time channels left out."""
-        return list(self.places)
-
     def find(self, name: str) -> str | None:
         """The channel itself, but for case."""
-        return find_name(name, self.places)
+        return find_name(name, self.names)
 
     def column(self, name: str) -> Column:
         """Read one channel with the time stamps of its group.
@@ -54,19 +115,8 @@ class MdfLog:
         Raises:
             InputError: damaged.
         """
-        group, index = self.places[name]
-        try:
-            signal = self.file.get(group=group, index=index, ignore_invalidation_bits=True)
-            numbers = signal.samples.dtype.kind in "iufb" and signal.samples.ndim == 1
-            values = (signal.samples.astype(np.float64) if numbers
-                      else np.full(len(signal), np.nan))  # fmt: skip
-            times = np.asarray(signal.timestamps, dtype=np.float64)
-            if signal.invalidation_bits is not None and numbers:
-                values[np.asarray(signal.invalidation_bits, dtype=bool)] = np.nan
-        except Exception as error:  # noqa: BLE001 -- the library names damage in many ways
-            raise _damaged(self.path, error, f"channel {name}") from None
-        bad = "" if numbers else "it holds no numbers"
-        return Column(values, signal.unit or "", {CLOCK: times}, bad)
+        column: Column = self.decoder.answer(name)
+        return column
 
 
 def open_mdf(path: Path) -> MdfLog:
@@ -75,55 +125,10 @@ def open_mdf(path: Path) -> MdfLog:
     Raises:
         InputError: asammdf is not installed; no MDF file, or damaged.
     """
-    try:
-        from asammdf import MDF
-    except ImportError:
-        raise InputError("is MDF, for which asammdf is needed", file=path,
-                         expected="pip install 'truck_blowout_sim[mdf]'") from None  # fmt: skip
-    logging.getLogger("asammdf").setLevel(logging.CRITICAL)
     with path.open("rb") as head:
         if head.read(3) not in (b"MDF", b"UnF"):
-            raise InputError("begins with other bytes than MDF", file=path, expected=_EXPECTED)
-    problem = None
-    with _quiet_destructors():
-        try:
-            file = MDF(path)
-            places = _places(file)
-            metadata = {"log_start": str(file.header.start_time)}
-        except Exception as error:  # noqa: BLE001 -- the library names damage in many ways
-            problem = _damaged(path, error)
-    if problem:
-        raise problem
-    return MdfLog(path, f"MDF {file.version}", file, places, metadata=metadata)
-
-
-@contextlib.contextmanager
-def _quiet_destructors() -> Iterator[None]:
-    """A file that asammdf could not open fails once more, on stderr, when it is deleted."""
-    before = sys.unraisablehook
-    sys.unraisablehook = lambda _: None
-    try:
-        yield
-        gc.collect()
-    finally:
-        sys.unraisablehook = before
-
-
-def _places(file: Any) -> dict[str, tuple[int, int]]:  # noqa: ANN401 -- asammdf is untyped
-    """Group and index of each channel; names that occur twice carry their group's number."""
-    listed = [
-        (channel.name, (g, i))
-        for g, group in enumerate(file.groups)
-        for i, channel in enumerate(group.channels)
-        if i != file.masters_db.get(g) and channel.channel_type not in _TIME_CHANNELS
-    ]
-    count = Counter(name for name, _ in listed)
-    return {
-        name if count[name] == 1 else f"{name} (group {place[0] + 1})": place
-        for name, place in listed
-    }
-
-
-def _damaged(path: Path, error: Exception, where: str = "") -> InputError:
-    words = str(error).splitlines()[0] if str(error) else type(error).__name__
-    return InputError(f"damaged: {words}", file=path, where=where, expected=_EXPECTED)
+            raise InputError("begins with other bytes than MDF", file=path, expected=EXPECTED)
+    decoder = _Decoder(path)
+    contents: Contents = decoder.answer()
+    return MdfLog(path, f"MDF {contents.version}", list(contents.names), decoder,
+                  metadata={"log_start": contents.log_start})  # fmt: skip
