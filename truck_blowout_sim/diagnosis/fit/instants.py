@@ -12,7 +12,7 @@ Floats = NDArray[np.float64]
 _GRID_S = 1.0
 _MOST_INSTANTS = 20
 _MARGIN_S = 0.5
-_FINER_BINS = 2
+_FINER = 0.2  # of the distance between two instants
 _DELAYED_OVER = 3  # instants: so long, what a ramp does hardly depends on when it begins
 
 
@@ -41,7 +41,8 @@ def bins_between(effect: Effect, run: Run, bin_s: float) -> range:
     """
     if effect.timing != "ramp":
         return range(1)
-    return range(0, round(_DELAYED_OVER * spacing_s(run) / bin_s), _FINER_BINS)
+    apart = spacing_s(run) / bin_s
+    return range(0, round(_DELAYED_OVER * apart), max(round(_FINER * apart), 1))
 
 
 def every_instant(effect: Effect, run: Run, bin_s: float) -> range:

@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.linalg import block_diag
 
 from truck_blowout_sim.diagnosis.case.study import Study, row_ranges
 from truck_blowout_sim.diagnosis.effects import Effect
@@ -33,23 +34,22 @@ def windows_of(study: Study, projector: Projector, effect: Effect, place: Place,
         trained: bin means of training runs with the event begun at each instant tried, by run
             and instant.
     """
-    quiet = _quiet(study, effect, place)
-    rows, columns, run, time_s = row_ranges(study), [], [], []
+    quiet, rows = _quiet(study, effect, place), row_ranges(study)
+    own, reach, gradient, run, time_s = [], [], [], list[int](), list[float]()
     for i in (*study.train, *study.baseline):
         found = quiet[i] if i in quiet else _seconds(study, effect, i, [
             trained[i, k] for k in range(grid_of(study.runs[i], effect).size)])
-        for time, column in found:
-            whole = np.zeros(removed.size)
-            whole[rows[i]] = column
-            columns.append(whole)
-            run.append(i)
-            time_s.append(time)
-    matrix = np.stack(columns, axis=1)
-    reach = projector.reach(matrix)
+        columns = np.stack([column for _, column in found], axis=1)
+        own.append(columns.T @ columns)
+        reach.append(projector.reach(columns, rows[i]))
+        gradient.append(columns.T @ removed[rows[i]])
+        run += [i] * len(found)
+        time_s += [time for time, _ in found]
+    shared = np.concatenate(reach, axis=1)
     amount = effect.amount
     return Windows(
-        matrix.T @ matrix - reach.T @ projector.solve(reach), matrix.T @ removed, np.array(run),
-        np.array(time_s), np.isin(run, study.train), effect.timing == "pulse",
+        block_diag(*own) - shared.T @ projector.solve(shared), np.concatenate(gradient),
+        np.array(run), np.array(time_s), np.isin(run, study.train), effect.timing == "pulse",
         (amount.low, amount.high), effect.strays(study.packed)[0], _WIDE * amount.high)
 
 
