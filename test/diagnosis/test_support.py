@@ -65,6 +65,6 @@ def test_what_is_true_is_supported_most_at_its_amount(
     study_of: Studies, truck: Packed, name: str
 ) -> None:
     effect = next(e for e in LIBRARY if e.name == name and not e.variant)
-    size = 8.0 * effect.amount.material
+    size = 16.0 * effect.strays(truck)[0]
     study = study_of(effect.values(truck, effect.places(truck.vehicle)[0], size), baseline=True)
     assert support_of(study, name, size) > CHANCE.asked
