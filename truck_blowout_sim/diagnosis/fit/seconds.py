@@ -76,14 +76,28 @@ def _quiet(study: Study, effect: Effect, place: Place
 def _seconds(study: Study, effect: Effect, i: int, models: Sequence[Floats]
              ) -> list[tuple[float, Floats]]:
     """When each second begins, and the whitened response to the force over that second."""
-    run, bin_s = study.runs[i], study.settings.bin_s
-    found = []
-    for time, model in zip(grid_of(run, effect).tolist(), models, strict=True):
-        for bins in every_instant(effect, run, bin_s):
-            change = run.change(delayed(model - study.models[i], bins), np.zeros(1))
-            found.append((time + bins * bin_s, change / effect.amount.step))
+    delays = every_instant(effect, study.runs[i], study.settings.bin_s)
+    found = responses(study, effect, i, models, delays)
     if effect.timing == "pulse":
         return found
     # what lasts is the sum of all seconds from its instant on
     later = [column for _, column in found[1:]] + [np.zeros_like(found[-1][1])]
     return [(time, column - rest) for (time, column), rest in zip(found, later, strict=True)]
+
+
+def responses(study: Study, effect: Effect, i: int, models: Sequence[Floats], delays: range
+              ) -> list[tuple[float, Floats]]:
+    """When the event begins, and the whitened response per unit of its amount.
+
+    Args:
+        study: the case.
+        effect: the event.
+        i: position of the run.
+        models: bin means with the event begun at each instant of the grid.
+        delays: by how many bins each of these is delayed in turn.
+    """
+    run = study.runs[i]
+    return [(time + bins * study.settings.bin_s,
+             run.change(delayed(model - study.models[i], bins), np.zeros(1)) / effect.amount.step)
+            for time, model in zip(grid_of(run, effect).tolist(), models, strict=True)
+            for bins in delays]

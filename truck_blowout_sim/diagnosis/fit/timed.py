@@ -17,10 +17,10 @@ from truck_blowout_sim.diagnosis.case.study import Study, row_ranges
 from truck_blowout_sim.diagnosis.effects import Effect
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.fit.attribute import Ranked, with_effects
-from truck_blowout_sim.diagnosis.fit.instants import bins_between, delayed, grid_of, spacing_s
+from truck_blowout_sim.diagnosis.fit.instants import bins_between, grid_of, spacing_s
 from truck_blowout_sim.diagnosis.fit.linear import Projector, score
 from truck_blowout_sim.diagnosis.fit.refit import chi2_of, models_at
-from truck_blowout_sim.diagnosis.fit.seconds import windows_of
+from truck_blowout_sim.diagnosis.fit.seconds import responses, windows_of
 from truck_blowout_sim.diagnosis.result.parts import Place
 
 Floats = NDArray[np.float64]
@@ -81,15 +81,10 @@ def _responses(study: Study, effect: Effect, i: int, results: Mapping[tuple[int,
                ) -> tuple[Floats, list[Floats]]:
     """Instants in one run, and the whitened response per unit of the amount to each."""
     run = study.runs[i]
-    grid = grid_of(run, effect)
-    later = bins_between(effect, run, study.settings.bin_s)
-    times, found = [], []
-    for k, time in enumerate(grid.tolist()):
-        change = results[(i, k)] - study.models[i]
-        for bins in later:
-            times.append(time + bins * study.settings.bin_s)
-            found.append(run.change(delayed(change, bins), np.zeros(1)) / effect.amount.step)
-    return np.array(times), found
+    models = [results[(i, k)] for k in range(grid_of(run, effect).size)]
+    delays = bins_between(effect, run, study.settings.bin_s)
+    times, found = zip(*responses(study, effect, i, models, delays), strict=True)
+    return np.array(times), list(found)
 
 
 def _best_span(study: Study, projector: Projector, effect: Effect, i: int, grid: Floats,
