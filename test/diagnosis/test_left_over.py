@@ -24,7 +24,7 @@ def case(train: int, baseline: int) -> Study:
     """A study of so many runs, baseline first."""
     return cast(Study, SimpleNamespace(baseline=tuple(range(baseline)),
                                        train=tuple(range(baseline, baseline + train)),
-                                       settings=SimpleNamespace(false_alarms=0.02)))
+                                       settings=SimpleNamespace(alarms_by_rest=0.02)))
 
 
 def test_without_baseline_runs_no_level_says_that_something_is_missing() -> None:

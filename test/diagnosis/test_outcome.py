@@ -22,7 +22,8 @@ from truck_blowout_sim.diagnosis.case.study import Study
 from truck_blowout_sim.diagnosis.effects import LIBRARY
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.fit.attribute import Ranked
-from truck_blowout_sim.diagnosis.fit.scatter import SCATTERS, Chance, Scatter
+from truck_blowout_sim.diagnosis.fit.scatter import Chance, Scatter
+from truck_blowout_sim.diagnosis.fit.shown import SCATTERS
 from truck_blowout_sim.diagnosis.locate.beat import Beat
 from truck_blowout_sim.diagnosis.locate.lagging import Lag
 from truck_blowout_sim.diagnosis.locate.posture import Posture
@@ -135,7 +136,7 @@ def test_a_sheet_number_far_off_is_a_miscalibration_and_named(
 
 
 def test_chance_falls_with_evidence_and_stays_a_probability(calm: Study, truck: Packed) -> None:
-    chance = Chance(Scatter(np.eye(SCATTERS.size)[0]), 20.0, calm.settings.false_alarms)
+    chance = Chance(Scatter(np.eye(SCATTERS.size)[0]), 20.0, calm.settings.alarms_by_name)
 
     def p_value(support: float) -> float:
         one = material(calm, (replace(ranked(truck, "road_bank", 0.03), support=support),))

@@ -3,25 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from functools import partial
-from itertools import pairwise
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from scipy.stats import chi2
 
-from truck_blowout_sim.diagnosis.case.runs import Run
 from truck_blowout_sim.diagnosis.fit.linear import Projector
-from truck_blowout_sim.diagnosis.fit.scatter import (
-    SCATTERS,
-    Chance,
-    Part,
-    Scatter,
-    Shown,
-    independent,
-    parts_of,
-)
+from truck_blowout_sim.diagnosis.fit.scatter import Chance, Scatter, independent
+from truck_blowout_sim.diagnosis.fit.shown import SCATTERS, Part, Question, Shown
 
 ROLES = np.array([1.0, 1.0, 1.0, 0.0, 0.0])  # three training runs, two baseline runs
 CERTAIN = Scatter(np.eye(SCATTERS.size)[0])  # no scatter at all
@@ -123,43 +112,6 @@ def test_alike_columns_ask_one_question() -> None:
     assert independent(np.repeat(columns[:, :1], 6, axis=1), nuisances) == pytest.approx(1.0)
 
 
-def test_runs_are_told_apart_with_the_nuisances_marginalized() -> None:
-    """The same numbers as a dense Gaussian gives."""
-    rng = np.random.default_rng(3)
-    nuisances, columns = rng.normal(size=(60, 4)), rng.normal(size=60)
-    residual = rng.normal(size=60) + 0.8 * columns
-    projector = Projector.of(nuisances)
-    parts = [Part(slice(20 * k, 20 * k + 20), columns[20 * k:20 * k + 20], k < 2) for k in range(3)]
-    found = Shown.of(projector, projector.remove(residual), parts)
-    assert found is not None
-    inverse = np.linalg.inv(np.eye(60) + nuisances @ nuisances.T)
-    split = np.stack([np.where(np.arange(60) // 20 == k, columns, 0.0) for k in range(3)], axis=1)
-    np.testing.assert_allclose(found.information, split.T @ inverse @ split, atol=1e-9)
-    np.testing.assert_allclose(found.gradient, split.T @ inverse @ residual, atol=1e-9)
-    np.testing.assert_array_equal(found.trained, [1.0, 1.0, 0.0])
-
-
-def test_a_run_that_does_not_show_the_effect_is_left_out() -> None:
-    """Brakes that were not applied say nothing of a brake."""
-    projector, ones = Projector.of(np.zeros((30, 1))), np.ones(10)
-    parts = [Part(slice(0, 10), ones, True), Part(slice(10, 20), 1e-4 * ones, False)]
-    found = Shown.of(projector, np.ones(30), parts)
-    assert found is not None
-    assert found.trained.size == 1
-    assert Shown.of(projector, np.ones(30), [Part(slice(0, 10), 0.0 * ones, True)]) is None
-
-
-def test_a_run_that_nothing_explains_weighs_less() -> None:
-    """A run left with nine times its variance counts as if its widths were three times as wide."""
-    projector, ones = Projector.of(np.zeros((20, 1))), np.ones(10)
-    parts = [Part(slice(0, 10), ones, True), Part(slice(10, 20), ones, True)]
-    left = np.concatenate([0.5 * ones, 3.0 * ones])
-    found = Shown.of(projector, np.ones(20), parts, left=left)
-    assert found is not None
-    np.testing.assert_allclose(np.diag(found.information), [10.0, 10.0 / 9.0])
-    np.testing.assert_allclose(found.gradient, [10.0, 10.0 / 9.0])
-
-
 def test_where_a_tire_is_lost_a_truck_strays_anew() -> None:
     """Baseline runs on sound tires do not say how the truck strays from its model on a flat one."""
     projector, ones = Projector.of(np.zeros((50, 1))), np.ones(10)
@@ -174,16 +126,29 @@ def test_where_a_tire_is_lost_a_truck_strays_anew() -> None:
     assert support(blown=True) < 4.0
 
 
-@pytest.mark.parametrize(("seconds", "parts"), [(12.0, 1), (39.9, 1), (40.0, 2), (600.0, 30)])
-def test_of_a_long_run_each_episode_counts_as_a_run(seconds: float, parts: int) -> None:
-    """Episodes of 20 s and more that follow each other and leave nothing out."""
-    bins = round(seconds / 0.1)
-    run = SimpleNamespace(measured=np.zeros((bins, 3)), length_s=seconds, has_blowout=False)
-    run.episodes = partial(Run.episodes, run)
-    column = np.arange(3.0 * bins)
-    found = parts_of(run, 7, column, True, 20.0)  # type: ignore[arg-type]
-    assert len(found) == parts
-    assert found[0].rows.start == 7
-    assert found[-1].rows.stop == 7 + column.size
-    np.testing.assert_array_equal(np.concatenate([part.column for part in found]), column)
-    assert all(a.rows.stop == b.rows.start for a, b in pairwise(found))
+def test_what_one_effect_moves_is_no_scatter_of_the_others() -> None:
+    """Columns that look alike: the one that is there explains what the others seem to scatter."""
+    rng = np.random.default_rng(7)
+    own = rng.normal(size=60)
+    alike = [0.7 * own + 0.3 * rng.normal(size=60) for _ in range(20)]
+    acting = np.arange(60) < 40  # two training runs of three
+    residual = rng.normal(size=60) + 12.0 * own * acting
+    projector = Projector.of(np.zeros((60, 1)))
+
+    def question(column: np.ndarray, left: np.ndarray) -> Question:
+        parts = [Part(slice(20 * k, 20 * k + 20), column[20 * k:20 * k + 20], k < 2)
+                 for k in range(3)]
+        found = Question.of(projector, left, parts, (0.0,), (-np.inf, np.inf))
+        assert found is not None
+        return found
+
+    asked = [(("other", str(k)), question(one, residual)) for k, one in enumerate(alike)]
+    truth = question(own, residual)
+    at_first = Scatter.of([one.shown(None) for _, one in asked] + [truth.shown(None)])
+    change = 12.0 * own * acting
+    chance = Chance(at_first, 5.0, 0.02, (*asked, (("own", ""), truth)))
+    beside = chance.beside(("own", ""), change, np.zeros(1), residual - change)
+    afresh = Scatter.of([question(one, residual - change).shown(residual - change)
+                         for one in alike])
+    np.testing.assert_allclose(beside.weights, afresh.weights, atol=1e-9)
+    assert beside.support(truth.shown(None)) > at_first.support(truth.shown(None)) + 3.0

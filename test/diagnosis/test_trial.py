@@ -10,7 +10,8 @@ import pytest
 from truck_blowout_sim.diagnosis.effects import LIBRARY
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.fit.attribute import Ranked
-from truck_blowout_sim.diagnosis.fit.scatter import SCATTERS, Chance, Scatter
+from truck_blowout_sim.diagnosis.fit.scatter import Chance, Scatter
+from truck_blowout_sim.diagnosis.fit.shown import SCATTERS
 from truck_blowout_sim.diagnosis.name.judging import weakness
 from truck_blowout_sim.diagnosis.name.trial import Fate, Rule
 from truck_blowout_sim.diagnosis.result.parts import Place

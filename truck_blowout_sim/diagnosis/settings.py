@@ -45,7 +45,7 @@ class Settings:
             a quick answer.
         episode_s: a part of a long run that differs from the model as a run of its own does.
         bin_s, skip_s, correlation_s: averaging time, start left out, duration of a difference.
-        false_alarms: share of cases with nothing missing in which anything may be named.
+        false_alarms: share of cases with nothing missing in which anything may be stated.
         form_share: 1 sigma of what another form of law does to an amount, as a share of it.
         flat_braked: how much wider models differ once a flat tire was braked.
         hard_from_mps2, hard_demand_s2pm: lateral acceleration from which on ``unknown_delta`` is
@@ -83,6 +83,16 @@ class Settings:
     calm_share: float
     forms: Mapping[str, float] = field(default_factory=dict)
     without: tuple[str, ...] = ()
+
+    @property
+    def alarms_by_name(self) -> float:
+        """False alarms that the search for names may raise: the other half is for ``unknown``."""
+        return 0.5 * self.false_alarms
+
+    @property
+    def alarms_by_rest(self) -> float:
+        """Those that each test of what is left may raise: of all of it, and of one channel."""
+        return 0.25 * self.false_alarms
 
     def form(self, effect: str) -> float:
         """1 sigma of what another form of law does to an amount, as a share of it."""

@@ -47,7 +47,8 @@ class Study:
         amounts: of each sheet nuisance at the reference, in prior sigmas from the sheet.
         known: sheet nuisances that the baseline runs determine: what differs from them in training
             is an effect, and both can be fitted together.
-        quiet: by candidate, what it would change in the baseline runs, per unit of its amount.
+        quiet: by law of a candidate, what it would change in the baseline runs for each unit of
+            its amount.
         seconds: by event, what it would change over each second of the baseline runs.
         simulations: how many were asked for; ``simulated`` gives the bin means of one.
     """
@@ -65,7 +66,7 @@ class Study:
     names: tuple[str, ...] = ()
     amounts: dict[str, float] = field(default_factory=dict)
     known: frozenset[str] = frozenset()
-    quiet: dict[tuple[str, str], dict[int, Floats]] = field(default_factory=dict)
+    quiet: dict[tuple[str, str, str], dict[int, Floats]] = field(default_factory=dict)
     seconds: dict[tuple[Effect, str], dict[int, list[tuple[float, Floats]]]] = field(
         default_factory=dict)
     simulations: int = 0

@@ -97,10 +97,10 @@ class Effect:
     def strays(self, packed: Packed) -> tuple[float, ...]:
         """1 sigma by which trucks of one kind differ in the amount, and roads, winds and loads.
 
-        A number of the sheet may be wrong: then four times as much.
+        What the vehicle's file says, or leaves out, may be wrong: then four times as much.
         """
         usual = 0.5 * self.amount.material * self.grows_with(packed)
-        return (usual, _WRONG_SHEET * usual) if self.absorbs and not self.met else (usual,)
+        return (usual,) if self.met else (usual, _WRONG_SHEET * usual)
 
     @property
     def adds_up(self) -> bool:

@@ -29,6 +29,11 @@ class Hypothesis:
         """Name and place, for comparing."""
         return self.effect.name, str(self.place)
 
+    @property
+    def form(self) -> tuple[str, str, str]:
+        """Name, place and law: two laws of one effect share their key."""
+        return (*self.key, self.effect.equation)
+
     def meaning(self, vehicle: Vehicle) -> str:
         """Calibration number that means the same as this hypothesis' amount; empty if none."""
         axle = self.place.axle or ""

@@ -13,7 +13,8 @@ from truck_blowout_sim.diagnosis.case.runs import Run
 from truck_blowout_sim.diagnosis.case.study import Progress, Study, row_ranges
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.fit.linear import Projector, Score, score
-from truck_blowout_sim.diagnosis.fit.scatter import Scatter, Shown, independent, parts_of
+from truck_blowout_sim.diagnosis.fit.scatter import Scatter, independent
+from truck_blowout_sim.diagnosis.fit.shown import Question, parts_of
 from truck_blowout_sim.vehicle import Packed
 
 Floats = NDArray[np.float64]
@@ -51,11 +52,13 @@ class Ranking:
         ranked: the most promising first, each supported as far as its linear column goes.
         scatter: how far apparent amounts differ from run to run in this case.
         independent: how many independent questions were asked.
+        questions: with the key of each candidate that a training run shows.
     """
 
     ranked: tuple[Ranked, ...]
     scatter: Scatter
     independent: float
+    questions: tuple[tuple[tuple[str, str], Question], ...]
 
 
 def with_effects(packed: Packed, effects: Sequence[Hypothesis], run: str) -> Packed:
@@ -72,7 +75,7 @@ def _jobs(study: Study, hypothesis: Hypothesis, named: Sequence[Hypothesis]
     Baseline runs look alike in every round and are simulated in the first.
     """
     amount = hypothesis.amount + hypothesis.effect.amount.step
-    runs = study.train if hypothesis.key in study.quiet else range(len(study.runs))
+    runs = study.train if hypothesis.form in study.quiet else range(len(study.runs))
     return [(i, hypothesis.apply(
         with_effects(study.packed, named if i in study.train else (),
                      study.runs[i].recording.name), study.runs[i].recording.name, amount))
@@ -91,7 +94,7 @@ def rank_steady(study: Study, candidates: Sequence[Hypothesis],
     usual = study.projector(named)
     free, episode_s = usual.chi2(residual), study.settings.episode_s
     manner = driven(study)
-    ranked, shown, trained = [], [], np.zeros(residual.size)
+    ranked, shown, questions, trained = [], [], [], np.zeros(residual.size)
     for i in study.train:
         trained[rows[i]] = 1.0
     cleaned: dict[str, Floats] = {}  # by the number that is held
@@ -105,36 +108,39 @@ def rank_steady(study: Study, candidates: Sequence[Hypothesis],
         fall = max(found.delta - (float(residual @ removed) - free), 0.0)
         ranked.append(Ranked(candidate.at(at + found.amount), fall, found.sigma, evidence=fall,
                              promise=found.delta))
-        shown.append(Shown.of(projector, removed, [
+        question = Question.of(projector, removed, [
             part for i, at_i in enumerate(rows) for part in parts_of(
                 study.runs[i], at_i.start, column[at_i], i in study.train, episode_s, manner[i])],
-            candidate.effect.strays(study.packed), (amount.low - at, amount.high - at),
-            removed - found.amount * projector.remove(column * trained)))
-    scatter = Scatter.of([one for one in shown if one is not None])
+            candidate.effect.strays(study.packed), (amount.low - at, amount.high - at))
+        questions.append((candidate.key, question))
+        shown.append(question.shown(removed - found.amount * projector.remove(column * trained))
+                     if question else None)
+    scatter = Scatter.of([one for one in shown if one])
     ranked = [replace(r, support=scatter.support(one)) if one else r
               for r, one in zip(ranked, shown, strict=True)]
     asked = np.stack([c * trained for c in columns], axis=1) if columns else np.zeros((0, 0))
     return Ranking(tuple(sorted(ranked, key=lambda r: (-r.promise, r.hypothesis.key))), scatter,
-                   independent(asked, usual) if columns else 0.0)
+                   independent(asked, usual) if columns else 0.0,
+                   tuple((key, one) for key, one in questions if one))
 
 
 def _columns(study: Study, candidates: Sequence[Hypothesis], named: Sequence[Hypothesis],
              progress: Progress | None) -> list[Floats]:
     """Whitened change over all runs per unit of each candidate's amount."""
     jobs = [(c, i, truck) for c in candidates for i, truck in _jobs(study, c, named)]
-    parts: dict[tuple[str, str], dict[int, Floats]] = {c.key: {} for c in candidates}
+    parts: dict[tuple[str, str, str], dict[int, Floats]] = {c.form: {} for c in candidates}
     portion = 24
     for first in range(0, len(jobs), portion):
         part = jobs[first:first + portion]
         results = study.simulate([(study.runs[i], truck) for _, i, truck in part])
         for (c, i, _), model in zip(part, results, strict=True):
-            parts[c.key][i] = study.runs[i].change(model, study.models[i]) / c.effect.amount.step
+            parts[c.form][i] = study.runs[i].change(model, study.models[i]) / c.effect.amount.step
         if progress:
             progress("candidates", min(first + portion, len(jobs)) / len(jobs))
-    for key, found in parts.items():
-        if key not in study.quiet:
-            study.quiet[key] = {i: found[i] for i in study.baseline}
-    return [study.stack({**study.quiet[c.key], **parts[c.key]}) for c in candidates]
+    for form, found in parts.items():
+        if form not in study.quiet:
+            study.quiet[form] = {i: found[i] for i in study.baseline}
+    return [study.stack({**study.quiet[c.form], **parts[c.form]}) for c in candidates]
 
 
 def score_channel(study: Study, projector: Projector, removed: Floats, channel: str,

@@ -23,7 +23,8 @@ from truck_blowout_sim.diagnosis.fit.attribute import Ranked, with_effects
 from truck_blowout_sim.diagnosis.fit.instants import grid_of
 from truck_blowout_sim.diagnosis.fit.linear import Projector
 from truck_blowout_sim.diagnosis.fit.refit import models_at
-from truck_blowout_sim.diagnosis.fit.scatter import Chance, Part, Shown, parts_of
+from truck_blowout_sim.diagnosis.fit.scatter import Chance
+from truck_blowout_sim.diagnosis.fit.shown import Part, Shown, parts_of
 
 Floats = NDArray[np.float64]
 
@@ -81,10 +82,14 @@ def supported(study: Study, one: Ranked, beside: Beside, chance: Chance) -> Rank
     fitted = np.concatenate([study.stack({i: c for i, c in columns.items() if i in study.train}),
                              *(part.column for part in more)])
     removed = projector.remove(residual)
+    left = removed - away * projector.remove(fitted)
     shown = Shown.of(projector, removed, [*parts, *more], h.effect.strays(study.packed),
-                     (min(away, 0.0), max(away, 0.0)), removed - away * projector.remove(fitted))
-    found = 0.0 if shown is None else chance.scatter.support(shown)
-    return replace(one, support=found - _search_cost(study, h))
+                     (min(away, 0.0), max(away, 0.0)), left)
+    if shown is None:
+        return replace(one, support=-_search_cost(study, h))
+    change = away * fitted[:study.columns.shape[0]]
+    scatter = chance.beside(h.key, change, study.columns.T @ change, left)
+    return replace(one, support=scatter.support(shown) - _search_cost(study, h))
 
 
 def _with_unseen(study: Study, seen: Projector, residual: Floats, h: Hypothesis, beside: Beside,

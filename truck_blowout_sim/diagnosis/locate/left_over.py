@@ -73,5 +73,5 @@ def chance_of_more(study: Study, squares: Sequence[float]) -> float:
 
 
 def keeps_more(study: Study, squares: Sequence[float]) -> bool:
-    """Whether training keeps more than chance lets it, at the one rate of false alarms."""
-    return chance_of_more(study, squares) <= study.settings.false_alarms
+    """Whether training keeps more than chance lets it, at its share of false alarms."""
+    return chance_of_more(study, squares) <= study.settings.alarms_by_rest

@@ -90,7 +90,7 @@ def _judge(study: Study, clean: Floats, channel: str, asked: int) -> Restless | 
                     for group in (parts, base))
     if not train or not still:
         return None
-    usual = float(np.sqrt(most_by_chance(train, still, study.settings.false_alarms / asked)))
+    usual = float(np.sqrt(most_by_chance(train, still, study.settings.alarms_by_rest / asked)))
     typical = float(np.exp(0.5 * np.mean(np.log(train))))
     if typical <= usual:
         return None

@@ -63,8 +63,8 @@ class Found:
 
 
 def excess_of(study: Study, found: Found) -> float:
-    """What is left beyond the usual."""
-    return found.chi2_after - study.settings.expected_level * study.columns.shape[0]
+    """What is left beyond the usual; nothing where less is left."""
+    return max(found.chi2_after - study.settings.expected_level * study.columns.shape[0], 0.0)
 
 
 def predicts_better(study: Study, before: Sequence[Prediction], after: Sequence[Prediction]

@@ -50,13 +50,14 @@ def shortlist(study: Study, named: Sequence[Hypothesis], progress: Progress | No
     ranking = rank_steady(study, steady, named, progress)
     ranked, places = ranking.ranked, _event_places(study, named)
     beside = Beside.of(study, named, study.models)
-    chance = Chance(ranking.scatter, ranking.independent, study.settings.false_alarms)
+    chance = Chance(ranking.scatter, ranking.independent, study.settings.alarms_by_name,
+                    ranking.questions)
     places = [(e, p) for e, p in places if _called_for(e, ranked, chance)]
     chance = replace(chance, independent=ranking.independent + len(places))
     promising = _promising(ranked, chance, study.refits[0])
-    keys = {one.hypothesis.key for one in promising}
+    forms = {one.hypothesis.form for one in promising}
     done = [*_refitted(study, promising, chi2, beside, chance, progress),
-            *(one for one in ranked if one.hypothesis.key not in keys)]
+            *(one for one in ranked if one.hypothesis.form not in forms)]
     done += _events(study, beside, chi2, chance, done, places, progress)
     best = best_forms([one for one in done if one.hypothesis.key not in taken], chance.asked)
     return Round(tuple(best), chance)
@@ -75,14 +76,20 @@ def best_forms(ranked: Sequence[Ranked], asked: float) -> list[Ranked]:
 
 
 def _promising(ranked: Sequence[Ranked], chance: Chance, most: int) -> list[Ranked]:
-    """What to fit anew: by turns the best by what it explains and by how well it is supported."""
+    """What to fit anew: by turns the best by what it explains and by how well it is supported.
+
+    Of an effect at a place every law that explains something is fitted.
+    """
     worth = [one for one in ranked if one.promise > chance.asked]
-    chosen: dict[tuple[str, str], Ranked] = {}
+    chosen: dict[tuple[str, str], list[Ranked]] = {}
     for pair in zip(worth, sorted(worth, key=lambda r: -r.support), strict=True):
         for one in pair:
             if len(chosen) < most:
-                chosen.setdefault(one.hypothesis.key, one)
-    return list(chosen.values())
+                chosen.setdefault(one.hypothesis.key, [])
+    for one in worth:
+        if one.hypothesis.key in chosen:
+            chosen[one.hypothesis.key].append(one)
+    return [one for laws in chosen.values() for one in laws]
 
 
 def _refitted(study: Study, chosen: Sequence[Ranked], chi2: float, beside: Beside,
