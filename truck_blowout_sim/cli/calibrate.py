@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import typer
-from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 
 from truck_blowout_sim.cli.listing import list_option, names_of
 from truck_blowout_sim.cli.outputs import FORCE, JSON, claim, say
+from truck_blowout_sim.cli.progress import bar
 from truck_blowout_sim.cli.reading import AS_IT_IS, LogOptions, check_brakes, reads_logs, say_notes
 
 if TYPE_CHECKING:
@@ -86,8 +85,7 @@ def say_roles(roles: dict[str, Sequence[Recording]]) -> None:
 
 def _progress() -> Progress:
     columns = (TextColumn("{task.description:<24.24}"), BarColumn(), TimeElapsedColumn())
-    return Progress(*columns, console=Console(stderr=True), transient=True,
-                    disable=not sys.stderr.isatty())
+    return bar(*columns)
 
 
 def lines(found: Calibration, output: Path) -> Iterator[str]:

@@ -15,6 +15,7 @@ from rich.table import Table
 
 from truck_blowout_sim.cli.listing import list_option, names_of
 from truck_blowout_sim.cli.outputs import FORCE, JSON, YES, ask_about, claim, say
+from truck_blowout_sim.cli.progress import bar
 from truck_blowout_sim.cli.reading import AS_IT_IS, LogOptions, reads_logs
 from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.recordings.shipped import find_recording
@@ -177,8 +178,7 @@ def _console() -> Console:
 
 def _progress() -> Progress:
     columns = (TextColumn("{task.description:<45.45}"), BarColumn(), TimeElapsedColumn())
-    return Progress(*columns, console=Console(stderr=True), transient=True,
-                    disable=not sys.stderr.isatty())
+    return bar(*columns)
 
 
 def _print(console: Console, compared: Comparison, page: Path) -> None:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-import sys
 import time
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
@@ -16,6 +15,7 @@ from rich.progress import BarColumn, Progress, TaskID, TextColumn, TimeElapsedCo
 from truck_blowout_sim.cli.failures import interruptible
 from truck_blowout_sim.cli.listing import list_option, names_of
 from truck_blowout_sim.cli.outputs import FORCE, JSON, claim, say
+from truck_blowout_sim.cli.progress import bar
 from truck_blowout_sim.cli.reading import AS_IT_IS, LogOptions, check_brakes, reads_logs, say_notes
 
 if TYPE_CHECKING:
@@ -160,8 +160,7 @@ def _say_roles(train: Sequence[Recording], base: Sequence[Recording], hold: Sequ
 
 def _progress() -> Progress:
     columns = (TextColumn("{task.description:<20.20}"), BarColumn(), TimeElapsedColumn())
-    return Progress(*columns, console=Console(stderr=True), transient=True,
-                    disable=not sys.stderr.isatty())
+    return bar(*columns)
 
 
 def _reporter(progress: Progress, task: TaskID, foretell: bool) -> Callable[[str, float], None]:

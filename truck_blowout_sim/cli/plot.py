@@ -3,17 +3,16 @@
 from __future__ import annotations
 
 import fnmatch
-import sys
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import typer
-from rich.console import Console
-from rich.progress import BarColumn, Progress, TextColumn
+from rich.progress import BarColumn, TextColumn
 
 from truck_blowout_sim.cli.listing import names_of
 from truck_blowout_sim.cli.outputs import FORCE, JSON, claim, say
+from truck_blowout_sim.cli.progress import bar
 from truck_blowout_sim.cli.reading import AS_IT_IS, LogOptions, reads_logs, say_notes
 from truck_blowout_sim.comparison.units import AXES, SYSTEMS
 from truck_blowout_sim.errors import InputError, nearest, quoted
@@ -99,12 +98,10 @@ def save_pictures(pictures: Sequence[Picture], folder: Path, forms: Sequence[str
     from truck_blowout_sim.recordings.atomic import replacing
 
     paths = []
-    bar = Progress(TextColumn("drawing"), BarColumn(), TextColumn("{task.description}"),
-                   console=Console(stderr=True), transient=True, disable=not sys.stderr.isatty())
-    with bar:
-        task = bar.add_task("", total=len(pictures))
+    with bar(TextColumn("drawing"), BarColumn(), TextColumn("{task.description}")) as shown:
+        task = shown.add_task("", total=len(pictures))
         for picture in pictures:
-            bar.update(task, description=picture.name, advance=1)
+            shown.update(task, description=picture.name, advance=1)
             for form in forms:
                 path = folder / f"{picture.name}.{form}"
                 with replacing(path) as temporary:

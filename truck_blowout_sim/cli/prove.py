@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 import os
-import sys
 from pathlib import Path
 from typing import Any
 
 import typer
-from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
 from truck_blowout_sim.cli.outputs import JSON
+from truck_blowout_sim.cli.progress import bar
 
 
 def command(
@@ -71,9 +70,8 @@ def command(
 
 
 def _progress() -> Progress:
-    return Progress(TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(),
-                    TimeRemainingColumn(), console=Console(stderr=True),
-                    disable=not sys.stderr.isatty())
+    return bar(TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(),
+               TimeRemainingColumn(), stays=True)
 
 
 def _print(figures: dict[str, Any], output: Path) -> None:

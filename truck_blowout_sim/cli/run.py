@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-import sys
 import webbrowser
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from time import perf_counter
 
 import typer
-from rich.console import Console
-from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
+from rich.progress import BarColumn, TextColumn, TimeRemainingColumn
 
 from truck_blowout_sim.cli.listing import list_option, names_of
 from truck_blowout_sim.cli.outputs import FORCE, JSON, YES, ask_about, claim, say
+from truck_blowout_sim.cli.progress import bar
 from truck_blowout_sim.cli.settings import set_values
 from truck_blowout_sim.display.scene import beside
 from truck_blowout_sim.errors import InputError, quoted
@@ -139,15 +138,12 @@ def _write_page(recording: Recording, packed: Packed, html: Path) -> None:
 def _run(packed: Packed, drive: Drive, name: str) -> tuple[Ran, float]:
     """The run, and simulated seconds a wall second; loading of compiled code is not counted."""
     marks: list[tuple[float, float]] = []
-    bar = Progress(TextColumn(name), BarColumn(), TimeRemainingColumn(),
-                   console=Console(stderr=True), transient=True,
-                   disable=not sys.stderr.isatty())
-    with bar:
-        task = bar.add_task(name, total=1.0)
+    with bar(TextColumn(name), BarColumn(), TimeRemainingColumn()) as shown:
+        task = shown.add_task(name, total=1.0)
 
         def show(share: float) -> None:
             marks.append((perf_counter(), share))
-            bar.update(task, completed=share)
+            shown.update(task, completed=share)
 
         ran = execute(packed, drive, show)
     if len(marks) < 2:

@@ -2,19 +2,18 @@
 
 from __future__ import annotations
 
-import sys
 import webbrowser
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import typer
-from rich.console import Console
-from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
+from rich.progress import BarColumn, TextColumn, TimeRemainingColumn
 
 from truck_blowout_sim.cli.drawn_vehicle import vehicle_of
 from truck_blowout_sim.cli.listing import list_option, names_of
 from truck_blowout_sim.cli.outputs import FORCE, JSON, claim, say
+from truck_blowout_sim.cli.progress import bar
 from truck_blowout_sim.cli.reading import AS_IT_IS, LogOptions, reads_logs, say_notes
 from truck_blowout_sim.errors import InputError, quoted
 from truck_blowout_sim.recordings import Recording
@@ -111,9 +110,7 @@ def _film(page: Path, video: Path, camera: str, start_s: float | None, end_s: fl
           speed: float, dark: bool) -> int:
     from truck_blowout_sim.report.viewer.film import Film, write_film
 
-    bar = Progress(TextColumn(f"filming {video.name}"), BarColumn(), TimeRemainingColumn(),
-                   console=Console(stderr=True), transient=True, disable=not sys.stderr.isatty())
-    with bar:
-        task = bar.add_task("", total=1.0)
+    with bar(TextColumn(f"filming {video.name}"), BarColumn(), TimeRemainingColumn()) as shown:
+        task = shown.add_task("", total=1.0)
         film = Film(view=camera, start_s=start_s, end_s=end_s, speed=speed, dark=dark)
-        return write_film(page, video, film, lambda share: bar.update(task, completed=share))
+        return write_film(page, video, film, lambda share: shown.update(task, completed=share))
