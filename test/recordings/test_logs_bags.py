@@ -104,17 +104,21 @@ def test_a_recorder_on_another_clock_is_laid_on_the_stamps(tmp_path: Path) -> No
     assert read["steering_wheel_angle_rad"].time_s[0] == pytest.approx(0.0, abs=1e-6)
 
 
-def test_a_bare_sqlite_file_and_a_ros_1_bag(tmp_path: Path) -> None:
-    folder = write(tmp_path / "bag", StoragePlugin.SQLITE3)
-    (file,) = folder.glob("*.db3")
-    assert SPEED in open_log(file).names
+def write_ros1(path: Path) -> Path:
     store = get_typestore(Stores.ROS1_NOETIC)
-    with Writer1(tmp_path / "old.bag") as writer:
+    with Writer1(path) as writer:
         topic = writer.add_connection("/speed", "std_msgs/msg/Float32", typestore=store)
         for i in range(5):
             message = store.types["std_msgs/msg/Float32"](float(i))
             writer.write(topic, START_NS + i, store.serialize_ros1(message, topic.msgtype))
-    column = open_log(tmp_path / "old.bag").column("/speed:data")
+    return path
+
+
+def test_a_bare_sqlite_file_and_a_ros_1_bag(tmp_path: Path) -> None:
+    folder = write(tmp_path / "bag", StoragePlugin.SQLITE3)
+    (file,) = folder.glob("*.db3")
+    assert SPEED in open_log(file).names
+    column = open_log(write_ros1(tmp_path / "old.bag")).column("/speed:data")
     np.testing.assert_array_equal(column.values, np.arange(5.0))
 
 
@@ -143,6 +147,31 @@ def test_damage_gives_a_recording_or_one_line(
     line = ""
     try:
         read_recording(path, mapping=RULES)
+    except InputError as error:
+        line = str(error)
+    assert "\n" not in line
+
+
+@pytest.fixture(scope="module")
+def ros1_bytes(tmp_path_factory: pytest.TempPathFactory) -> bytes:
+    return write_ros1(tmp_path_factory.mktemp("ros1") / "old.bag").read_bytes()
+
+
+@IN_TMP
+@given(st.randoms(use_true_random=False), st.booleans())
+def test_damage_of_a_ros_1_bag_gives_a_log_or_one_line(
+    tmp_path: Path, ros1_bytes: bytes, dice: random.Random, cut: bool
+) -> None:
+    data = bytearray(ros1_bytes)
+    for _ in range(4):
+        data[dice.randrange(len(data))] = dice.randrange(256)
+    path = tmp_path / "damaged.bag"
+    path.write_bytes(data[: dice.randrange(len(data))] if cut else data)
+    line = ""
+    try:
+        log = open_log(path)
+        for name in log.names:
+            log.column(name)
     except InputError as error:
         line = str(error)
     assert "\n" not in line
