@@ -72,6 +72,7 @@ class Effect:
         neutral: amount at which a vehicle is as given; 0 unless it lacks the part altogether.
         absorbs: calibration number that means the same as this amount; ``{hub}`` and ``{role}``
             (of the axle) are filled in.
+        of_file: scales a number of the vehicle's file that no calibration number stands for.
     """
 
     name: str
@@ -87,6 +88,7 @@ class Effect:
     applies: Literal["any", "blowout", "brakes"] = "any"
     kind: Kind = "physics"
     absorbs: str = ""
+    of_file: bool = False
     onset_form_s: float = 0.0
     met: bool = False
     variant: bool = False
@@ -97,10 +99,12 @@ class Effect:
     def strays(self, packed: Packed) -> tuple[float, ...]:
         """1 sigma by which trucks of one kind differ in the amount, and roads, winds and loads.
 
-        What the vehicle's file says, or leaves out, may be wrong: then four times as much.
+        A number of the vehicle's file may be wrong: then four times as much. What the sheet still
+        calibrates beside the effect has that chance already.
         """
         usual = 0.5 * self.amount.material * self.grows_with(packed)
-        return (usual,) if self.met else (usual, _WRONG_SHEET * usual)
+        stated = (self.absorbs or self.of_file) and not self.met
+        return (usual, _WRONG_SHEET * usual) if stated else (usual,)
 
     @property
     def adds_up(self) -> bool:

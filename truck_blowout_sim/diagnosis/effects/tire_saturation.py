@@ -42,4 +42,5 @@ EFFECT = Effect(
              "{value} times the modelled peak.",
     equation="F_y = D' sin(C atan(B alpha)),  D' = {value} * D, B C D' unchanged",
     splits="a maneuver at high lateral acceleration",
+    of_file=True,
 )
