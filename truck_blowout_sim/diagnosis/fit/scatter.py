@@ -39,7 +39,7 @@ from truck_blowout_sim.diagnosis.fit.linear import Projector
 from truck_blowout_sim.diagnosis.fit.shown import SCATTERS, Question, Shown
 
 Floats = NDArray[np.float64]
-_PRIOR_WORTH = 5.0  # hypotheses that equal weights count as
+_PRIOR_WORTH = 1.0  # hypotheses that equal weights count as: unit information
 _ROUNDS = 50
 
 
