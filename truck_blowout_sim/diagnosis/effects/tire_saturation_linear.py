@@ -34,5 +34,4 @@ EFFECT = Effect(
              "the load divided by {value}.",
     equation="F_y = (F_z / s) tanh(s C_alpha alpha / F_z),  s = {value}",
     splits="a corner at high lateral acceleration",
-    of_file=True,
 )
