@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 
 # Least number of cases solved, verdict and names; one less than when this was written may pass.
-LEAST = {"null": 4, "sensor": 2, "all": 7}
+LEAST = {"null": 4, "sensor": 2, "all": 8}
 
 
 @pytest.mark.timeout(1800)

@@ -17,8 +17,8 @@ that nothing explains weighs less. Of a long run each episode counts as a run.
 
 References: Laird and Ware 1982 (random effects); DerSimonian and Laird 1986 (several studies of one
 effect); Kennedy and O'Hagan 2001 (a model's error as a function of its inputs); Efron 2010, ch. 1
-(empirical Bayes); Edwards 1972 (support); Li and Ji 2005 (how many of correlated tests are
-independent); Birge 1932 (widths by what is left).
+(empirical Bayes); Kass and Wasserman 1995 (unit information); Edwards 1972 (support); Li and Ji
+2005 (how many of correlated tests are independent); Birge 1932 (widths by what is left).
 Known limits: linear in the amount, at the amount fitted; a run is one sample of what models differ
 by, so few runs support little; where five runs scatter much, chance is stated up to half too low;
 how much of a truck's stray changes by the day is a judgement, no measurement.
