@@ -86,3 +86,17 @@ def test_beside_baseline_runs_an_effect_is_what_training_has_beyond_them(
     assert found.hypothesis.amount == pytest.approx(0.5, abs=max(3.0 * found.sigma, 0.05))
     assert found.evidence == pytest.approx(found.delta)
     assert found.evidence > CLEAR
+
+
+def test_each_law_of_an_effect_has_a_column_of_its_own(study_of: Studies) -> None:
+    """A ratio that is wrong and one that bends, at one place: ranked together as each alone."""
+    study = study_of({"steering.ratio": 22.0}, baseline=True)
+    laws = [Hypothesis(effect, effect.places(study.packed.vehicle)[0]) for effect in LIBRARY
+            if effect.name == "steering_ratio"]
+    assert len({law.form for law in laws}) == 2
+    assert len({law.key for law in laws}) == 1
+    alone = {law.form: rank_steady(study, [law]).ranked[0] for law in laws}
+    for one in rank_steady(study, laws).ranked:
+        own = alone[one.hypothesis.form]
+        assert one.hypothesis.amount == pytest.approx(own.hypothesis.amount)
+        assert one.promise == pytest.approx(own.promise)

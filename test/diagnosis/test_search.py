@@ -13,7 +13,7 @@ from truck_blowout_sim.diagnosis.effects import LIBRARY
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.fit.attribute import Ranked
 from truck_blowout_sim.diagnosis.name import candidates
-from truck_blowout_sim.diagnosis.name.judging import Found, not_taken_back, slack
+from truck_blowout_sim.diagnosis.name.judging import Found, excess_of, not_taken_back, slack
 from truck_blowout_sim.diagnosis.name.search import search
 from truck_blowout_sim.diagnosis.sensors import GateResult
 from truck_blowout_sim.vehicle import Packed
@@ -89,3 +89,13 @@ def test_an_instrument_that_the_search_takes_back_was_none(truck: Packed) -> Non
     assert not_taken_back(gate, Found()) == (zero, gain)
     assert not_taken_back(gate, Found(named=[named("axle_misalignment")])) == (zero, gain)
     assert not_taken_back(gate, Found(named=[named("steering_angle_offset")])) == (gain,)
+
+
+def test_little_left_leaves_room_for_rivals(study_of: Callable[..., Study]) -> None:
+    """Less than is usual makes no explanation the only one."""
+    study = study_of()
+    best = Ranked(None, 800.0, 0.1, refitted=True, support=20.0)  # type: ignore[arg-type]
+    for left in (0.0, 1e6):
+        excess = excess_of(study, Found(chi2_after=left))
+        assert excess >= 0.0
+        assert slack(best, excess) >= slack(best) > 0.0
