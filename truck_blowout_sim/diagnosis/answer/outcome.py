@@ -140,18 +140,15 @@ def _moving_on(material: Material) -> Restless | None:
 
 
 def unexplained(material: Material) -> bool:
-    """Whether more is left than baseline runs keep; without these, a force nothing named explains.
-
-    A faulty instrument, once corrected, leaves more of itself than two models differ by: there,
-    too, only a force counts, and no smaller one than in turns.
-    """
-    study, sound = material.study, not material.gate.findings
+    """Whether a force is left that nothing named explains, or more than baseline runs keep."""
+    study = material.study
     bought = _bought(material)
-    if sound and study.baseline:
-        return _keeps_more(material, bought)
     unnamed = max((w.delta - 2.0 * w.degrees for w in material.unnamed), default=0.0)
+    # a faulty instrument, once corrected, leaves more of itself than two models differ by: then
+    # only a force counts, and no smaller one than in turns
+    sound = not material.gate.findings
     needed = study.settings.unknown_delta * study.demand * (study.calm if sound else 1.0)
-    return unnamed > max(needed, bought)
+    return unnamed > max(needed, bought) or (sound and _keeps_more(material, bought))
 
 
 def _keeps_more(material: Material, bought: float) -> bool:

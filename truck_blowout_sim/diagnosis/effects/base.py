@@ -134,15 +134,6 @@ def weight_n(packed: Packed) -> float:
     return sum(mass) * packed["world.gravity_mps2"]
 
 
-def length_m(packed: Packed, unit: str) -> float:
-    """From the foremost axle, or the kingpin, of a unit to its last axle."""
-    spec = packed.vehicle.spec
-    at = [packed[f"axle.{axle}.x_m"] for axle in packed.vehicle.axles
-          if spec.axles[axle].unit == unit]
-    at.append(packed[f"unit.{unit}.origin_x_m"])
-    return max(at) - min(at)
-
-
 def whole_truck(vehicle: Vehicle) -> Sequence[Place]:
     """Acts on the truck as a whole."""
     return (Place(),)

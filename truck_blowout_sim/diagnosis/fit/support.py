@@ -86,10 +86,10 @@ def supported(study: Study, one: Ranked, beside: Beside, chance: Chance) -> Rank
     shown = Shown.of(projector, removed, [*parts, *more], h.effect.strays(study.packed),
                      (min(away, 0.0), max(away, 0.0)), left)
     if shown is None:
-        return replace(one, support=0.0)
+        return replace(one, support=-_search_cost(study, h))
     change = away * fitted[:study.columns.shape[0]]
     scatter = chance.beside(h.key, change, study.columns.T @ change, left)
-    return replace(one, support=scatter.support(shown, _choices(study, h)))
+    return replace(one, support=scatter.support(shown) - _search_cost(study, h))
 
 
 def _with_unseen(study: Study, seen: Projector, residual: Floats, h: Hypothesis, beside: Beside,
@@ -113,8 +113,8 @@ def _unseen(study: Study, effects: Sequence[Hypothesis]) -> list[Floats]:
                            for run in study.holdout])
 
 
-def _choices(study: Study, hypothesis: Hypothesis) -> float:
-    """Of how many combinations of instants the best was taken."""
+def _search_cost(study: Study, hypothesis: Hypothesis) -> float:
+    """Support that choosing the best of so many instants brings where nothing happens."""
     tried = [grid_of(run, hypothesis.effect).size for run in study.runs
              if run.recording.name in hypothesis.times]
-    return float(np.prod([float(max(n, 1)) ** hypothesis.effect.edges for n in tried]))
+    return float(sum(2.0 * hypothesis.effect.edges * np.log(max(n, 1)) for n in tried))
