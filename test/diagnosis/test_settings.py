@@ -174,6 +174,19 @@ def test_a_misspelt_effect_is_refused(refusal: Callable[[Edit], str]) -> None:
     assert "forms: unknown key 'croswind'; expected one of" in line
 
 
+def test_a_track_that_a_rule_of_thumb_states_may_be_another(ten_line_car: Path) -> None:
+    """Its middle lies where it did."""
+    car = pack(load_vehicle(ten_line_car))
+    own = {n.name: n for n in load_settings(car).nuisances}
+    wide = own["steered_track"]
+    assert wide.stated
+    assert 0.02 < wide.sigma < 0.1
+    moved = car.unchecked(wide.values(car, wide.sigma))
+    for hub in ("front_left", "front_right"):
+        assert moved[f"hub.{hub}.y_m"] == pytest.approx((1.0 + wide.sigma) * car[f"hub.{hub}.y_m"])
+    assert not own["tractor_cg_left"].stated
+
+
 def test_a_spread_that_the_vehicle_file_states_is_the_prior(tmp_path: Path) -> None:
     """Of all brakes of an axle it is no spread of one against the other."""
     path = tmp_path / "stated.yaml"
@@ -188,6 +201,7 @@ def test_a_spread_that_the_vehicle_file_states_is_the_prior(tmp_path: Path) -> N
         3000.0 / stated["unit.tractor.izz_kgm2"])
     assert mine["tractor_yaw_inertia"].stated
     assert mine["steered_lining"].sigma == pytest.approx(0.25)
+    assert "steered_track" not in usual
     for name in ("brake_gain_steer_left", "trailer_yaw_inertia", "driven_lining"):
         assert mine[name] == usual[name]
         assert not mine[name].stated

@@ -19,6 +19,7 @@ steering:
   ratio: {value: 20, spread: 0.4, source: counted}
 axles:
   drive_1:
+    track_m: {value: 1.84, spread: 0.03, source: taped}
     brake:
       linear_nmppa: {value: 0.02, spread: 0.002, source: rolled}
 circuits:
@@ -42,6 +43,12 @@ def test_a_spread_has_the_unit_of_the_packed_number(stated: Packed) -> None:
     assert found["circuit.trailer.delay_s"] == pytest.approx(0.02)
     assert found["hub.drive_1_left.brake_gain"] == pytest.approx(0.1)
     assert "hub.drive_2_left.brake_gain" not in found
+
+
+def test_a_hub_lies_half_a_track_from_the_middle(stated: Packed) -> None:
+    found = packed_spreads(stated)
+    assert found["hub.drive_1_left.y_m"] == found["hub.drive_1_right.y_m"] == pytest.approx(0.015)
+    assert "hub.drive_2_left.y_m" not in found
 
 
 @pytest.mark.parametrize("name", ["international_9400i_trailmobile", "bmw_320i"])

@@ -1,7 +1,7 @@
 """How far packed parameters may lie from the truth, where a vehicle file states it.
 
 Known limits: only numbers that are packed as they stand in the file, and those few of `_OTHERS`; a
-spread of another number (a track, a yield point) is told by `truck-blowout vehicle`, no more.
+spread of another number (a damper, a yield point) is told by `truck-blowout vehicle`, no more.
 Validated with: test/vehicle/test_spreads.py.
 """
 
@@ -19,14 +19,18 @@ _OTHERS: Mapping[str, tuple[str, str]] = {
     "unit body.z_m": ("cg_height_m", ""),
     "unit frame.torsion_nmprad": ("torsion_rear_nmprad", ""),
     "hub brake.linear_nmppa": ("brake_gain", "brake_linear_nmppa"),
+    "hub track_m": ("y_m", ""),
     "tire cornering_peak": ("cornering_scale", "cornering_peak"),
 }
+# how much of the spread in the file the packed number has: a hub is half a track from the middle
+_PARTS: Mapping[str, float] = {"track_m": 0.5}
 
 
 def packed_spreads(packed: Packed) -> dict[str, float]:
     """One standard deviation of packed parameters, in their own unit, by name."""
     found: dict[str, float] = {}
-    for key, spread in packed.vehicle.spreads.items():
+    for key, stated in packed.vehicle.spreads.items():
+        spread = _PARTS.get(key.rpartition(".")[2], 1.0) * stated
         for name, share_of in _names(packed.vehicle, key):
             if name in packed.index:
                 value = packed[share_of] if share_of else 1.0
