@@ -166,12 +166,13 @@ def _stated(packed: Packed, spreads: Mapping[str, float], kind: str,
             targets: Sequence[tuple[str, float]]) -> float:
     """1 sigma of a number that the vehicle file states a spread of; 0 where it states none.
 
-    What is stated of an axle says nothing about how its two hubs differ; of its track, nothing
-    about where its middle lies.
+    What is stated of an axle is a share of both its hubs: it says nothing about how these differ,
+    nor of what moves both one way, as the middle of a track.
     """
-    names = {name for name, _ in targets if kind == "scale" or not name.endswith(".y_m")}
+    names = {name for name, _ in targets}
     told = [name for name in sorted(names & spreads.keys()) if not name.startswith("hub.")
-            or {name.replace("_left.", "_right."), name.replace("_right.", "_left.")} <= names]
+            or (kind == "scale" and {name.replace("_left.", "_right."),
+                                     name.replace("_right.", "_left.")} <= names)]
     sizes = [spreads[name] / (abs(packed[name]) or 1.0) if kind == "scale" else spreads[name]
              for name in told]
     return sum(sizes) / len(sizes) if sizes else 0.0

@@ -8,45 +8,57 @@ Validated with: test/vehicle/test_spreads.py.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from typing import NamedTuple
 
 from truck_blowout_sim.vehicle.packing.packed import Packed
 from truck_blowout_sim.vehicle.vehicle import Vehicle, hubs_of_axle
 
-# key of the file that is packed under another name; relative: the spread is a share of the number
-# in the second name, and moves the first, a factor, by that share
-_OTHERS: Mapping[str, tuple[str, str]] = {
-    "unit body.x_m": ("origin_x_m", ""),
-    "unit body.z_m": ("cg_height_m", ""),
-    "unit frame.torsion_nmprad": ("torsion_rear_nmprad", ""),
-    "hub brake.linear_nmppa": ("brake_gain", "brake_linear_nmppa"),
-    "hub track_m": ("y_m", ""),
-    "tire cornering_peak": ("cornering_scale", "cornering_peak"),
+
+class _Target(NamedTuple):
+    """A packed number that a key of the file stands for.
+
+    Attributes:
+        name: of the number.
+        share_of: number of which the spread is a share; ``name``, a factor, moves by that share.
+        part: of the spread that the number has.
+    """
+
+    name: str
+    share_of: str = ""
+    part: float = 1.0
+
+
+# key of the file that is packed under another name
+_OTHERS: Mapping[str, _Target] = {
+    "unit body.x_m": _Target("origin_x_m"),
+    "unit body.z_m": _Target("cg_height_m"),
+    "unit frame.torsion_nmprad": _Target("torsion_rear_nmprad"),
+    "hub track_m": _Target("y_m", part=0.5),  # a hub lies half a track from the middle
+    "hub brake.linear_nmppa": _Target("brake_gain", "brake_linear_nmppa"),
+    "tire cornering_peak": _Target("cornering_scale", "cornering_peak"),
 }
-# how much of the spread in the file the packed number has: a hub is half a track from the middle
-_PARTS: Mapping[str, float] = {"track_m": 0.5}
 
 
 def packed_spreads(packed: Packed) -> dict[str, float]:
     """One standard deviation of packed parameters, in their own unit, by name."""
     found: dict[str, float] = {}
-    for key, stated in packed.vehicle.spreads.items():
-        spread = _PARTS.get(key.rpartition(".")[2], 1.0) * stated
-        for name, share_of in _names(packed.vehicle, key):
+    for key, spread in packed.vehicle.spreads.items():
+        for name, share_of, part in _targets(packed.vehicle, key):
             if name in packed.index:
-                value = packed[share_of] if share_of else 1.0
-                found[name] = spread * (packed[name] / value if share_of else 1.0)
+                share = packed[name] / packed[share_of] if share_of else 1.0
+                found[name] = part * spread * share
     return found
 
 
-def _names(vehicle: Vehicle, key: str) -> Iterator[tuple[str, str]]:
-    """Packed names that a key of the file stands for, and what its spread is a share of."""
+def _targets(vehicle: Vehicle, key: str) -> Iterator[_Target]:
+    """Packed numbers that a key of the file stands for."""
     section, _, rest = key.partition(".")
     part, _, inside = rest.partition(".")
     last = key.rpartition(".")[2]
     if section in ("steering", "driveline", "fifth_wheel"):
-        yield f"{section}.{rest}", ""
+        yield _Target(f"{section}.{rest}")
     elif section == "circuits":
-        yield f"circuit.{rest}", ""
+        yield _Target(f"circuit.{rest}")
     elif section == "units":
         yield _as("unit", part, inside, last)
     elif section == "axles":
@@ -59,6 +71,7 @@ def _names(vehicle: Vehicle, key: str) -> Iterator[tuple[str, str]]:
                 yield _as("tire", tire, inside, last)
 
 
-def _as(kind: str, part: str, inside: str, last: str) -> tuple[str, str]:
-    name, share_of = _OTHERS.get(f"{kind} {inside}", (last, ""))
-    return f"{kind}.{part}.{name}", f"{kind}.{part}.{share_of}" if share_of else ""
+def _as(kind: str, part: str, inside: str, last: str) -> _Target:
+    own = _OTHERS.get(f"{kind} {inside}", _Target(last))
+    at = f"{kind}.{part}."
+    return own._replace(name=at + own.name, share_of=at + own.share_of if own.share_of else "")
