@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import sys
 from collections import Counter
+from dataclasses import replace
 from pathlib import Path
 from typing import Annotated
 
@@ -84,6 +85,7 @@ def world(
     first: Annotated[int, typer.Option(help="number of the first case")] = 0,
     count: Annotated[int, typer.Option(help="how many; 24 hold every group")] = 24,
     group: Annotated[list[str] | None, typer.Option(help="only this group; repeatable")] = None,
+    more: Annotated[int, typer.Option(help="more baseline and training runs of a case")] = 0,
     cores: Annotated[int, typer.Option(help="processes")] = 1,
 ) -> None:
     """Make recordings and answers of cases `first` to `first + count - 1` of a world; resumes."""
@@ -91,7 +93,7 @@ def world(
         specs = world_cases(name, first, count)
     except (ImportError, ValueError) as error:
         raise _stop(str(error)) from error
-    chosen = [spec for spec in specs if not group or spec.group in group]
+    chosen = [replace(spec, more=more) for spec in specs if not group or spec.group in group]
     _make(chosen, out, cores, name)
 
 

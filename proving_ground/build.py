@@ -112,13 +112,13 @@ class CaseBuilder:
         return without_gravity(values) if self.level else values
 
     def _train(self) -> list[tuple[Manoeuvre, int, Run, Values]]:
-        """The training runs with nothing missing, on an even road.
+        """The training runs of the case's own list with nothing missing, on an even road.
 
         Bumps met a little later would count as a difference that no one could use.
         """
-        rows = []
+        rows, own = [], {f"train_{k + 1}" for k in range(len(self.spec.train))}
         for name, manoeuvre, seed in self.runs:
-            if name.startswith("train"):
+            if name in own:
                 truth = self._drive(manoeuvre, [], seed, even=True)
                 rows.append((manoeuvre, seed, truth, self.clean(truth)))
         return rows

@@ -70,6 +70,8 @@ class CaseSpec:
 
     `without` names what the diagnosis must do without: effects taken out of its library. `truth`
     is the world whose truck is driven, `rough` whether it is recorded as roughly as real logs are.
+    `more` baseline and training runs of the same kinds are driven besides; severities stay those
+    that the case has without them.
     """
 
     id: str
@@ -85,6 +87,7 @@ class CaseSpec:
     without: tuple[str, ...] = ()
     truth: str = "w1"
     rough: bool = False
+    more: int = 0
 
     def runs(self) -> list[tuple[str, str, int]]:
         """(name, manoeuvre kind, seed) of every run."""
@@ -93,6 +96,10 @@ class CaseSpec:
                             ("holdout", self.holdout)):
             for number, kind in enumerate(kinds, start=1):
                 rows.append((f"{role}_{number}", kind, self.seed * 100 + len(rows) + 1))
+        for role, kinds in (("baseline", self.baseline), ("train", self.train)):
+            for number in range(len(kinds), len(kinds) + self.more if kinds else 0):
+                rows.append((f"{role}_{number + 1}", kinds[number % len(kinds)],
+                             self.seed * 100 + len(rows) + 1))
         return rows
 
 
