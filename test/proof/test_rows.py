@@ -62,3 +62,18 @@ def test_false_alarms_are_names_and_unknown(
     uniform = uniformity([s for s, _ in cases])
     assert uniform is not None
     assert uniform > 0.1
+
+
+def test_unseen_runs_are_counted_apart_where_physics_was_named(
+        tmp_path: Path, write_case: Callable[..., Path], line: Maker, cause: Maker, effect: Maker
+) -> None:
+    named = scored(tmp_path, write_case, "a", line("a", effects=(effect(),)), "single", (cause(),))
+    worse = scored(tmp_path, write_case, "b", line("b", effects=(effect(),), holdout=(1.0, 2.0)),
+                   "single", (cause(),))
+    still = scored(tmp_path, write_case, "c", line("c", "consistent", holdout=(2.0, 2.0)),
+                   "single", (cause(),))
+    found = dict(rows([s for s, _ in (named, worse, still)],
+                      {s.case: t for s, t in (named, worse, still)}))
+    every, where = (found[f"holdout better{tail}"] for tail in ("", ", where physics was named"))
+    assert (every.hits, every.trials) == (1, 3)
+    assert (where.hits, where.trials) == (1, 2)

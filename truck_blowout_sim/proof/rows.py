@@ -57,11 +57,17 @@ def rows(scores: Sequence[CaseScore], truths: Mapping[str, Truth]) -> list[Row]:
         ("truth in the alias set, where something was named",
          share([s for s in scores if s.group == "single" and s.named],
                lambda s: s.causes[0].aliased)),
-        ("holdout better", share(physics, lambda s: s.holdout.after < s.holdout.before
-                                 if s.holdout else None)),
+        ("holdout better", share(physics, better)),
+        ("holdout better, where physics was named",
+         share([s for s in physics if s.verdict == "missing_physics" and s.named], better)),
         ("p-value of 0.1 or less, nothing missing",
          share(of("null"), lambda s: None if s.p_value is None else s.p_value <= 0.1)),
     ]
+
+
+def better(score: CaseScore) -> bool | None:
+    """Whether what was named lowers the error on unseen runs; None without any."""
+    return score.holdout.after < score.holdout.before if score.holdout else None
 
 
 def wrong_name(score: CaseScore, truth: Truth) -> bool:
