@@ -13,6 +13,7 @@ from truck_blowout_sim.diagnosis.settings_file import settings_tree
 from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.resources import config_file, config_names
 from truck_blowout_sim.vehicle import Packed, load_vehicle, pack
+from truck_blowout_sim.vehicle.packing import packed_spreads
 
 Edit = Callable[[dict], None]
 
@@ -205,3 +206,18 @@ def test_a_spread_that_the_vehicle_file_states_is_the_prior(tmp_path: Path) -> N
     for name in ("brake_gain_steer_left", "trailer_yaw_inertia", "driven_lining"):
         assert mine[name] == usual[name]
         assert not mine[name].stated
+
+
+def test_every_spread_of_a_rule_of_thumb_is_a_prior(tmp_path: Path) -> None:
+    path = tmp_path / "ten_lines.yaml"
+    path.write_text(
+        "single_track:\n  kind: truck\n  mass_kg: 8198\n  wheelbase_m: 5.994\n  cg_x_m: 2.42\n"
+        "  yaw_inertia_kgm2: 55000\n  steering_ratio: 22\n  tire: 275/80R22.5\n  rear_axles: 2\n"
+        "  hitch_x_m: 5.5\n  trailer: {mass_kg: 15388, wheelbase_m: 11.2265, cg_x_m: 6.64}\n",
+        encoding="utf-8")
+    truck = pack(load_vehicle(path))
+    stated = packed_spreads(truck)
+    moved = {name for number in load_settings(truck).nuisances if number.stated
+             for name, _ in number.targets}
+    assert set(stated) <= moved
+    assert len(stated) > 300

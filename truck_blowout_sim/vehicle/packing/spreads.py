@@ -33,8 +33,12 @@ _OTHERS: Mapping[str, _Target] = {
     "unit body.x_m": _Target("origin_x_m"),
     "unit body.z_m": _Target("cg_height_m"),
     "unit frame.torsion_nmprad": _Target("torsion_rear_nmprad"),
+    "unit hitch.z_m": _Target("hitch_z_m"),
+    "axle spring_spacing_m": _Target("half_spacing_m", part=0.5),
     "hub track_m": _Target("y_m", part=0.5),  # a hub lies half a track from the middle
+    "hub brake.pushout_pa": _Target("brake_pushout_pa"),
     "hub brake.linear_nmppa": _Target("brake_gain", "brake_linear_nmppa"),
+    "tire dual_spacing_m": _Target("y_m", part=0.5),  # from the middle of the two
     "tire cornering_peak": _Target("cornering_scale", "cornering_peak"),
 }
 
@@ -65,6 +69,8 @@ def _targets(vehicle: Vehicle, key: str) -> Iterator[_Target]:
         yield _as("axle", part, inside, last)
         for hub in hubs_of_axle(part):
             yield _as("hub", hub, inside, last)
+            if last == "dual_spacing_m":
+                yield from (_as("tire", tire, inside, last) for tire in vehicle.tires_of_hub(hub))
     elif section == "tires":
         for tire, file in vehicle.tire_files.items():
             if file == part:
