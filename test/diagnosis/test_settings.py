@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 import yaml
 
-from truck_blowout_sim.diagnosis.settings import Settings, load_settings
+from truck_blowout_sim.diagnosis.settings import STATED, Settings, load_settings
 from truck_blowout_sim.diagnosis.settings_file import settings_tree
 from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.resources import config_file, config_names
@@ -180,12 +180,12 @@ def test_a_track_that_a_rule_of_thumb_states_may_be_another(ten_line_car: Path) 
     car = pack(load_vehicle(ten_line_car))
     own = {n.name: n for n in load_settings(car).nuisances}
     wide = own["steered_track"]
-    assert wide.stated
+    assert wide.source == STATED
     assert 0.02 < wide.sigma < 0.1
     moved = car.unchecked(wide.values(car, wide.sigma))
     for hub in ("front_left", "front_right"):
         assert moved[f"hub.{hub}.y_m"] == pytest.approx((1.0 + wide.sigma) * car[f"hub.{hub}.y_m"])
-    assert not own["tractor_cg_left"].stated
+    assert own["tractor_cg_left"].source != STATED
 
 
 def test_a_spread_that_the_vehicle_file_states_is_the_prior(tmp_path: Path) -> None:
@@ -200,12 +200,12 @@ def test_a_spread_that_the_vehicle_file_states_is_the_prior(tmp_path: Path) -> N
                    for truck in (pack(load_vehicle("international_9400i_trailmobile")), stated))
     assert mine["tractor_yaw_inertia"].sigma == pytest.approx(
         3000.0 / stated["unit.tractor.izz_kgm2"])
-    assert mine["tractor_yaw_inertia"].stated
+    assert mine["tractor_yaw_inertia"].source == STATED
     assert mine["steered_lining"].sigma == pytest.approx(0.25)
     assert "steered_track" not in usual
     for name in ("brake_gain_steer_left", "trailer_yaw_inertia", "driven_lining"):
         assert mine[name] == usual[name]
-        assert not mine[name].stated
+        assert mine[name].source != STATED
 
 
 def test_every_spread_of_a_rule_of_thumb_is_a_prior(tmp_path: Path) -> None:
@@ -217,7 +217,7 @@ def test_every_spread_of_a_rule_of_thumb_is_a_prior(tmp_path: Path) -> None:
         encoding="utf-8")
     truck = pack(load_vehicle(path))
     stated = packed_spreads(truck)
-    moved = {name for number in load_settings(truck).nuisances if number.stated
+    moved = {name for number in load_settings(truck).nuisances if number.source == STATED
              for name, _ in number.targets}
     assert set(stated) <= moved
     assert len(stated) > 300

@@ -26,7 +26,6 @@ from truck_blowout_sim.diagnosis.case.calibration import apply_amounts
 from truck_blowout_sim.diagnosis.case.calibration import calibrate as settle
 from truck_blowout_sim.diagnosis.case.nuisance import Nuisance
 from truck_blowout_sim.diagnosis.case.runs import prepare_run
-from truck_blowout_sim.diagnosis.case.sources import number_sources
 from truck_blowout_sim.diagnosis.case.study import FURTHEST, Study
 from truck_blowout_sim.diagnosis.case.usable import check_each_once, determined
 from truck_blowout_sim.diagnosis.fit.linear import Projector
@@ -46,7 +45,6 @@ Floats = NDArray[np.float64]
 Progress = Callable[[str, float], None]
 
 _STEP_S = 0.002  # residuals on 0.1 s bins do not change beyond a tenth of a sigma against 1 ms
-_STATED = "spread in the vehicle file"
 _PLACE = "world."
 # of the settings' steps: a coast-down of a minute tells a drag to a hundredth of the steps that a
 # diagnosis takes, over which speed is no straight line
@@ -183,8 +181,7 @@ def calibrate(
     settle(study, progress=progress)
     amounts, spread, told = _posterior(study)
     place = np.array([_of_the_place(n) for n in rules.nuisances])
-    numbers = _numbers(packed, rules.nuisances, amounts, spread, told,
-                       number_sources(settings if isinstance(settings, str) else "default"))
+    numbers = _numbers(packed, rules.nuisances, amounts, spread, told)
     truck = apply_amounts(packed, rules.nuisances, np.where(place, 0.0, amounts))
     tell("runs before and after", 0.5)
     sheet = _errors(packed, runs, unseen, impose_speed)
@@ -274,7 +271,7 @@ def _posterior(study: Study) -> tuple[Floats, Floats, NDArray[np.bool_]]:
 
 def _numbers(
     packed: Packed, sheet: Sequence[Nuisance], amounts: Floats, spread: Floats,
-    told: NDArray[np.bool_], sources: Mapping[str, str],
+    told: NDArray[np.bool_],
 ) -> tuple[SheetNumber, ...]:  # fmt: skip
     found = []
     for k, number in enumerate(sheet):
@@ -283,7 +280,7 @@ def _numbers(
         found.append(SheetNumber(
             name=number.name, kind=number.kind, change=amount * number.sigma, ci90=ends,
             prior_sigma=number.sigma,
-            source=_STATED if number.stated else sources.get(number.name, ""),
+            source=number.source,
             values=dict(number.values(packed, amount * number.sigma)), told=bool(told[k]),
             of_the_place=_of_the_place(number), at_prior_end=abs(amount) >= FURTHEST))  # fmt: skip
     return tuple(sorted(found, key=lambda n: -abs(n.change) / n.prior_sigma))

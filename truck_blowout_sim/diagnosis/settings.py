@@ -19,6 +19,7 @@ from truck_blowout_sim.vehicle.packing import packed_spreads
 _TOP_KEYS = {"sheet", "channels", "method"}
 _MAY_BE_SAID = {"extends", "without", "forms"}
 _KINDS = ("scale", "add")
+STATED = "spread in the vehicle file"
 _ONLY = ("", "blowout", "brakes")
 _CHANNEL_KEYS = {"floor", "relative", "bias", "gain", "source"}
 _NUMBER_KEYS = {"for", "kind", "step", "sign", "times", "targets", "opposite", "only", "source"}
@@ -158,7 +159,8 @@ def _numbers(path: Path, key: str, entry: Mapping[str, Any], packed: Packed,
                 own = _stated(packed, stated, kind, targets)
                 if own or sigma:
                     found.append(Nuisance(part.named(key), kind, own or sigma, step,
-                                          tuple(targets), only, stated=own > 0.0))
+                                          tuple(targets), only,
+                                          STATED if own else str(entry.get("source", ""))))
     return found
 
 

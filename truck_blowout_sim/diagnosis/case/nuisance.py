@@ -19,7 +19,7 @@ class Nuisance:
         sigma: 1 sigma of the amount; ``step`` its finite difference.
         targets: packed names with the factor (+1 or -1) of the amount.
         only: kind of run that shows it, or empty.
-        stated: whether sigma is a spread that the vehicle file states.
+        source: who says what sigma is.
     """
 
     name: str
@@ -28,7 +28,7 @@ class Nuisance:
     step: float
     targets: tuple[tuple[str, float], ...]
     only: str = ""
-    stated: bool = False
+    source: str = ""
 
     def between(self, here: float, there: float) -> float:
         """Amount that takes a truck from one number of prior sigmas to another."""
