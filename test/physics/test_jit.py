@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -12,10 +13,12 @@ import llvmlite.binding as llvm
 import numba
 import numpy as np
 import pytest
-from numba import float64, int64
+from numba import float64, int64, types
 
 from truck_blowout_sim.physics import cache, jit
 from truck_blowout_sim.physics.step import step
+from truck_blowout_sim.physics.tires.tire import tire_pass
+from truck_blowout_sim.physics.vectors import prefer_vectors
 
 PROGRAM = """
 import sys
@@ -101,3 +104,13 @@ def test_a_shared_folder_is_used_only_if_it_is_this_users_alone(tmp_path: Path) 
     usual.rename(tmp_path / "elsewhere")
     usual.symlink_to(tmp_path / "elsewhere")
     assert cache.private_folder(tmp_path) != usual
+
+
+def test_the_pass_over_all_tires_is_compiled_to_vectors() -> None:
+    prefer_vectors()
+    floats = types.CPointer(float64)
+    alone = numba.njit((floats, int64, int64, floats, int64, float64), fastmath=True,
+                       error_model="numpy")(tire_pass.py_func)  # type: ignore[attr-defined]
+    [code] = alone.inspect_asm().values()
+    vectors = re.findall(r"\bv?divpd\b|\bfdiv\s+v\d+\.2d", code)
+    assert len(vectors) > 10, len(vectors)

@@ -27,6 +27,8 @@ from numba.core import cgutils
 from numba.core.typing.templates import AbstractTemplate, Signature, infer_global
 from numba.extending import intrinsic, lower_builtin
 
+from truck_blowout_sim.physics.vectors import prefer_vectors
+
 # what an entry's annotations mean to the compiler and to ctypes
 _KINDS: dict[str, tuple[Any, Any]] = {
     "Floats": (types.CPointer(types.float64), np.float64),
@@ -59,6 +61,7 @@ class Entry:
         """Compile it or fetch it from the cache, and make its address known to compiled callers."""
         if self._call is not None:
             return
+        prefer_vectors()
         signature = _KINDS[self._result][0](*(_KINDS[kind][0] for kind in self._kinds))
         self._compiled = cfunc(signature, **self._options)(self.function)
         llvm.add_symbol(self.symbol, self._compiled.address)
