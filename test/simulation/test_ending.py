@@ -91,6 +91,31 @@ def test_every_verb_ends_with_2_where_the_run_diverges(tmp_path: Path,
     assert not (tmp_path / "bag").exists()
 
 
+@pytest.mark.parametrize("change", ["tire.steer_left.stiffness_npm=1e10",
+                                    "unit.trailer.mass_kg=1e7"])
+def test_a_truck_that_finds_no_equilibrium_is_an_error(
+    change: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Not a rollover before the first step, which the state it settles to would read as."""
+    assert main(["run", "fishhook", "--set", change, "-o", str(tmp_path / "bag")]) == 2
+    (line,) = capsys.readouterr().err.splitlines()
+    assert "found no equilibrium to start from; likeliest cause" in line
+    assert not (tmp_path / "bag").exists()
+
+
+def test_a_model_that_diverges_explains_nothing(tmp_path: Path,
+                                                capsys: pytest.CaptureFixture[str]) -> None:
+    """On the coarse step of trials it finds no equilibrium, on the fine one it leaves its range."""
+    path, log = tmp_path / "bad.yaml", tmp_path / "fishhook.csv"
+    path.write_text("extends: international_9400i_trailmobile\neffects:\n  tire.steer_left."
+                    "stiffness_npm: {value: 1.0e9, source: none}\n", encoding="utf-8")
+    assert main(["run", "fishhook", "--format", "csv", "-o", str(log)]) == 0
+    capsys.readouterr()
+    assert main(["diagnose", str(log), "--vehicle", str(path), "--quick", "-o",
+                 str(tmp_path / "out")]) == 2
+    assert "left the range of the model" in capsys.readouterr().err.splitlines()[-1]
+
+
 def test_what_no_truck_does_is_refused_unless_one_insists(
     truck: Packed, write: Write, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -126,11 +151,15 @@ def test_the_error_survives_another_process() -> None:
     assert isinstance(again, InputError)
 
 
-def test_compare_asks_about_an_implausible_recording(tmp_path: Path,
-                                                     capsys: pytest.CaptureFixture[str]) -> None:
+@pytest.mark.parametrize("verb", ["compare", "diagnose", "calibrate"])
+def test_an_implausible_recording_is_asked_about(verb: str, tmp_path: Path,
+                                                 capsys: pytest.CaptureFixture[str]) -> None:
     log = tmp_path / "fast.csv"
     rows = [f"{0.05 * k:.2f},{0.3 * k},88.0,0.0" for k in range(20)]
     log.write_text("time_s,steering_wheel_angle_rad,tractor_vx_mps,tractor_yaw_rate_radps\n"
                    + "\n".join(rows) + "\n")
-    assert main(["compare", str(log), "-o", str(tmp_path / "out")]) == 2
-    assert "no truck does this: a start speed of 88 m/s" in capsys.readouterr().err
+    out = tmp_path / ("out.yaml" if verb == "calibrate" else "out")
+    assert main([verb, str(log), "-o", str(out)]) == 2
+    line = capsys.readouterr().err
+    assert "no truck does this: " in line
+    assert "a start speed of 88 m/s" in line

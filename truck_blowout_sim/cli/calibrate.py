@@ -10,7 +10,7 @@ import typer
 from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 
 from truck_blowout_sim.cli.listing import list_option, names_of
-from truck_blowout_sim.cli.outputs import FORCE, JSON, claim, say
+from truck_blowout_sim.cli.outputs import FORCE, JSON, YES, ask_about, claim, say
 from truck_blowout_sim.cli.progress import bar
 from truck_blowout_sim.cli.reading import AS_IT_IS, LogOptions, check_brakes, reads_logs, say_notes
 
@@ -47,6 +47,7 @@ def command(
     listed: bool = list_option("recordings", "vehicles", "settings"),
     logs: LogOptions = AS_IT_IS,
     force: bool = FORCE,
+    yes: bool = YES,
     as_json: bool = JSON,
 ) -> None:
     """Fit the sheet's numbers to ordinary driving and write the vehicle.
@@ -55,6 +56,7 @@ def command(
     """
     from truck_blowout_sim.diagnosis.calibrate import calibrate, write_calibrated_vehicle
     from truck_blowout_sim.errors import InputError
+    from truck_blowout_sim.simulation.replay import implausible_inputs
     from truck_blowout_sim.vehicle import load_vehicle
 
     claim(output, inputs=[*recordings, *holdout, *logs.files], force=force)
@@ -64,6 +66,7 @@ def command(
     runs, unseen = (logs.read_all(names, loaded) for names in (recordings, holdout))
     say_notes(*runs, *unseen)
     check_brakes(loaded, *runs, *unseen)
+    ask_about(implausible_inputs([*runs, *unseen], loaded, impose_speed=impose_speed), yes)
     if not as_json:
         say_roles({"fits": runs, "only predicts": unseen})
     with _progress() as bar:

@@ -14,7 +14,7 @@ from rich.progress import BarColumn, Progress, TaskID, TextColumn, TimeElapsedCo
 
 from truck_blowout_sim.cli.failures import interruptible
 from truck_blowout_sim.cli.listing import list_option, names_of
-from truck_blowout_sim.cli.outputs import FORCE, JSON, claim, say
+from truck_blowout_sim.cli.outputs import FORCE, JSON, YES, ask_about, claim, say
 from truck_blowout_sim.cli.progress import bar
 from truck_blowout_sim.cli.reading import AS_IT_IS, LogOptions, check_brakes, reads_logs, say_notes
 
@@ -82,6 +82,7 @@ def command(
     listed: bool = list_option("recordings", "vehicles", "settings"),
     logs: LogOptions = AS_IT_IS,
     force: bool = FORCE,
+    yes: bool = YES,
     as_json: bool = JSON,
 ) -> None:
     """Locate, name and fit what the model lacks to explain recordings.
@@ -89,6 +90,7 @@ def command(
     Example: truck-blowout diagnose stop.csv --baseline calm.csv --holdout burst.csv -o diagnosis
     """
     from truck_blowout_sim.diagnosis import diagnose, effort, keeping
+    from truck_blowout_sim.simulation.replay import implausible_inputs
     from truck_blowout_sim.vehicle import load_vehicle
 
     _claim(output, corrected, [*recordings, *baseline, *holdout, *logs.files], force)
@@ -97,6 +99,7 @@ def command(
     base, hold = (logs.without_blowouts().read_all(runs, loaded) for runs in (baseline, holdout))
     say_notes(*train, *base, *hold)
     check_brakes(loaded, *train, *base, *hold)
+    ask_about(implausible_inputs([*train, *base, *hold], loaded, impose_speed=impose_speed), yes)
     if not as_json:
         _say_roles(train, base, hold)
     level = effort.QUICK if quick else effort.THOROUGH if thorough else effort.USUAL

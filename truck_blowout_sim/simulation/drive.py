@@ -143,7 +143,8 @@ class Driven:
 
     def ending(self, x: Floats) -> Ending | None:
         """How the run ended before its time in state ``x``; None if it did not."""
-        return ending_of(x, self._packed, self._rolls, float(x[GLOBAL_S.time_s]))
+        return ending_of(x, self._packed, self._rolls, float(x[GLOBAL_S.time_s]),
+                         self._drive.initial.time_s)
 
 
 def names_of(vehicle: Vehicle) -> tuple[str, ...]:

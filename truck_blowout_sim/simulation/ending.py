@@ -88,11 +88,23 @@ def ended(x: Floats, rolls: Floats) -> int:
     return GOING
 
 
-def ending_of(x: Floats, packed: Packed, rolls: Floats, time_s: float) -> Ending | None:
-    """How the truck in state ``x`` ended; None while it runs."""
+def stands(x: Floats, packed: Packed) -> bool:
+    """Whether a truck in state ``x`` can be driven on."""
+    return ended(x, rolled_over_rad(packed)) == GOING
+
+
+def ending_of(x: Floats, packed: Packed, rolls: Floats, time_s: float, start_s: float
+              ) -> Ending | None:
+    """How the truck in state ``x`` ended; None while it runs.
+
+    A truck that lies on its side at ``start_s`` was never driven: it diverged while it settled.
+    """
     code = ended(x, rolls)
     if code == GOING:
         return None
+    bodies = x[STATE_UNIT_AT:_slot(rolls.size)]
+    if time_s <= start_s and (code >= ROLLED_OVER or not np.isfinite(bodies).all()):
+        return Ending(OUT_OF_RANGE, time_s, "", "the truck found no equilibrium to start from")
     if code == NOT_FINITE:
         return Ending(NOT_FINITE, time_s, "", "the state was no longer finite")
     if code >= ROLLED_OVER:

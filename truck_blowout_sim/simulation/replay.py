@@ -18,14 +18,15 @@ from truck_blowout_sim.simulation.drive import (
     total_mass_kg,
 )
 from truck_blowout_sim.simulation.equilibrium import InitialState
-from truck_blowout_sim.simulation.plausible import diverged
+from truck_blowout_sim.simulation.plausible import diverged, implausible
 from truck_blowout_sim.simulation.start import initial_state, start_time_s
 from truck_blowout_sim.vehicle import Packed, Vehicle, pack
 
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
-__all__ = ["Drive", "as_recording", "drive_from", "names_of", "run_drive", "simulate_inputs",
-           "total_mass_kg"]
+__all__ = ["Drive", "as_recording", "drive_from", "implausible_inputs", "names_of", "run_drive",
+           "simulate_inputs", "total_mass_kg"]
+_COARSE_S = 0.01  # inputs are looked at on this grid
 STATED_SPEED_WORDS = "speed imposed: throttle or brakes were not recorded"
 
 
@@ -55,6 +56,20 @@ def drive_from(recording: Recording, vehicle: Vehicle, *, step_s: float = 0.001,
     steps, tires = _blowouts(recording, vehicle, start, step_s)
     return Drive(initial or initial_state(recording), step_s, max(round(1.0 / rate_hz / step_s), 1),
                  np.nan_to_num(recording.inputs_at(times)), speed, steps, tires)
+
+
+def implausible_inputs(recordings: Sequence[Recording], vehicle: Vehicle, *,
+                       impose_speed: bool | None = None) -> tuple[str, ...]:
+    """What in the inputs of recordings no truck does, with the recording's name; mostly nothing.
+
+    Raises:
+        InputError: see :func:`drive_from`.
+    """
+    packed = pack(vehicle)
+    drives = [(r, drive_from(r, vehicle, step_s=_COARSE_S, impose_speed=impose_speed))
+              for r in recordings]
+    return tuple(f"{r.name}: {clause}" for r, drive in drives
+                 for clause in implausible(packed, drive))
 
 
 def simulate_inputs(vehicle: Vehicle | Packed, recording: Recording, *, step_s: float = 0.001,

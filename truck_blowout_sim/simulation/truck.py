@@ -57,7 +57,7 @@ class Truck:
     @property
     def ending(self) -> Ending | None:
         """Why the truck cannot go on: rolled over, out of the model's range; None while it can."""
-        return ending_of(self.state, self.packed, self._rolls, self.time_s)
+        return ending_of(self.state, self.packed, self._rolls, self.time_s, self.initial.time_s)
 
     def advance(self, inputs: Inputs, n_steps: int = 1) -> None:
         """Advance ``n_steps`` steps with ``inputs`` held."""

@@ -25,6 +25,7 @@ from truck_blowout_sim.diagnosis.case.study import (
     row_ranges,
 )
 from truck_blowout_sim.diagnosis.fit.linear import Projector
+from truck_blowout_sim.simulation.ending import stands
 from truck_blowout_sim.simulation.equilibrium import initial_vector
 from truck_blowout_sim.vehicle import Packed
 
@@ -137,10 +138,14 @@ def _baseline_columns(study: Study) -> Floats:
 def warm_up(study: Study) -> None:
     """Settle the reference truck once for each run, so that its variants settle quickly.
 
-    Learns, too, what the fine step changes there.
+    Learns, too, what the fine step changes there. Where the coarse step finds no equilibrium,
+    everything is simulated on the fine one.
     """
     def warmed(run: Run) -> Run:
         state = initial_vector(study.packed, run.drive.initial, run.drive.step_s)
+        if not stands(state, study.packed):
+            run = replace(run, drive=run.fine)
+            state = initial_vector(study.packed, run.fine.initial, run.fine.step_s)
         warm = replace(run, drive=replace(run.drive, warm=state),
                        fine=replace(run.fine, warm=state))
         return warm.corrected(study.packed)

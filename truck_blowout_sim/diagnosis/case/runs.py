@@ -106,11 +106,11 @@ class Run:
         Raises:
             DivergedError: the truck leaves the range of the model on the fine step, too.
         """
-        if self.fine.step_s == self.drive.step_s:
-            return self
         fine = execute(truck, self.fine)
         if fine.ending is not None and not fine.ending.rolled_over:
             raise diverged(truck, self.fine, fine.ending, self.recording.name)
+        if self.fine.step_s == self.drive.step_s:
+            return self
         change = self.bins_of(fine.out, self.fine) - self.bins_of(run_drive(truck, self.drive))
         if not np.sqrt(np.nanmean((change / self.sigma) ** 2)) < _COARSE_ENOUGH:
             return replace(self, drive=self.fine)
