@@ -208,6 +208,25 @@ def test_a_spread_that_the_vehicle_file_states_is_the_prior(tmp_path: Path) -> N
         assert mine[name].source != STATED
 
 
+def test_a_channel_that_no_recording_has_is_refused(refusal: Callable[[Edit], str]) -> None:
+    def misspell(tree: dict) -> None:
+        tree["channels"]["_yaw_rate_radpss"] = tree["channels"].pop("_yaw_rate_radps")
+
+    assert "expected _yaw_rate_radps (the nearest)" in refusal(misspell)
+
+
+@pytest.mark.parametrize(("key", "value"), [("trial_step_s", 1.0), ("bin_s", -0.1),
+                                            ("correlation_s", 0.0), ("false_alarms", 2.0)])
+def test_a_number_of_the_method_has_bounds(key: str, value: float,
+                                           refusal: Callable[[Edit], str]) -> None:
+    def change(tree: dict) -> None:
+        tree["method"][key]["value"] = value
+
+    line = refusal(change)
+    assert f"method.{key}" in line
+    assert "expected a number above 0" in line
+
+
 def test_every_spread_of_a_rule_of_thumb_is_a_prior(tmp_path: Path) -> None:
     path = tmp_path / "ten_lines.yaml"
     path.write_text(

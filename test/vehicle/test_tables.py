@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.physics import layout
 from truck_blowout_sim.vehicle import Packed, load_vehicle, pack
 from truck_blowout_sim.vehicle.packing.formula import aligning_nm, lateral_n
@@ -111,3 +112,17 @@ def test_a_map_of_a_file_is_taken_as_it_is(thesis: Packed) -> None:
 
 def test_without_tables_nothing_follows_the_parameters(packed: Packed) -> None:
     assert packed.params.size == packed.topology[layout.TOPOLOGY.table_at]
+
+
+@pytest.mark.parametrize(("name", "value", "words"), [
+    ("tire.steer_left.model", 1.0, "has no force map"),
+    ("tire.steer_left.law", 1.0, "no table of steps"),
+    ("tire.steer_left.map_table", 1e9, "a place inside the packed vehicle"),
+    ("tire.steer_left.table", -1.0, "a place inside the packed vehicle"),
+])  # fmt: skip
+def test_a_table_that_is_not_there_is_never_read(name: str, value: float, words: str) -> None:
+    truck = pack(load_vehicle("international_9400i_trailmobile"))
+    with pytest.raises(InputError, match=words):
+        truck.with_values({name: value})
+    mapped = pack(load_vehicle("international_9400i_trailmobile_thesis"))
+    assert mapped.with_values({"tire.steer_left.model": 1.0})["tire.steer_left.model"] == 1.0

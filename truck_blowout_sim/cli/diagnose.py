@@ -90,16 +90,13 @@ def command(
     Example: truck-blowout diagnose stop.csv --baseline calm.csv --holdout burst.csv -o diagnosis
     """
     from truck_blowout_sim.diagnosis import diagnose, effort, keeping
-    from truck_blowout_sim.simulation.replay import implausible_inputs
     from truck_blowout_sim.vehicle import load_vehicle
 
     _claim(output, corrected, [*recordings, *baseline, *holdout, *logs.files], force)
     loaded = load_vehicle(vehicle)
     train = logs.read_all(recordings, loaded)
     base, hold = (logs.without_blowouts().read_all(runs, loaded) for runs in (baseline, holdout))
-    say_notes(*train, *base, *hold)
-    check_brakes(loaded, *train, *base, *hold)
-    ask_about(implausible_inputs([*train, *base, *hold], loaded, impose_speed=impose_speed), yes)
+    _check(loaded, [*train, *base, *hold], impose_speed, yes)
     if not as_json:
         _say_roles(train, base, hold)
     level = effort.QUICK if quick else effort.THOROUGH if thorough else effort.USUAL
@@ -125,6 +122,16 @@ def _claim(output: Path, corrected: Path | None, inputs: Sequence[Path], force: 
     claim(output, inputs=inputs, force=force, writes=_FILES)
     if corrected is not None:
         claim(corrected, inputs=inputs, force=force)
+
+
+def _check(vehicle: Vehicle, runs: Sequence[Recording], impose_speed: bool | None, yes: bool
+           ) -> None:
+    """Say what is known of the logs, and ask about inputs that no truck has."""
+    from truck_blowout_sim.simulation.replay import implausible_inputs
+
+    say_notes(*runs)
+    check_brakes(vehicle, *runs)
+    ask_about(implausible_inputs(runs, vehicle, impose_speed=impose_speed), yes)
 
 
 def _write_corrected(answer: Diagnosis, runs: Mapping[str, Sequence[Recording]], folder: Path

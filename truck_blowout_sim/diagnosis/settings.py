@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+import re
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field, fields
 from pathlib import Path
@@ -11,7 +13,8 @@ from truck_blowout_sim.diagnosis.case.nuisance import Nuisance
 from truck_blowout_sim.diagnosis.case.roles import ROLES, Part, parts_of
 from truck_blowout_sim.diagnosis.effects import LIBRARY
 from truck_blowout_sim.diagnosis.settings_file import check_keys, number_at, settings_tree
-from truck_blowout_sim.errors import InputError
+from truck_blowout_sim.errors import InputError, nearest
+from truck_blowout_sim.recordings import channels_for
 from truck_blowout_sim.resources import config_file
 from truck_blowout_sim.vehicle import Packed
 from truck_blowout_sim.vehicle.packing import packed_spreads
@@ -21,6 +24,10 @@ _MAY_BE_SAID = {"extends", "without", "forms"}
 _KINDS = ("scale", "add")
 STATED = "spread in the vehicle file"
 _ONLY = ("", "blowout", "brakes")
+_CHANNELS = tuple(channel.name for channel in channels_for())
+# steps beyond 7.1 ms are not stable for a sound truck; shares end at the whole
+_MOST = {"trial_step_s": 0.0071, "coarsest_step_s": 0.0071, "calm_share": 1.0, "false_alarms": 0.5}
+_MAY_BE_ZERO = ("hard_from_mps2", "hard_demand_s2pm", "calm_below_mps2", "skip_s")
 _CHANNEL_KEYS = {"floor", "relative", "bias", "gain", "source"}
 _NUMBER_KEYS = {"for", "kind", "step", "sign", "times", "targets", "opposite", "only", "source"}
 
@@ -102,10 +109,14 @@ class Settings:
     def rule(self, channel: str) -> ChannelRule | None:
         """The rule of a channel, None for channels the diagnosis does not use."""
         for piece, rule in self.channels.items():
-            matches = channel.endswith(piece) if piece.startswith("_") else piece in channel
-            if matches:
+            if _covers(piece, channel):
                 return rule
         return None
+
+
+def _covers(piece: str, channel: str) -> bool:
+    """Whether a key of ``channels`` stands for a channel: its end, or a piece of its name."""
+    return channel.endswith(piece) if piece.startswith("_") else piece in channel
 
 
 def load_settings(packed: Packed, name: str = "default") -> Settings:
@@ -128,6 +139,7 @@ def load_settings(packed: Packed, name: str = "default") -> Settings:
                  for number in _numbers(path, key, entry, packed, stated)]
     method: dict[str, Any] = {key: number_at(path, f"method.{key}", entry, "value")
                               for key, entry in tree["method"].items()}
+    _check_method(path, method)
     channels = {key: _rule(path, key, entry) for key, entry in tree["channels"].items()}
     check_keys(path, "forms", tree.get("forms", {}), {effect.name for effect in LIBRARY})
     forms = {key: number_at(path, f"forms.{key}", entry, "share")
@@ -195,7 +207,21 @@ def _known(path: Path, where: str, packed: Packed, name: str) -> str:
     return name
 
 
+def _check_method(path: Path, method: Mapping[str, float]) -> None:
+    """None of these numbers can be below zero, few can be zero, and some have an upper end."""
+    for key, value in method.items():
+        most = _MOST.get(key, math.inf)
+        if not 0.0 <= value <= most or (value == 0.0 and key not in _MAY_BE_ZERO):
+            ends = "" if math.isinf(most) else f" and at most {most:g}"
+            raise InputError(f"value is {value:g}", file=path, where=f"method.{key}",
+                             expected=f"a number above 0{ends}")
+
+
 def _rule(path: Path, name: str, entry: Mapping[str, Any]) -> ChannelRule:
     where = f"channels.{name}"
+    if not any(_covers(name, channel) for channel in _CHANNELS):
+        ends = {re.sub(r"^(tractor|trailer)", "", channel) for channel in _CHANNELS}
+        raise InputError("no channel of this name", file=path, where=where,
+                         expected=nearest(name, [*_CHANNELS, *sorted(ends)], "the end of a name"))
     check_keys(path, where, entry, _CHANNEL_KEYS, {"floor", "relative"})
     return ChannelRule(**{k: number_at(path, where, entry, k) for k in entry if k != "source"})

@@ -8,6 +8,7 @@ from truck_blowout_sim.vehicle.packing.names import (
     parameter_index,
     unknown_parameter,
 )
+from truck_blowout_sim.vehicle.packing.table_use import check_table_use
 from truck_blowout_sim.vehicle.vehicle import Vehicle
 
 
@@ -25,3 +26,4 @@ def check_effects(vehicle: Vehicle) -> None:
             raise unknown_parameter(effect.place, name, index)
         prefix, _, field = name.rpartition(".")
         check_value(blocks[prefix], field, effect.value, effect.place)
+        check_table_use(vehicle, blocks[prefix], name, effect.value, effect.place)

@@ -18,6 +18,7 @@ from truck_blowout_sim.diagnosis.case.trust import BRAKES_ON_PA, wider
 from truck_blowout_sim.diagnosis.result.evidence import Role
 from truck_blowout_sim.diagnosis.sensors import Noise, channel_noise
 from truck_blowout_sim.diagnosis.settings import Settings
+from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.recordings import Recording
 from truck_blowout_sim.simulation.course import Course
 from truck_blowout_sim.simulation.drive import Drive, execute, names_of, run_drive
@@ -168,6 +169,9 @@ def prepare_run(recording: Recording, role: Role, packed: Packed, settings: Sett
     start = drive.initial.time_s + settings.skip_s
     edges: Floats = (start + np.arange(max(n_bins, 1) + 1) * settings.bin_s).astype(np.float64)
     factor = wider(recording, drive, packed, edges, settings)
+    if not channels:
+        raise InputError("no channel that can be diagnosed", file=recording.name,
+                         expected="a speed, a rate, an angle or an acceleration of the vehicle")
     parts = [_channel_bins(recording, n, noise[n], edges, settings, factor) for n in channels]
     measured, sigma, plain = (np.stack([p[k] for p in parts], axis=1) for k in range(3))
     return Run(recording, role, drive, channels, tuple(names.index(n) for n in channels), edges,

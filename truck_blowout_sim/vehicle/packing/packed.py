@@ -25,6 +25,7 @@ from truck_blowout_sim.vehicle.packing.names import (
     parameter_index,
     unknown_parameter,
 )
+from truck_blowout_sim.vehicle.packing.table_use import check_table_use
 from truck_blowout_sim.vehicle.packing.tables import Tables
 from truck_blowout_sim.vehicle.packing.topology import topology_of
 from truck_blowout_sim.vehicle.statics import StaticLoads, static_loads
@@ -88,8 +89,10 @@ class Packed:
             InputError: no parameter of a name, or a value the parameter cannot have.
         """
         for name, value in values.items():
-            check_value(self.block(name), name.rpartition(".")[2], value,
-                        self._place._replace(key=name))
+            block, place = self.block(name), self._place._replace(key=name)
+            check_value(block, name.rpartition(".")[2], value, place)
+            if value != self[name]:
+                check_table_use(self.vehicle, block, name, value, place)
         return self.unchecked(values)
 
     def unchecked(self, values: Mapping[str, float]) -> Packed:
