@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from truck_blowout_sim.vehicle import Vehicle, load_vehicle, pack, write_vehicle
+from truck_blowout_sim.vehicle.packing import packed_spreads
 from truck_blowout_sim.vehicle.packing.formula import cornering_nprad
 from truck_blowout_sim.vehicle.single_track import RULE
 from truck_blowout_sim.vehicle.statics import static_loads
@@ -134,3 +135,20 @@ def test_what_does_not_fit_is_one_line(write: Callable[..., Path], refusal: Call
                                        old: str, new: str, words: str) -> None:  # fmt: skip
     assert old in CAR
     assert words in refusal(write(CAR.replace(old, new)))
+
+
+def test_a_stated_spread_reaches_the_vehicle(tmp_path: Path) -> None:
+    """Of an axle's cornering stiffness as a share of it; of the load in front as a place."""
+    path = tmp_path / "car.yaml"
+    path.write_text(
+        "single_track:\n  kind: car\n  mass_kg: 1500\n  wheelbase_m: 2.7\n"
+        "  front_load_kg: {value: 800, spread: 15}\n  steering_ratio: 16\n  tire: 205/55R16\n"
+        "  front_cornering_nprad: {value: 120000, spread: 12000}\n"
+        "  tire_pressure_pa: {value: 230000, spread: 10000}\n"
+        "  power_w: {value: 90000, spread: 9000}\n", encoding="utf-8")
+    car = pack(load_vehicle(path))
+    found, body = packed_spreads(car), car["unit.tractor.mass_kg"]
+    assert found["tire.front_left.cornering_scale"] == pytest.approx(0.1)
+    assert found["tire.rear_left.pressure_pa"] == pytest.approx(10000.0)
+    assert found["driveline.power_w"] == pytest.approx(9000.0)
+    assert found["unit.tractor.origin_x_m"] == pytest.approx(2.7 * 15.0 / body)

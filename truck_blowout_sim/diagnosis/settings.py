@@ -29,7 +29,8 @@ _CHANNELS = tuple(channel.name for channel in channels_for())
 _MOST = {"trial_step_s": 0.0071, "coarsest_step_s": 0.0071, "calm_share": 1.0, "false_alarms": 0.5}
 _MAY_BE_ZERO = ("hard_from_mps2", "hard_demand_s2pm", "calm_below_mps2", "skip_s")
 _CHANNEL_KEYS = {"floor", "relative", "bias", "gain", "source"}
-_NUMBER_KEYS = {"for", "kind", "step", "sign", "times", "targets", "opposite", "only", "source"}
+_NUMBER_KEYS = {"for", "kind", "step", "sign", "times", "targets", "opposite", "only", "source",
+                "spread_of"}
 
 
 @dataclass(frozen=True)
@@ -168,7 +169,8 @@ def _numbers(path: Path, key: str, entry: Mapping[str, Any], packed: Packed,
             targets += _targets(path, where, packed, part, entry.get("opposite", ()), -sign)
             # a share of nothing says nothing
             if kind == "add" or any(packed[name] for name, _ in targets):
-                own = _stated(packed, stated, kind, targets)
+                told = entry.get("spread_of", entry["targets"])
+                own = _stated(packed, stated, kind, _targets(path, where, packed, part, told, 1.0))
                 if own or sigma:
                     found.append(Nuisance(part.named(key), kind, own or sigma, step,
                                           tuple(targets), only,

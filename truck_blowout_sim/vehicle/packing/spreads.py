@@ -33,6 +33,7 @@ _OTHERS: Mapping[str, _Target] = {
     "unit body.x_m": _Target("origin_x_m"),
     "unit body.z_m": _Target("cg_height_m"),
     "unit frame.torsion_nmprad": _Target("torsion_rear_nmprad"),
+    "unit hitch.x_m": _Target("hitch_x_m"),
     "unit hitch.z_m": _Target("hitch_z_m"),
     "axle spring_spacing_m": _Target("half_spacing_m", part=0.5),
     "hub track_m": _Target("y_m", part=0.5),  # a hub lies half a track from the middle

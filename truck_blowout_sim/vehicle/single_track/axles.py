@@ -42,7 +42,8 @@ def _put_axle(draft: Draft, unit: UnitPlan, axle: AxlePlan, total_driven: int) -
     inertia = axle_inertia_kgm2(unit, axle)
     for key in ("ixx_kgm2", "izz_kgm2"):
         draft.ruled(f"{at}.{key}", inertia, rules, "axle_mass_share", "axle_gyration_per_track")
-    draft.rule(f"{at}.track_m", rules, "track_m", stated=unit.track_m)
+    draft.rule(f"{at}.track_m", rules, "track_m", stated=unit.track_m,
+               told=draft.spread_of(unit, "track_m"))  # fmt: skip
     draft.ruled(f"{at}.spring_spacing_m", rules.spec.spring_spacing_share * track, rules,
                 "spring_spacing_share")  # fmt: skip
     wheels = 0.5 * WHEEL_SHARE * axle_mass_kg(unit, axle)

@@ -84,15 +84,25 @@ def put_unit(draft: Draft, unit: UnitPlan, spec: SingleTrackSpec) -> None:
               "midway between kingpin and axles" if trailer else "center of gravity")  # fmt: skip
     draft.put(f"{at}.base_link.z_m", masses.cg_height_m, "height of the center of gravity")
     if unit.hitch_load_kg:
-        draft.put(f"{at}.hitch.x_m", unit.hitch_x_m)
-        draft.rule(f"{at}.hitch.z_m", rules, "hitch_height_m", stated=spec.hitch_height_m)
+        draft.put(f"{at}.hitch.x_m", unit.hitch_x_m, spread=draft.spread_of(unit, "hitch_x_m"))
+        draft.rule(f"{at}.hitch.z_m", rules, "hitch_height_m", stated=spec.hitch_height_m,
+                   told=draft.notes.spreads.get("single_track.hitch_height_m", 0.0))  # fmt: skip
     stated = 0.0 if trailer else spec.drag_area_m2
     height = rules.spec.air_height_per_cg_height * masses.cg_height_m
-    draft.rule(f"{at}.air.drag_area_m2", rules, "drag_area_m2", stated=stated)
+    draft.rule(f"{at}.air.drag_area_m2", rules, "drag_area_m2", stated=stated,
+               told=draft.spread_of(unit, "drag_area_m2"))  # fmt: skip
     draft.ruled(f"{at}.air.drag_z_m", height, rules, "air_height_per_cg_height")
     draft.rule(f"{at}.air.side_area_m2", rules, "side_area_per_wheelbase_m", unit.wheelbase_m)
     draft.put(f"{at}.air.side_x_m", half, "middle of the wheelbase")
     draft.ruled(f"{at}.air.side_z_m", height, rules, "air_height_per_cg_height")
+
+
+def _told_x_m(draft: Draft, unit: UnitPlan, masses: Masses) -> float:
+    """Spread of the sprung body's place: of the center of gravity, or of the load in front."""
+    load = "kingpin_load_kg" if unit.name == "trailer" else "front_load_kg"
+    of_load = unit.wheelbase_m * draft.spread_of(unit, load) / unit.mass_kg
+    whole = draft.spread_of(unit, "cg_x_m") or of_load
+    return whole * unit.mass_kg / masses.sprung_kg
 
 
 def _put_body(draft: Draft, at: str, unit: UnitPlan, masses: Masses) -> None:
@@ -100,7 +110,7 @@ def _put_body(draft: Draft, at: str, unit: UnitPlan, masses: Masses) -> None:
     yaw = masses.sprung_izz_kgm2
     roll = masses.sprung_kg * (rules.spec.roll_gyration_per_track * track_m(unit)) ** 2
     draft.put(f"{at}.mass_kg", masses.sprung_kg, spread=draft.spread_of(unit, "mass_kg"))
-    draft.put(f"{at}.x_m", masses.sprung_x_m)
+    draft.put(f"{at}.x_m", masses.sprung_x_m, spread=_told_x_m(draft, unit, masses))
     if unit.cg_height_m:
         draft.put(f"{at}.z_m", masses.sprung_z_m, spread=draft.spread_of(unit, "cg_height_m"))
     else:

@@ -52,7 +52,8 @@ def _put_driveline(draft: Draft, spec: SingleTrackSpec, units: Sequence[UnitPlan
     rules = units[0].rules
     mass = sum(unit.mass_kg for unit in units)
     driven = sum(axle.load_kg for axle in units[0].axles if axle.driven)
-    draft.rule("driveline.power_w", rules, "power_wpkg", mass, stated=spec.power_w)
+    draft.rule("driveline.power_w", rules, "power_wpkg", mass, stated=spec.power_w,
+               told=draft.notes.spreads.get("single_track.power_w", 0.0))  # fmt: skip
     draft.put("driveline.max_force_n", TRACTION * driven * g, "half of the driven axles' load")
     draft.rule("driveline.drag_n", rules, "engine_drag_mps2", mass)
     draft.put("driveline.creep_speed_mps", 0.5, "numerical: lets the vehicle stand")

@@ -38,10 +38,10 @@ class Draft:
         self.entries[key] = Leaf(value, source, self.place, spread=spread or None)
 
     def rule(self, key: str, rules: Rules, name: str, factor: float = 1.0, *,
-             stated: float = 0.0) -> float:  # fmt: skip
-        """Set a value by rule, or the stated one where there is one (not 0); return it."""
+             stated: float = 0.0, told: float = 0.0) -> float:  # fmt: skip
+        """Set a value by rule, or the stated one, with its spread, if there is one (not 0)."""
         if stated:
-            self.put(key, stated)
+            self.put(key, stated, spread=told)
             return stated
         value = factor * float(getattr(rules.spec, name))
         spread = abs(factor) * rules.notes.spreads[name]

@@ -34,7 +34,10 @@ def put_tires(draft: Draft, unit: UnitPlan, spec: SingleTrackSpec) -> None:
         at = f"tires.{axle.name}"
         draft.put(f"{at}.extends", BASE_TIRE)
         draft.put(f"{at}.title", f"{axle.size_text}, from its size and the axle's stiffness")
-        _put_carcass(draft, at, unit, axle.size, spec.tire_pressure_pa, base)
+        draft.rule(f"{at}.pressure_pa", unit.rules, "tire_pressure_pa",
+                   stated=spec.tire_pressure_pa,
+                   told=draft.notes.spreads.get("single_track.tire_pressure_pa", 0.0))  # fmt: skip
+        _put_carcass(draft, at, axle.size, base)
         _put_forces(draft, at, unit, axle)
 
 
@@ -43,10 +46,9 @@ def _base_tire() -> TireSpec:
     return build(TireSpec, read_document(config_file("tires", BASE_TIRE), "tires"), Notes())
 
 
-def _put_carcass(draft: Draft, at: str, unit: UnitPlan, size: TireSize, pressure_pa: float,
-                 base: TireSpec) -> None:  # fmt: skip
+def _put_carcass(draft: Draft, at: str, size: TireSize, base: TireSpec) -> None:
     reference = parse_size(BASE_SIZE, draft.place)
-    pressure = draft.rule(f"{at}.pressure_pa", unit.rules, "tire_pressure_pa", stated=pressure_pa)
+    pressure = float(draft.entries[f"{at}.pressure_pa"].value)
     draft.put(f"{at}.reference_pressure_pa", pressure, "pressure the stiffness holds at")
     draft.put(f"{at}.unloaded_radius_m", size.radius_m, "size on the sidewall")
     draft.put(f"{at}.stiffness_npm", size.structure_npm, "Rhyne 2005")
@@ -60,6 +62,17 @@ def _put_carcass(draft: Draft, at: str, unit: UnitPlan, size: TireSize, pressure
     draft.put(f"{at}.hole_area_m2", hole, SCALED + "empty within the same time")
 
 
+def _told(draft: Draft, unit: UnitPlan, axle: AxlePlan) -> float:
+    """Spread that the file states of an axle's cornering stiffness, as a share of it."""
+    if unit.name == "trailer":
+        key, alike = "cornering_nprad", len(unit.axles)
+    elif axle.steered:
+        key, alike = "front_cornering_nprad", 1
+    else:
+        key, alike = "rear_cornering_nprad", len(unit.axles) - 1
+    return draft.spread_of(unit, key) / (axle.cornering_nprad * alike)
+
+
 def _put_forces(draft: Draft, at: str, unit: UnitPlan, axle: AxlePlan) -> None:
     rules = unit.rules
     load = axle.load_kg * g / axle.tires
@@ -69,7 +82,7 @@ def _put_forces(draft: Draft, at: str, unit: UnitPlan, axle: AxlePlan) -> None:
     draft.put(f"{at}.reference_load_n", load, "load at rest")
     draft.rule(f"{at}.cornering_load", rules, "cornering_load")
     if stated:
-        draft.put(f"{at}.cornering_peak", peak, STATED)
+        draft.put(f"{at}.cornering_peak", peak, STATED, peak * _told(draft, unit, axle))
     else:
         draft.ruled(f"{at}.cornering_peak", peak, rules, "cornering_per_load")
     draft.put(f"{at}.cornering_scale", 1.0, "held by cornering_peak")
