@@ -81,6 +81,7 @@ setup(
         "matplotlib>=3.5",
         "mcap>=1.1",
         "numba>=0.57",
+        "threadpoolctl>=3.1",
         "numpy>=1.22",
         "pyarrow>=12",
         "pyyaml>=5.4",

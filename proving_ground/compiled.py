@@ -32,14 +32,16 @@ def digest() -> str:
 
 
 def cache_folder() -> Path:
-    """A writable folder for compiled code: the user's cache, else the temporary folder."""
+    """A writable folder for compiled code: the user's cache, else a new one of this process.
+
+    Compiled code is loaded and run, so a folder that others may have made is not used.
+    """
     base = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache")
     folder = base / "proving_ground" / digest()
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError:
-        folder = Path(tempfile.gettempdir()) / f"proving_ground-{os.getuid()}" / digest()
-        folder.mkdir(parents=True, exist_ok=True)
+        folder = Path(tempfile.mkdtemp(prefix="proving_ground-"))
     return folder
 
 

@@ -22,6 +22,8 @@ from std_msgs.msg import Float64
 from std_srvs.srv import SetBool, Trigger
 
 from truck_blowout_sim import read_recording
+from truck_blowout_sim.errors import InputError
+from truck_blowout_sim.nodes.recorder import Recorder, check_inside
 
 
 def running(start: Any, path: Path, *words: object, **options: Any) -> Any:
@@ -156,6 +158,13 @@ def test_a_second_bag_gets_a_number(start: Any, client: Any, tmp_path: Path) -> 
     twice = client.call(SetBool, "/truck/record", SetBool.Request(data=True))
     assert twice.success
     assert "already recording" in twice.message
+    # whoever asks for a bag of his own is not told that he has it
+    other = ParameterValue(type=ParameterType.PARAMETER_STRING, string_value="other")
+    asked = SetParameters.Request(parameters=[Parameter(name="record_path", value=other)])
+    client.call(SetParameters, "/truck/simulator/set_parameters", asked)
+    refused = client.call(SetBool, "/truck/record", SetBool.Request(data=True))
+    assert not refused.success
+    assert "stop it first" in refused.message
     assert node.stop() == 0
     assert read_recording(tmp_path / "bag_2").start_s > 0.0
 
@@ -177,3 +186,19 @@ def test_the_path_can_be_set_while_running(start: Any, client: Any, tmp_path: Pa
     assert "recorded" in stopped.message
     assert len(read_recording(tmp_path / "one.mcap")["tractor_vx_mps"]) > 10
     assert node.stop() == 0
+
+
+@pytest.mark.parametrize("wanted", [".", "..", "z" * 300, "loop/bag"])
+def test_a_path_that_leads_out_or_nowhere_is_refused(wanted: str, tmp_path: Path) -> None:
+    """The folder itself would get a neighbor, `folder_2`; some paths are errors of the disk."""
+    folder = tmp_path / "folder"
+    folder.mkdir()
+    (folder / "taken").touch()
+    (folder / "loop").symlink_to(folder / "loop")
+    with pytest.raises(InputError, match="a path under record_folder"):
+        check_inside(folder, wanted)
+    said: list[str] = []
+    recorder = Recorder(lambda level, words: said.append(words), {}, folder)
+    if wanted.startswith("z"):
+        assert not recorder.start(wanted)[0]
+        assert said[-1].startswith("cannot record")

@@ -16,6 +16,7 @@ from truck_blowout_sim.diagnosis.case.fingerprints import case_parts
 from truck_blowout_sim.diagnosis.case.resume import Keeps
 from truck_blowout_sim.diagnosis.case.runs import Run, prepare_run
 from truck_blowout_sim.diagnosis.case.study import Progress, Study, row_ranges
+from truck_blowout_sim.diagnosis.case.threads import one_blas_thread
 from truck_blowout_sim.diagnosis.case.usable import check_each_once, determined
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.effort import USUAL, Effort
@@ -47,6 +48,7 @@ from truck_blowout_sim.vehicle import Packed, Vehicle, load_vehicle, pack, write
 Floats = NDArray[np.float64]
 
 
+@one_blas_thread
 @determined
 def diagnose(recordings: Sequence[Recording], *, baseline: Sequence[Recording] = (),
              holdout: Sequence[Recording] = (),

@@ -36,6 +36,7 @@ class Recorder:
         self._metadata = {INPUTS_KEY: "held until the next message", "noise": "none", **metadata}
         self._qos: dict[str, Mapping[str, Any]] = {}
         self._bag: BagWriter | None = None
+        self._wanted = ""
         self._failed = ""
 
     def offered(self, topic: str, qos: Mapping[str, Any]) -> None:
@@ -77,19 +78,21 @@ class Recorder:
             Success, and a sentence.
         """
         if self._bag is not None:
-            return True, f"already recording to {self._bag.path}"
+            same = wanted in ("", self._wanted)
+            words = f"already recording to {self._bag.path}"
+            return same, words if same else f"{words}: stop it first"
         name = wanted or datetime.now().strftime("truck_%Y_%m_%d-%H_%M_%S")
-        path = free_path(self.folder / name)
         try:
+            path = free_path(self.folder / name)
             # the writer flushes at half of this: a kill costs half a second
             self._bag = BagWriter(
                 path, metadata=self._metadata, qos=self._qos, raise_errors=False, flush_s=1.0
             )
-        except (InputError, StorageError) as error:
+        except (InputError, StorageError, OSError) as error:
             self._failed = str(error)
             self._report("error", f"cannot record: {error}")
             return False, f"cannot record: {error}"
-        self._failed = ""
+        self._failed, self._wanted = "", wanted
         self._report("info", f"recording to {path}")
         return True, f"recording to {path}"
 
@@ -124,14 +127,23 @@ def check_inside(folder: Path, wanted: str) -> None:
     """Other nodes may have bags written below one folder only.
 
     Raises:
-        InputError: the path leads elsewhere, also by `..` or by a link.
+        InputError: the path leads elsewhere, also by `..` or by a link, is the folder itself, or
+            is no path that the system has.
     """
-    target = (folder / wanted).resolve()
-    if not target.is_relative_to(folder.resolve()):
-        raise InputError(
-            f"{target} does not lie under {folder}", file="parameter", where="record_path",
-            expected="a path under record_folder, which is set when the simulator is started",
-        )  # fmt: skip
+    try:
+        target, whole = (folder / wanted).resolve(), folder.resolve()
+        target.exists()
+    except (OSError, RuntimeError, ValueError) as error:
+        raise _refused(f"{error}") from error
+    if wanted and (target == whole or not target.is_relative_to(whole)):
+        raise _refused(f"{target} does not lie under {folder}")
+
+
+def _refused(words: str) -> InputError:
+    return InputError(
+        words, file="parameter", where="record_path",
+        expected="a path under record_folder, which is set when the simulator is started",
+    )  # fmt: skip
 
 
 def free_path(path: Path) -> Path:
