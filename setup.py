@@ -94,6 +94,7 @@ setup(
     ],
     extras_require={
         "ros": [
+            "catkin-pkg",
             "ros-rclpy[fastrtps]",
             "ros-ament-index-python",
             "ros-builtin-interfaces",

@@ -59,7 +59,8 @@ class Lockstep:
         """Advance; returns the periods done, and why not all of them were."""
         missing = self._await()
         if missing:
-            return 0, f"no new message on {missing} within {_PATIENCE_S:g} s: did not step"
+            return 0, (f"no new message on {missing} within {_PATIENCE_S:g} s: did not step; a "
+                       "controller that joined later gets the first outputs by reset")
         for done in range(periods):
             if self._stopped():
                 return done, "the node is ending"

@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.simulation.measures import Measures
 from truck_blowout_sim.simulation.studies.cases import Row
 from truck_blowout_sim.simulation.studies.design import Value
@@ -31,8 +32,15 @@ def schema_of(values: Sequence[Mapping[str, Value]], channels: Sequence[str], ti
 
     Args:
         values: of all runs: a key is a column of numbers where every value is one.
+
+    Raises:
+        InputError: pyarrow is not installed, as no ROS distribution has it.
     """
-    import pyarrow as pa
+    try:
+        import pyarrow as pa
+    except ImportError:
+        raise InputError("a study is written with pyarrow, which is not installed",
+                         expected="pip install pyarrow") from None  # fmt: skip
 
     columns = [pa.field("run", pa.int64())]
     for key in (values[0] if values else {}):
