@@ -55,6 +55,21 @@ def test_a_blowout_is_marked_where_it_is_seen(log: Path, tmp_path: Path,
     assert "expected an instant of theirs, 0 s to 0.99 s" in capsys.readouterr().err
 
 
+@pytest.mark.parametrize("folder", ["", "maps"])
+def test_a_file_that_the_mapping_names_is_no_output(
+    log: Path, tmp_path: Path, folder: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / folder).mkdir(exist_ok=True)
+    steering, mapping = tmp_path / folder / "steering.csv", tmp_path / folder / "with.yaml"
+    steering.write_text("Time,Angle\n0.0,0.0\n0.5,1.0\n0.9,2.0\n")
+    mapping.write_text("also: [steering.csv]\n" + MAP.replace("Wheel", "Angle"))
+    kept = steering.read_bytes()
+    words = ["import", str(log), "-m", str(mapping), "-o", str(steering), "--force"]
+    assert main(words) == 2
+    assert f"would be written onto the input {steering}" in capsys.readouterr().err
+    assert steering.read_bytes() == kept
+
+
 def test_a_shipped_recording_is_found_by_name(tmp_path: Path,
                                               capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["export", SHIPPED, "-o", str(tmp_path / "test.csv"), "--json"]) == 0

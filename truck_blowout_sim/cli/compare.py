@@ -81,7 +81,8 @@ def command(
     from truck_blowout_sim.vehicle import load_vehicle
 
     console, loaded = _console(), load_vehicle(vehicle)
-    folders = _claimed(recordings, output, logs.files, no_model=no_model, hve=hve, force=force)
+    folders = _claimed(recordings, output, logs.inputs(*recordings), no_model=no_model, hve=hve,
+                       force=force)  # fmt: skip
     for name, folder in zip(recordings, folders, strict=False):
 
         def made(tell: Tell, name: str = name) -> Comparison:
@@ -99,7 +100,7 @@ def command(
 
 
 def _claimed(
-    recordings: list[str], output: Path, beside: list[Path], *, no_model: bool, hve: bool,
+    recordings: list[str], output: Path, inputs: list[Path], *, no_model: bool, hve: bool,
     force: bool,
 ) -> list[Path]:  # fmt: skip
     """The folder of each page, checked to be free."""
@@ -107,7 +108,6 @@ def _claimed(
 
     if no_model and len(recordings) != 2:
         raise InputError(f"--no-model with {len(recordings)} recordings", expected="two of them")
-    inputs: list[str | Path] = [*recordings, *beside]
     folders = _folders(recordings[:1] if no_model else recordings, output)
     for folder in folders:
         claim(folder, inputs=inputs, force=force, writes=(PAGE, DATA, *([HVE] if hve else [])))

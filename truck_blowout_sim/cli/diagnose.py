@@ -92,7 +92,7 @@ def command(
     from truck_blowout_sim.diagnosis import diagnose, effort, keeping
     from truck_blowout_sim.vehicle import load_vehicle
 
-    _claim(output, corrected, [*recordings, *baseline, *holdout, *logs.files], force)
+    _claim(output, corrected, logs.inputs(*recordings, *baseline, *holdout), force)
     loaded = load_vehicle(vehicle)
     train = logs.read_all(recordings, loaded)
     base, hold = (logs.without_blowouts().read_all(runs, loaded) for runs in (baseline, holdout))

@@ -36,7 +36,7 @@ def command(
 
     Example: truck-blowout export out/steer_axle_blowout -o blowout.csv
     """
-    claim(output, inputs=[bag, *logs.files], force=force)
+    claim(output, inputs=logs.inputs(bag), force=force)
     recording = logs.read(bag)
     say_notes(recording)
     if thesis_variables:

@@ -31,7 +31,7 @@ def command(
 
     Example: truck-blowout import my_log.csv --map my_map.yaml -o my_bag
     """
-    claim(output, inputs=[log, *logs.files], force=force)
+    claim(output, inputs=logs.inputs(log), force=force)
     recording = logs.read(log, source=source)
     say_notes(recording)
     write_recording(recording, output)

@@ -52,7 +52,7 @@ def command(
 
     its = load_vehicle(vehicle) if vehicle else None
     if write_map is not None:
-        claim(write_map, force=force, inputs=[log, *logs.files])
+        claim(write_map, force=force, inputs=logs.inputs(log))
     found = inspect_log(find_recording(log), mapping=logs.mapping, namespace=logs.namespace,
                         also=logs.also, wheels=_wheels(its) if its else None)  # fmt: skip
     if logs.mapping is not None or logs.blow:

@@ -81,7 +81,7 @@ def command(
     panels = _panels(channels, recordings)
     if over != "time_s":
         _known(over, recordings)
-    target = claim(output, force=force, inputs=[*runs, *logs.files],
+    target = claim(output, force=force, inputs=logs.inputs(*runs),
                    writes=[f"plot.{form}" for form in forms])
     request = PlotRequest(panels, over, units, axes, start_s, end_s)
     picture = channel_plot(recordings, request, "plot")

@@ -19,7 +19,9 @@ import typer
 from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.recordings import INPUT_NAMES, Recording, read_recording
 from truck_blowout_sim.recordings.blowout_words import parse_blowouts
+from truck_blowout_sim.recordings.mapping import load_mapping
 from truck_blowout_sim.recordings.mapping.finish import with_blowouts
+from truck_blowout_sim.recordings.mapping.opened import further_files
 from truck_blowout_sim.recordings.shipped import find_recording
 
 if TYPE_CHECKING:
@@ -60,10 +62,18 @@ class LogOptions:
         """Whether anything was said."""
         return self != AS_IT_IS
 
-    @property
-    def files(self) -> list[Path]:
-        """Files that are read besides the recordings themselves."""
-        return [*self.also, *([self.mapping] if self.mapping else [])]
+    def inputs(self, *names: str | PathLike[str]) -> list[Path]:
+        """Every file that reading these recordings reads, those that the mapping names included.
+
+        Raises:
+            InputError: the mapping file cannot be read.
+        """
+        recordings = [Path(name) for name in names]
+        if self.mapping is None:
+            return [*recordings, *self.also]
+        rules = load_mapping(self.mapping)
+        named = [place for name in names for place in further_files(find_recording(name), rules)]
+        return [*recordings, *self.also, self.mapping, *named]
 
     def without_blowouts(self) -> LogOptions:
         """For runs of another kind than those of which ``--blow`` and ``--also`` speak."""

@@ -62,7 +62,7 @@ def command(
     from truck_blowout_sim.report.viewer import write_viewer
 
     _check_view(camera)
-    inputs: list[str | Path] = [*runs, *logs.files]
+    inputs = logs.inputs(*runs)
     target = claim(output or Path(f"{Path(runs[0].rstrip('/')).stem}.html"), force=force,
                    inputs=inputs)
     if video is not None:

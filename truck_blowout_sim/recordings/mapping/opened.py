@@ -83,7 +83,6 @@ def open_test(
     Raises:
         InputError: one of them cannot be read.
     """
-    base = rules.file.parent if rules.file else Path()
     main = _open(path, "", rules.time, rules, namespace, source)
     main.shift_s = rules.shift_s.get(path.name, 0.0)
     start_s = _start_s(main, rules)
@@ -93,8 +92,7 @@ def open_test(
         main.notes.append(f"time 0 is {start_s:.3f} s on the clock of {path.name}")
     _align_native(main)
     files = [main]
-    further = [(_beside(entry.file, path, base), entry) for entry in rules.also]
-    for place, entry in further:
+    for place, entry in zip(further_files(path, rules), rules.also, strict=True):
         opened = _open(place, entry.file, entry.time, rules, namespace, source)
         opened.shift_s = entry.shift_s + rules.shift_s.get(entry.file, 0.0)
         files.append(opened)
@@ -111,6 +109,16 @@ def open_test(
                                 f" begin with that of {path.name}; shift_s moves it")  # fmt: skip
         _align_native(opened)
     return files
+
+
+def further_files(log: Path, rules: Rules) -> list[Path]:
+    """Where the mapping's further files are: each beside the log, or beside the mapping file."""
+    base = rules.file.parent if rules.file else Path()
+    found = []
+    for entry in rules.also:
+        places = [log.parent / entry.file, base / entry.file]
+        found.append(next((place for place in places if place.exists()), places[0]))
+    return found
 
 
 def _open(path: Path, stated: str, time: TimeRule, rules: Rules, namespace: str | None, source: str
@@ -146,12 +154,6 @@ def _check_exists(path: Path, rules: Rules, stated: str) -> None:
         file, where = (rules.file or path, "key also") if stated and rules.file else (path, "")
         problem = f"{stated}: no such file" if where else "no such file or directory"
         raise InputError(problem, file=file, where=where, expected="a log")
-
-
-def _beside(name: str, log: Path, base: Path) -> Path:
-    """A further file: beside the log, or beside the mapping file."""
-    places = [log.parent / name, base / name]
-    return next((place for place in places if place.exists()), places[0])
 
 
 def _native(path: Path, log: Log, rules: Rules, namespace: str | None, source: str
