@@ -7,7 +7,7 @@ import pytest
 
 from truck_blowout_sim.comparison import Comparison, compare, compare_recordings, verdict
 from truck_blowout_sim.errors import InputError
-from truck_blowout_sim.recordings import Recording, Series
+from truck_blowout_sim.recordings import Blowout, Recording, Series
 
 RECORD = "test_2013_steer_blowout"
 
@@ -45,6 +45,19 @@ def test_two_recordings_are_compared_without_a_model(compared: Comparison) -> No
     assert same.against == model.name
     assert all(channel.rms == 0.0 for channel in same.channels)
     assert model.name in verdict(same)
+
+
+@pytest.mark.parametrize(("start_s", "blown_s", "told"), [
+    (0.0, 9.0, False), (-4.92, 9.0, True), (-4.92, 4.0, False),
+])  # fmt: skip
+def test_clocks_that_start_apart_are_told(start_s: float, blown_s: float, told: bool) -> None:
+    ramp = np.linspace(0.0, 15.0, 1501)
+    runs = [Recording(name, {"tractor_vx_mps": Series(begin + ramp, 20.0 + ramp)},
+                      (Blowout(at_s, ("steer_left",)),))
+            for name, begin, at_s in (("one", 0.0, 4.0), ("two", start_s, blown_s))]  # fmt: skip
+    words = ("the clocks start at different instants, 0 s in one and -4.92 s in two: no shift was"
+             " applied")  # fmt: skip
+    assert (words in compare_recordings(*runs).notes) == told
 
 
 def test_recordings_without_a_common_channel_are_refused() -> None:

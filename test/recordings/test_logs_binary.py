@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import random
 import struct
+from dataclasses import replace
+from datetime import datetime, timezone
 from pathlib import Path
 
 import numpy as np
@@ -16,7 +18,7 @@ from truck_blowout_sim.cli.main import main
 from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.recordings import read_recording
 from truck_blowout_sim.recordings.logs import open_log
-from truck_blowout_sim.recordings.mapping.rules import Rules, Source
+from truck_blowout_sim.recordings.mapping.rules import Also, Rules, Source
 
 IN_TMP = settings(suppress_health_check=[HealthCheck.function_scoped_fixture], max_examples=12)
 TIME = 0.01 * np.arange(200)
@@ -45,6 +47,25 @@ def test_mdf_groups_keep_their_rates_and_units(tmp_path: Path, version: str, nam
     np.testing.assert_allclose(read["tractor_yaw_rate_radps"].time_s, TIME[::2])
     np.testing.assert_allclose(
         read["tractor_yaw_rate_radps"].value, np.radians(np.sin(TIME[::2])))
+
+
+@pytest.mark.parametrize("zone", [timezone.utc, None])
+def test_mdf_files_are_laid_on_the_start_of_the_first(
+    tmp_path: Path, zone: timezone | None
+) -> None:
+    asammdf = pytest.importorskip("asammdf")
+    for name, unit, second in (("VehSpd", "km/h", 15), ("YawRate", "deg/s", 17)):
+        file = asammdf.MDF(version="4.10")
+        file.start_time = datetime(2024, 3, 14, 12, 30, second, tzinfo=zone)
+        file.append([asammdf.Signal(10.0 + TIME, TIME, unit=unit, name=name)])
+        file.save(tmp_path / f"{name}.mf4")
+        file.close()
+    rules = replace(RULES, also=(Also("YawRate.mf4"),))
+    read = read_recording(tmp_path / "VehSpd.mf4", mapping=rules)
+    assert read["tractor_vx_mps"].time_s[0] == 0.0
+    assert read["tractor_yaw_rate_radps"].time_s[0] == 2.0
+    assert read.metadata["clock_start_s"] == "1710419415.0"
+    assert any("YawRate.mf4 starts 2 s after VehSpd.mf4" in note for note in read.notes)
 
 
 def test_a_log_without_a_mapping_says_what_it_wants(tmp_path: Path) -> None:
@@ -208,10 +229,11 @@ def test_damage_of_an_mdf_file_gives_a_recording_or_one_line(
 # asammdf as its C code behaves on about one damaged file in a hundred
 CRASHING = """
 import os, signal, tempfile
+from datetime import datetime
 from types import SimpleNamespace as Of
 
 class MDF:
-    version, masters_db, header = "4.10", {}, Of(start_time="now")
+    version, masters_db, header = "4.10", {}, Of(start_time=datetime(2024, 3, 14))
     groups = [Of(channels=[Of(name="VehSpd", channel_type=0)])]
 
     def __init__(self, path):

@@ -142,6 +142,31 @@ def test_files_on_absolute_clocks_are_laid_on_the_first_ones(log: Path) -> None:
     assert any("time 0 is 1706788800.000 s on the clock of" in note for note in read.notes)
 
 
+@pytest.mark.parametrize(("stamp", "words"), [
+    ("12:00:{:06.3f}", "the clocks of steer.csv and log.csv cannot be compared, only log.csv has"
+     " a date: its time is taken to begin with that of log.csv"),
+    ("2024-02-04 12:00:{:06.3f}", "steer.csv begins 259200 s from log.csv"),
+    ("{:.3f}", "steer.csv has a clock of its own"),
+])  # fmt: skip
+def test_clocks_that_cannot_be_compared_are_told(log: Path, stamp: str, words: str) -> None:
+    rows = "".join(f"{0.01 * i:.2f},{20 + 0.1 * i}\n" for i in range(N))
+    log.write_text("# clock_start_s: 1706788800.0\ntime_s,tractor_vx_mps\n" + rows)
+    rows = "".join(f"{stamp.format(0.01 * i)},{i}\n" for i in range(N))
+    (log.parent / "steer.csv").write_text("time,Steer [deg]\n" + rows)
+    tree = {"also": ["steer.csv"], "channels": {"steering_wheel_angle_rad": {"from": "Steer"}}}
+    read = read_recording(log, mapping=rules(log, tree))
+    assert [note for note in read.notes if words in note]
+    assert read["steering_wheel_angle_rad"].time_s[0] == 0.0
+
+
+def test_a_column_beside_channels_that_are_named_stays_on_their_clock(log: Path) -> None:
+    rows = "".join(f"{0.01 * i:.2f},{20 + 0.1 * i},{i}\n" for i in range(N))
+    log.write_text("# clock_start_s: 1706788800.0\ntime_s,tractor_vx_mps,Steer\n" + rows)
+    tree = {"channels": {"steering_wheel_angle_rad": {"from": "Steer", "unit": "deg"}}}
+    read = read_recording(log, mapping=rules(log, tree))
+    assert read["steering_wheel_angle_rad"].time_s[0] == read["tractor_vx_mps"].time_s[0] == 0.0
+
+
 def test_an_instrument_off_base_link_is_moved_there() -> None:
     time_s = np.arange(200) / 100
     turn = np.full(200, 0.2)

@@ -30,6 +30,8 @@ from truck_blowout_sim.simulation.plausible import implausible
 from truck_blowout_sim.simulation.replay import as_recording, drive_from
 from truck_blowout_sim.vehicle import Packed, Vehicle, load_vehicle, pack
 
+# Instruments on one clock begin, and mark a blowout, within a few of their samples.
+_SAME_START_S = 0.1
 DEFAULT_VEHICLE = "international_9400i_trailmobile"
 Progress = Callable[[str, float], None]
 
@@ -153,8 +155,19 @@ def compare_recordings(first: Recording | str | os.PathLike[str],
                          expected="a channel that both recorded at common times")
     channels = _errors(one, loaded, pairs, False, tell)
     tell("done", 1.0)
-    return Comparison(one, other, loaded, False, pairs, channels, marks, one.notes + other.notes,
-                      None, other.name)  # fmt: skip
+    notes = (*one.notes, *other.notes, *_clocks_apart(one, other))
+    return Comparison(one, other, loaded, False, pairs, channels, marks, notes, None, other.name)
+
+
+def _clocks_apart(one: Recording, other: Recording) -> tuple[str, ...]:
+    """A note where nothing shows that two recordings are on one clock."""
+    theirs = {event.time_s for event in other.blowouts}
+    on_one_clock = any(abs(event.time_s - time_s) < _SAME_START_S
+                       for event in one.blowouts for time_s in theirs)  # fmt: skip
+    if on_one_clock or abs(one.start_s - other.start_s) < _SAME_START_S:
+        return ()
+    return (f"the clocks start at different instants, {one.start_s:g} s in {one.name} and"
+            f" {other.start_s:g} s in {other.name}: no shift was applied",)  # fmt: skip
 
 
 def _errors(recording: Recording, vehicle: Vehicle, pairs: Mapping[str, Pair], imposed: bool,

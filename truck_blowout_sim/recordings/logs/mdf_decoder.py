@@ -15,6 +15,7 @@ import pickle
 import sys
 from collections import Counter
 from dataclasses import dataclass
+from datetime import timezone
 from typing import Any
 
 import numpy as np
@@ -33,6 +34,7 @@ class Contents:
 
     version: str
     log_start: str
+    start_s: float | None
     names: tuple[str, ...]
 
 
@@ -68,9 +70,19 @@ def _opened(path: str) -> tuple[Any, dict[str, tuple[int, int]], Contents]:
     try:
         file = MDF(path)
         places = _places(file)
-        return file, places, Contents(file.version, str(file.header.start_time), tuple(places))
+        start_s = _start_s(file.header)
+        began = "" if start_s is None else str(file.header.start_time)
+        return file, places, Contents(file.version, began, start_s, tuple(places))
     except Exception as error:  # noqa: BLE001 -- the library names damage in many ways
         raise _damaged(path, error) from None
+
+
+def _start_s(header: Any) -> float | None:  # noqa: ANN401 -- asammdf is untyped
+    """Seconds from 1970 to time stamp 0, of local time where the file tells no zone."""
+    start = header.start_time
+    if start != header.start_time:  # asammdf puts the present for a date that it cannot read
+        return None
+    return float((start if start.tzinfo else start.replace(tzinfo=timezone.utc)).timestamp())
 
 
 def _places(file: Any) -> dict[str, tuple[int, int]]:  # noqa: ANN401 -- asammdf is untyped

@@ -96,12 +96,17 @@ def _end(process: subprocess.Popen[bytes], folder: TemporaryDirectory[str]) -> N
 
 @dataclass
 class MdfLog:
-    """An open MDF file; channels are read when they are asked for."""
+    """An open MDF file; channels are read when they are asked for.
+
+    Attributes:
+        start_s: instant of time stamp 0, since 1970; None if the file does not tell it.
+    """
 
     path: Path
     kind: str
     names: Sequence[str]
     decoder: _Decoder
+    start_s: float | None = None
     notes: list[str] = field(default_factory=list)
     metadata: dict[str, str] = field(default_factory=dict)
 
@@ -130,5 +135,5 @@ def open_mdf(path: Path) -> MdfLog:
             raise InputError("begins with other bytes than MDF", file=path, expected=EXPECTED)
     decoder = _Decoder(path)
     contents: Contents = decoder.answer()
-    return MdfLog(path, f"MDF {contents.version}", list(contents.names), decoder,
-                  metadata={"log_start": contents.log_start})  # fmt: skip
+    return MdfLog(path, f"MDF {contents.version}", list(contents.names), decoder, contents.start_s,
+                  metadata={"log_start": contents.log_start} if contents.log_start else {})

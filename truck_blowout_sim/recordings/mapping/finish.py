@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from truck_blowout_sim.errors import InputError, nearest, quoted
 from truck_blowout_sim.recordings.channels import DEFAULT_TIRES, UNITS
-from truck_blowout_sim.recordings.mapping.opened import CLOCK_START
+from truck_blowout_sim.recordings.mapping.clocks import CLOCK_START
 from truck_blowout_sim.recordings.mapping.rules import Mount, Rules
 from truck_blowout_sim.recordings.names import parts_of
 from truck_blowout_sim.recordings.recording import Blowout, Recording, Series

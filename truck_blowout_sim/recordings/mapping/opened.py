@@ -13,11 +13,11 @@ import numpy as np
 
 from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.recordings.bag_reader import read_bag
-from truck_blowout_sim.recordings.bag_writer import ORIGIN_KEY
 from truck_blowout_sim.recordings.csv_reader import names_channels, read_csv
 from truck_blowout_sim.recordings.logs import Log, open_log
-from truck_blowout_sim.recordings.logs.bag_log import HEADER, RECEIVE, BagLog, lateness_s
+from truck_blowout_sim.recordings.logs.bag_log import BagLog, lateness_s
 from truck_blowout_sim.recordings.logs.mat_log import variables_of
+from truck_blowout_sim.recordings.mapping.clocks import CLOCK_START, lay_on, set_clock, wanted
 from truck_blowout_sim.recordings.mapping.rules import Rules, TimeRule
 from truck_blowout_sim.recordings.mapping.times import Times, times_of
 from truck_blowout_sim.recordings.mat_format import OWN_TIME, TIME, read_mat
@@ -25,10 +25,7 @@ from truck_blowout_sim.recordings.mat_thesis import SOURCES, has_thesis_variable
 from truck_blowout_sim.recordings.names import parts_of
 from truck_blowout_sim.recordings.recording import Recording
 
-_EPOCH_S = 1e8
-_SAME_DAY_S = 1e5
 _OTHER_CLOCK_S = 0.5
-CLOCK_START = "clock_start_s"
 
 
 @dataclass
@@ -42,6 +39,7 @@ class Opened:
         native: what it says under the names of the channel table, if it does.
         native_columns: columns that ``native`` took.
         rows: instants of its rows, for logs with one time column.
+        zero_s: its own time 0 on an absolute clock, since 1970 or midnight; None without one.
         origin_s: added to the log's times to get the recording's.
         shift_s: added besides, as the mapping says.
         other_clock_s: how far receive stamps run ahead of header stamps, if on another clock.
@@ -54,6 +52,7 @@ class Opened:
     native: Recording | None = None
     native_columns: set[str] = field(default_factory=set)
     rows: Times | None = None
+    zero_s: float | None = None
     origin_s: float = 0.0
     shift_s: float = 0.0
     other_clock_s: float = 0.0
@@ -69,8 +68,8 @@ class Opened:
     def metadata(self) -> dict[str, str]:
         """What the file says of itself."""
         found = dict(self.native.metadata) if self.native else dict(self.log.metadata)
-        if self.origin_s and not self.native:
-            found[CLOCK_START] = repr(-self.origin_s)
+        if self.zero_s and not self.native:
+            found[CLOCK_START] = repr(self.zero_s)
         return found
 
 
@@ -85,11 +84,9 @@ def open_test(
     """
     main = _open(path, "", rules.time, rules, namespace, source)
     main.shift_s = rules.shift_s.get(path.name, 0.0)
-    start_s = _start_s(main, rules)
-    absolute = start_s is not None
-    main.origin_s = _own_origin_s(main, start_s)
-    if start_s and not main.native:
-        main.notes.append(f"time 0 is {start_s:.3f} s on the clock of {path.name}")
+    set_clock(main, rules)
+    if main.zero_s and not main.native:
+        main.notes.append(f"time 0 is {main.zero_s:.3f} s on the clock of {path.name}")
     _align_native(main)
     files = [main]
     for place, entry in zip(further_files(path, rules), rules.also, strict=True):
@@ -101,12 +98,8 @@ def open_test(
         opened.shift_s = rules.shift_s.get(place.name, 0.0)
         files.append(opened)
     for opened in files[1:]:
-        theirs = _start_s(opened, rules)
-        same = absolute and theirs is not None and abs(theirs - (start_s or 0.0)) < _SAME_DAY_S
-        opened.origin_s = main.origin_s if same else _own_origin_s(opened, theirs)
-        if absolute != (theirs is not None):
-            opened.notes.append(f"{opened.path.name} has a clock of its own: its time is taken to"
-                                f" begin with that of {path.name}; shift_s moves it")  # fmt: skip
+        set_clock(opened, rules)
+        lay_on(opened, main)
         _align_native(opened)
     return files
 
@@ -184,46 +177,14 @@ def _native_columns(log: Log, native: Recording) -> set[str]:
     return {name for name in log.names if name in own or name.endswith((OWN_TIME, suffix))}
 
 
-def _start_s(opened: Opened, rules: Rules) -> float | None:
-    """First instant on an absolute clock; None if the log counts from its own beginning."""
-    if opened.native:
-        stated = opened.native.metadata.get(CLOCK_START)
-        return float(stated) if stated else None
-    if opened.rows is not None:
-        told = opened.rows.time_s[np.isfinite(opened.rows.time_s)]
-        return float(told[0]) if opened.rows.absolute and told.size else None
-    firsts = []
-    for name in _wanted(opened.log, rules):
-        column = opened.log.column(name)
-        if column.values.size:
-            chosen = column.times.get(rules.time.column) if rules.time.column else None
-            base = next(iter(column.times.values())) if chosen is None else chosen
-            alone = HEADER not in column.times and RECEIVE in column.times
-            firsts.append(float(base[0]) - opened.other_clock_s * alone)
-    first = min(firsts, default=0.0)
-    return first if first > _EPOCH_S else None
-
-
-def _own_origin_s(opened: Opened, start_s: float | None) -> float:
-    if opened.native:
-        stated = opened.native.metadata.get(ORIGIN_KEY)
-        return float(stated) if stated else -(start_s or 0.0)
-    return -(start_s or 0.0)
-
-
 def _align_native(opened: Opened) -> None:
     if opened.native and opened.shift_s:
         opened.native = opened.native.shifted(opened.shift_s)
 
 
-def _wanted(log: Log, rules: Rules) -> list[str]:
-    found = (log.find(source.column) for source in rules.channels.values())
-    return [name for name in dict.fromkeys(found) if name]
-
-
 def _other_clock_s(log: BagLog, rules: Rules) -> float:
     """How far receive stamps run ahead of header stamps, if these are two clocks; else 0."""
-    late = [lateness_s(log.column(name)) for name in _wanted(log, rules)]
+    late = [lateness_s(log.column(name)) for name in wanted(log, rules)]
     told = [one[0] for one in late if one]
     middle = float(np.median(told)) if told else 0.0
     return middle if abs(middle) > _OTHER_CLOCK_S else 0.0
