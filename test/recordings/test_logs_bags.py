@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import random
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -33,7 +34,8 @@ RULES = Rules(channels={
 
 
 def write(path: Path, storage: StoragePlugin = StoragePlugin.MCAP,
-          compression: CompressionMode | None = None, late_ns: int = LATE_NS) -> Path:
+          compression: CompressionMode | None = None, late_ns: int = LATE_NS,
+          roll_variance: float = 0.0) -> Path:
     store = get_typestore(Stores.ROS2_JAZZY)
     store.register(get_types_from_msg(REPORT, "acme_msgs/msg/Report"))
     store.register(get_types_from_msg(ANGLE, "acme_msgs/msg/Angle"))
@@ -47,6 +49,8 @@ def write(path: Path, storage: StoragePlugin = StoragePlugin.MCAP,
                 ("/vehicle/report", "acme_msgs/msg/Report"), ("/can/wheel", "acme_msgs/msg/Angle"),
                 ("/ins/odom", "nav_msgs/msg/Odometry")))
         zeros = np.zeros(36)
+        variances = zeros.copy()
+        variances[21] = roll_variance
         pose, twist = (types[f"geometry_msgs/msg/{n}"] for n in ("Pose", "Twist"))
         vector, point = (types[f"geometry_msgs/msg/{n}"] for n in ("Vector3", "Point"))
         for i in range(N):
@@ -62,7 +66,7 @@ def write(path: Path, storage: StoragePlugin = StoragePlugin.MCAP,
             half = 0.005 * i
             turn = types["geometry_msgs/msg/Quaternion"](0.0, 0.0, np.sin(half), np.cos(half))
             place = types["geometry_msgs/msg/PoseWithCovariance"](
-                pose(point(float(i), 0.0, 0.0), turn), zeros)
+                pose(point(float(i), 0.0, 0.0), turn), variances)
             moving = types["geometry_msgs/msg/TwistWithCovariance"](
                 twist(vector(20.0, 0.0, 0.0), vector(0.0, 0.0, 0.1)), zeros)
             odometry = types["nav_msgs/msg/Odometry"](header, "base", place, moving)
@@ -90,6 +94,45 @@ def test_planar_odometry_is_no_measured_roll(tmp_path: Path) -> None:
     read = read_recording(write(tmp_path / "bag"), mapping=RULES)
     assert "tractor_roll_rad" not in read
     assert any("planar odometry): tractor_roll_rad" in note for note in read.notes)
+
+
+PLANAR = Rules(topics={"tractor/odometry": "/ins/odom"})
+
+
+def test_planar_odometry_of_a_mapped_topic_is_no_measured_roll(tmp_path: Path) -> None:
+    bag = write(tmp_path / "bag")
+    read = read_recording(bag, mapping=PLANAR)
+    assert set(read.channels) == {f"tractor_{stem}" for stem in (
+        "x_m", "y_m", "yaw_rad", "vx_mps", "yaw_rate_radps")}  # fmt: skip
+    assert any("planar odometry): tractor_roll_rad, tractor_pitch_rad" in n for n in read.notes)
+    unused = next(note for note in read.notes if "unused" in note)
+    assert SPEED in unused
+    assert "/ins/odom" not in unused
+    remapped = read_recording(bag, remap={"/ins/odom": "tractor/odometry"})
+    assert set(remapped.channels) == set(read.channels)
+
+
+@pytest.mark.parametrize("rules", [PLANAR, RULES])
+@pytest.mark.parametrize(("variance", "told"), [(1.0, False), (2.5, True), (1e6, True)])
+def test_a_variance_that_no_instrument_has_says_not_measured(
+    tmp_path: Path, rules: Rules, variance: float, told: bool
+) -> None:
+    read = read_recording(write(tmp_path / "bag", roll_variance=variance), mapping=rules)
+    assert "tractor_roll_rad" not in read
+    words = "not measured, as the log itself says: tractor_roll_rad"
+    assert (words in read.notes) == told
+
+
+@pytest.mark.parametrize("rules", [PLANAR, RULES])
+@pytest.mark.parametrize("variance", [0.0, 1e9])
+def test_a_channel_that_is_mapped_and_was_dropped_may_be_excluded(
+    tmp_path: Path, rules: Rules, variance: float
+) -> None:
+    bag = write(tmp_path / "bag", roll_variance=variance)
+    read = read_recording(bag, mapping=replace(rules, exclude=("tractor_roll_rad",)))
+    assert "tractor_roll_rad" not in read
+    with pytest.raises(InputError, match="'tractor_rol_rad' is not recorded"):
+        read_recording(bag, mapping=replace(rules, exclude=("tractor_rol_rad",)))
 
 
 def test_receive_stamps_are_taken_where_asked_for(tmp_path: Path) -> None:

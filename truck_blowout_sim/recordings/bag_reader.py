@@ -20,6 +20,7 @@ from truck_blowout_sim.recordings.bag_events import read_blowouts
 from truck_blowout_sim.recordings.bag_files import BagFiles, open_bag
 from truck_blowout_sim.recordings.bag_topics import TopicSeries, read_topic
 from truck_blowout_sim.recordings.bag_writer import ORIGIN_KEY
+from truck_blowout_sim.recordings.channel import IMU, ODOMETRY
 from truck_blowout_sim.recordings.channels import BLOWOUT_EVENT, Channel, Place
 from truck_blowout_sim.recordings.checks import check_values
 from truck_blowout_sim.recordings.names import Parts, parts_of
@@ -32,6 +33,7 @@ from truck_blowout_sim.recordings.topic_names import (
 )
 
 _NS = 1_000_000_000
+NOT_MEASURED_WORDS = "not measured, as the log itself says"
 
 
 def read_bag(
@@ -68,7 +70,9 @@ def read_bag(
             file=path,
             expected="topics as /truck/tractor/odometry, or a remapping of foreign ones",
         )
-    reader = _Reader(path, bag, {r: _decode(path, bag, r, t) for r, t in names.items()})
+    foreign = frozenset("/" + theirs.strip("/") for theirs in remap or {})
+    decoded = {r: _decode(path, bag, r, t) for r, t in names.items()}
+    reader = _Reader(path, bag, decoded, foreign)
     return reader.recording(tires, hubs)
 
 
@@ -90,6 +94,7 @@ class _Reader:
     path: Path
     bag: BagFiles
     series: dict[str, TopicSeries]
+    foreign: frozenset[str] = frozenset()
     notes: list[str] = field(default_factory=list)
 
     def recording(self, tires: Iterable[str], hubs: Iterable[str]) -> Recording:
@@ -157,7 +162,21 @@ class _Reader:
                 if series is not None:
                     channels[channel.name] = series
                     break
+        self._tell_not_measured(parts, channels)
         return channels
+
+    def _tell_not_measured(self, parts: Parts, channels: Mapping[str, Series]) -> None:
+        """Name the fields of a foreign topic whose variances say that they mean nothing."""
+        left = []
+        for channel in parts.table():
+            topic = self.series.get(channel.topic)
+            if channel.name in channels or topic is None or topic.name not in self.foreign:
+                continue
+            stated = topic.ros_type in (ODOMETRY, IMU) and bool(topic.blocks)
+            if stated and not topic.column(channel.field)[1].size:
+                left.append(channel.name)
+        if left:
+            self.notes.append(f"{NOT_MEASURED_WORDS}: {', '.join(left)}")
 
     def _series_at(self, channel: Channel, place: Place) -> Series | None:
         topic = self.series.get(place.topic)

@@ -2,7 +2,8 @@
 
 A variance of ``NOT_MEASURED`` stands for a number that carries no information; in an Imu the first
 element of a covariance is -1 where that whole quantity is missing, as sensor_msgs defines. A
-variance of 0 says that the noise is not stated.
+variance of 0 says that the noise is not stated. Other stacks state other large variances, mostly
+1e3 to 1e6: one that is never below what no instrument has says the same.
 """
 
 from __future__ import annotations
@@ -16,6 +17,12 @@ from truck_blowout_sim.recordings.cdr import Block
 from truck_blowout_sim.recordings.channel import IMU, ODOMETRY
 
 NOT_MEASURED = 1.0e9
+# Standard deviations that no instrument on a truck has: a quarter turn, more than a truck drives,
+# spins or brakes (10 g), and farther than it goes in a test.
+_LEAST_VARIANCE = {
+    "orientation": (0.5 * np.pi) ** 2, "twist.twist.linear": 30.0**2, "angular": np.pi**2,
+    "linear_acceleration": 100.0**2, "position": 1000.0**2,
+}  # fmt: skip
 _AXES = ("x", "y", "z")
 _ANGLES = ("roll", "pitch", "yaw")
 _ODOMETRY_FIELDS = (
@@ -56,13 +63,24 @@ def covariance_entries(ros_type: str, variance: Callable[[str], float | None]) -
 def measured(block: Block, ros_type: str, path: str) -> NDArray[np.bool_]:
     """In which of these messages a field was measured."""
     if ros_type == ODOMETRY and path in _ODOMETRY_FIELDS:
-        return np.asarray(block.number(_odometry_entry(path)) < NOT_MEASURED)
+        return _told(block.number(_odometry_entry(path)), path)
     if ros_type == IMU and any(path in fields for fields in _IMU_FIELDS.values()):
         name = path.replace(":", ".").split(".")[0]
         row = _IMU_FIELDS[name].index(path)
         there = block.number(f"{name}_covariance[0]") != -1.0
-        return np.asarray(there & (block.number(f"{name}_covariance[{4 * row}]") < NOT_MEASURED))
+        return there & _told(block.number(f"{name}_covariance[{4 * row}]"), path)
     return np.ones(len(block.index), dtype=np.bool_)
+
+
+def _told(variance: NDArray[np.float64], path: str) -> NDArray[np.bool_]:
+    """Where a variance is one of a measurement.
+
+    That of dead reckoning grows beyond all limits, though what it says of one second to the next
+    stays good: a limit counts only where the variance is beyond it from the first message on.
+    """
+    least = next(limit for part, limit in _LEAST_VARIANCE.items() if part in path)
+    known = variance < NOT_MEASURED
+    return np.asarray(known & np.any(variance < least))
 
 
 def _odometry_entry(path: str) -> str:

@@ -12,7 +12,7 @@ from pathlib import Path
 
 from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.recordings.formats import BEGIN_MAPPING, read_native
-from truck_blowout_sim.recordings.mapping import Rules, combine, load_mapping, open_test
+from truck_blowout_sim.recordings.mapping import Opened, Rules, combine, load_mapping, open_test
 from truck_blowout_sim.recordings.mapping.consistency import contradictions
 from truck_blowout_sim.recordings.mapping.finish import (
     at_base_link,
@@ -22,6 +22,7 @@ from truck_blowout_sim.recordings.mapping.finish import (
     without_planar_zeros,
 )
 from truck_blowout_sim.recordings.recording import Blowout, Recording
+from truck_blowout_sim.recordings.topic_names import channels_on
 
 
 def read_recording(
@@ -62,7 +63,8 @@ def read_recording(
     if mapping is None and not tuple(also):
         read = read_native(path, tires=tires, hubs=hubs, namespace=namespace, remap=remap,
                            source=source)  # fmt: skip
-        read = with_local_origin(read)
+        foreign = channels_on((remap or {}).values(), read.channels)
+        read = with_local_origin(without_planar_zeros(read, foreign))
         return with_blowouts(read, blow, tires=tires, hubs=hubs) if blow else read
     rules = mapping if isinstance(mapping, Rules) else load_mapping(mapping) if mapping else Rules()
     files = open_test(path, rules, also=map(Path, also), namespace=namespace, source=source)
@@ -70,9 +72,15 @@ def read_recording(
     if not read.channels:
         raise InputError("no column becomes a channel", file=path,
                          expected=f"a mapping with channels ({BEGIN_MAPPING})")  # fmt: skip
-    if files[0].native is None:
-        read = without_planar_zeros(read)
-    read = with_local_origin(at_base_link(without_excluded(read, rules), rules.sensors))
+    read = without_planar_zeros(without_excluded(read, rules), _foreign(files, rules, read))
+    read = with_local_origin(at_base_link(read, rules.sensors))
     read = replace(read, notes=(*read.notes, *contradictions(read)))
     stated = with_blowouts(read, rules.blowouts, tires=tires, hubs=hubs, file=rules.file or path)
     return with_blowouts(stated, blow, tires=tires, hubs=hubs)
+
+
+def _foreign(files: Iterable[Opened], rules: Rules, read: Recording) -> set[str]:
+    """Channels that came through the mapping, not under their own names."""
+    own = {name for opened in files if opened.native for name in opened.native.channels}
+    mapped = {*rules.channels, *channels_on(rules.topics, read.channels)}
+    return (set(read.channels) - own) | mapped

@@ -16,6 +16,7 @@ from truck_blowout_sim.recordings.channels import (
     WRENCH,
     channels_for,
 )
+from truck_blowout_sim.recordings.names import parts_of
 
 _TIRE = re.compile(r"tires/(\w+)/pressure")
 _TIRE_FORCE = re.compile(r"tires/(\w+)/force")
@@ -56,6 +57,13 @@ def channel_names(topics: Iterable[str]) -> list[str]:
         elif "/" in topic:
             names.append(topic.replace("/", "_"))
     return names
+
+
+def channels_on(topics: Iterable[str], names: Iterable[str] = ()) -> set[str]:
+    """Channels that topics of the table carry, for the parts that further channels speak of."""
+    relative = {topic.removeprefix(DEFAULT_NAMESPACE).strip("/") for topic in topics}
+    table = parts_of([*names, *channel_names(relative)]).table()
+    return {c.name for c in table if any(place.topic in relative for place in c.places)}
 
 
 def joint_channel_names(joints: Iterable[str]) -> list[str]:

@@ -15,9 +15,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from truck_blowout_sim.errors import InputError, nearest, quoted
+from truck_blowout_sim.recordings.bag_reader import NOT_MEASURED_WORDS
 from truck_blowout_sim.recordings.channels import DEFAULT_HUBS, DEFAULT_TIRES, Channel, by_name
 from truck_blowout_sim.recordings.checks import check_values
-from truck_blowout_sim.recordings.logs.bag_log import HEADER, RECEIVE, lateness_s
+from truck_blowout_sim.recordings.logs.bag_log import HEADER, RECEIVE, BagLog, lateness_s
 from truck_blowout_sim.recordings.logs.log import Column
 from truck_blowout_sim.recordings.mapping.opened import Opened
 from truck_blowout_sim.recordings.mapping.plausible import beyond, hydraulic, reads_like
@@ -39,6 +40,7 @@ class Mapped:
 
     channels: dict[str, Series] = field(default_factory=dict)
     used: dict[str, set[str]] = field(default_factory=dict)
+    not_measured: list[str] = field(default_factory=list)
     notes: list[str] = field(default_factory=list)
 
 
@@ -66,7 +68,11 @@ def combine(
         if name not in table:
             raise _error(rules, source.key, f"no channel {quoted(name)}",
                          nearest(name, table, "a channel of docs/recordings.md"))  # fmt: skip
-        made.channels[name] = _mapped(files, rules, source, table[name], made)
+        series = _mapped(files, rules, source, table[name], made)
+        if series is not None:
+            made.channels[name] = series
+    if made.not_measured:
+        made.notes.append(f"{NOT_MEASURED_WORDS}: {', '.join(made.not_measured)}")
     _check_shifts(files, rules, made)
     _tell_unused(files, made)
     channels, origin, notes = _resolved(made, rules)
@@ -124,10 +130,13 @@ def _take_native(opened: Opened, made: Mapped) -> None:
 
 def _mapped(
     files: list[Opened], rules: Rules, source: Source, channel: Channel, made: Mapped
-) -> Series:
+) -> Series | None:
     opened, name = _find(files, rules, source)
     made.used.setdefault(opened.path.name, set()).add(name)
     column = opened.log.column(name)
+    if isinstance(opened.log, BagLog) and not column.values.size:
+        made.not_measured.append(channel.name)
+        return None
     where = f"{name}, for {channel.name}"
     if column.bad:
         raise InputError(f"column {quoted(name)}, {column.bad}", file=opened.path,

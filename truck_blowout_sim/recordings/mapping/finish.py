@@ -7,7 +7,7 @@ Validated with: test/recordings/test_mapping.py.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import replace
 
 import numpy as np
@@ -19,6 +19,7 @@ from truck_blowout_sim.recordings.mapping.clocks import CLOCK_START
 from truck_blowout_sim.recordings.mapping.rules import Mount, Rules
 from truck_blowout_sim.recordings.names import parts_of
 from truck_blowout_sim.recordings.recording import Blowout, Recording, Series
+from truck_blowout_sim.recordings.topic_names import channels_on
 
 FloatArray = NDArray[np.float64]
 
@@ -70,10 +71,11 @@ def without_excluded(recording: Recording, rules: Rules) -> Recording:
     """A copy without the channels that the mapping excludes.
 
     Raises:
-        InputError: one that the recording does not have.
+        InputError: one that the recording does not have, and the mapping does not name either.
     """
+    named = {*rules.channels, *channels_on(rules.topics, recording.channels)}
     for name in rules.exclude:
-        if name not in recording:
+        if name not in recording and name not in named:
             raise InputError(
                 f"{quoted(name)} is not recorded", file=rules.file or "mapping",
                 where="key exclude", expected=nearest(name, recording.channels),
@@ -105,8 +107,13 @@ def with_local_origin(recording: Recording) -> Recording:
     return replace(out, notes=(*recording.notes, note))
 
 
-def without_planar_zeros(recording: Recording) -> Recording:
-    """A copy without numbers that planar odometry fills with zeros while the truck moves."""
+def without_planar_zeros(recording: Recording, foreign: Collection[str]) -> Recording:
+    """A copy without numbers that planar odometry fills with zeros while the truck moves.
+
+    Args:
+        recording: what was read.
+        foreign: channels that others recorded; a simulated truck's zeros are true.
+    """
     dropped = []
     for unit in UNITS:
         moving = [f"{unit}_{stem}" for stem in ("vx_mps", "yaw_rad", "x_m")]
@@ -115,7 +122,8 @@ def without_planar_zeros(recording: Recording) -> Recording:
                      "z_m"):  # fmt: skip
             name = f"{unit}_{stem}"
             series = recording.channels.get(name)
-            if moves and series is not None and len(series) > 10 and not series.value.any():
+            constant = series is not None and len(series) > 10 and not series.value.any()
+            if moves and constant and name in foreign:
                 dropped.append(name)
     if not dropped:
         return recording

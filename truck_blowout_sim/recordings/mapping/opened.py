@@ -24,6 +24,7 @@ from truck_blowout_sim.recordings.mat_format import OWN_TIME, TIME, read_mat
 from truck_blowout_sim.recordings.mat_thesis import SOURCES, has_thesis_variables
 from truck_blowout_sim.recordings.names import parts_of
 from truck_blowout_sim.recordings.recording import Recording
+from truck_blowout_sim.recordings.topic_names import relative_names
 
 _OTHER_CLOCK_S = 0.5
 
@@ -121,7 +122,7 @@ def _open(path: Path, stated: str, time: TimeRule, rules: Rules, namespace: str 
     opened.native = _native(path, opened.log, rules, namespace, source)
     if opened.native:
         opened.notes += opened.native.notes
-        opened.native_columns = _native_columns(opened.log, opened.native)
+        opened.native_columns = _native_columns(opened.log, opened.native, rules, namespace)
     opened.notes += [note for note in opened.log.notes if note not in opened.notes]
     if isinstance(opened.log, BagLog):
         opened.other_clock_s = _other_clock_s(opened.log, rules)
@@ -169,9 +170,12 @@ def _native(path: Path, log: Log, rules: Rules, namespace: str | None, source: s
     return None
 
 
-def _native_columns(log: Log, native: Recording) -> set[str]:
+def _native_columns(log: Log, native: Recording, rules: Rules, namespace: str | None) -> set[str]:
     if isinstance(log, BagLog):
-        return {name for name in log.names if name.startswith("/truck/")}
+        remap = {theirs: name for name, theirs in rules.topics.items()}
+        taken = set(relative_names(log.topics, namespace, remap).values())
+        return {name for name in log.names
+                if name.startswith("/truck/") or name.partition(":")[0] in taken}  # fmt: skip
     own = {*native.channels, "blowout", "time_s"}
     suffix = SOURCES.get(native.metadata.get("source", ""), OWN_TIME)
     return {name for name in log.names if name in own or name.endswith((OWN_TIME, suffix))}
