@@ -137,8 +137,24 @@ def test_a_channel_that_is_mapped_and_was_dropped_may_be_excluded(
 
 def test_receive_stamps_are_taken_where_asked_for(tmp_path: Path) -> None:
     rules = Rules(channels=RULES.channels, time=TimeRule("receive stamp"))
-    read = read_recording(write(tmp_path / "bag"), mapping=rules)
-    assert read["tractor_vx_mps"].time_s[0] == read["steering_wheel_angle_rad"].time_s[0] == 0.0
+    for late_ns in (LATE_NS, 2 * NS):
+        read = read_recording(write(tmp_path / f"{late_ns}", late_ns=late_ns), mapping=rules)
+        assert read["tractor_vx_mps"].time_s[0] == 0.0
+        assert read["steering_wheel_angle_rad"].time_s[0] == 0.0
+        assert any("after its header stamp" in n and "the receive stamp is taken" in n
+                   for n in read.notes)  # fmt: skip
+        assert not any("header stamp is taken" in n or "no header" in n for n in read.notes)
+
+
+@pytest.mark.parametrize(("late_ns", "words"), [
+    (300_000_000, "receive stamps are taken, probably late by 0.300 s"),
+    (2 * NS, "receive stamps are moved by -2.000 s"),
+])  # fmt: skip
+def test_what_becomes_of_a_topic_without_header_is_told(
+    tmp_path: Path, late_ns: int, words: str
+) -> None:
+    read = read_recording(write(tmp_path / "bag", late_ns=late_ns), mapping=RULES)
+    assert [n for n in read.notes if f"/can/wheel has no header stamp: its {words}" in n]
 
 
 def test_a_recorder_on_another_clock_is_laid_on_the_stamps(tmp_path: Path) -> None:

@@ -18,20 +18,19 @@ from truck_blowout_sim.errors import InputError, nearest, quoted
 from truck_blowout_sim.recordings.bag_reader import NOT_MEASURED_WORDS
 from truck_blowout_sim.recordings.channels import DEFAULT_HUBS, DEFAULT_TIRES, Channel, by_name
 from truck_blowout_sim.recordings.checks import check_values
-from truck_blowout_sim.recordings.logs.bag_log import HEADER, RECEIVE, BagLog, lateness_s
+from truck_blowout_sim.recordings.logs.bag_log import BagLog
 from truck_blowout_sim.recordings.logs.log import Column
 from truck_blowout_sim.recordings.mapping.opened import Opened
 from truck_blowout_sim.recordings.mapping.plausible import beyond, hydraulic, reads_like
 from truck_blowout_sim.recordings.mapping.rules import Rules, Source
+from truck_blowout_sim.recordings.mapping.stamps import times_on_one_clock
 from truck_blowout_sim.recordings.mapping.stand_ins import StandInError, resolved, stand_ins
 from truck_blowout_sim.recordings.names import Parts, parts_of
 from truck_blowout_sim.recordings.recording import Recording, Series
 from truck_blowout_sim.recordings.units import SI_QUANTITIES, Unit, find_unit, unit_for
 
 FloatArray = NDArray[np.float64]
-_TOLD_LATENESS_S = 0.002
 _MOST_UNUSED = 40
-_EPOCH_S = 1e8
 
 
 @dataclass
@@ -143,7 +142,7 @@ def _mapped(
                          where=source.key, expected="a number, or nothing")  # fmt: skip
     unit = _unit(rules, source, column, channel, name)
     values = source.sign * ((column.values + source.offset) * unit.factor + unit.offset)
-    times = _times(opened, rules, name, column, made)
+    times = times_on_one_clock(opened, rules, name, column, made.notes)
     there = np.isfinite(values) & np.isfinite(times)
     if not there.any():
         raise InputError("holds no number", file=opened.path, where=where, expected="samples")
@@ -200,43 +199,6 @@ def _of_a_wheel(rules: Rules, source: Source, unit: Unit) -> Unit:
         raise _error(rules, source.key, f"a wheel speed in {unit.name}",
                      "radius_m: beside it, the wheel radius that the logger multiplies by")
     return Unit(unit.name, "angular rate", unit.factor / source.radius_m)
-
-
-def _times(opened: Opened, rules: Rules, name: str, column: Column, made: Mapped) -> FloatArray:
-    topic = name.partition(":")[0]
-    shift_s = opened.shift_s + sum(
-        rules.shift_s[key] for key in dict.fromkeys((name, topic)) if key in rules.shift_s
-    )
-    clock = rules.time.column if rules.time.column in (HEADER, RECEIVE) else ""
-    if clock and column.times and clock not in column.times:
-        made.notes.append(f"{topic} has no {clock}: its {next(iter(column.times))} is taken")
-    base = column.times.get(clock) if clock else None
-    if base is None and column.times:
-        base = next(iter(column.times.values()))
-    if base is None:
-        if opened.rows is None:
-            raise InputError("has no time column", file=opened.path,
-                             expected="time: {from: COLUMN, unit: s} in the mapping")  # fmt: skip
-        base = opened.rows.time_s
-        if base.size != column.values.size:
-            raise InputError(f"{column.values.size} samples", file=opened.path, where=name,
-                             expected=f"{base.size}, as {opened.rows.column} has")  # fmt: skip
-    elif HEADER not in column.times and RECEIVE in column.times:
-        base = base - opened.other_clock_s
-    _tell_lateness(topic, column, made)
-    moved = base + opened.origin_s
-    # seconds since 1970 as float64 carry a quarter of a microsecond of noise
-    return (np.round(moved, 6) if abs(opened.origin_s) > _EPOCH_S else moved) + shift_s
-
-
-def _tell_lateness(topic: str, column: Column, made: Mapped) -> None:
-    late = lateness_s(column)
-    if late is None or abs(late[0]) < _TOLD_LATENESS_S:
-        return
-    note = (f"{topic} is received {late[0]:.3f} s after its header stamp (median;"
-            f" {late[1]:.3f} s between the 5th and 95th percentile): the header stamp is taken")
-    if note not in made.notes:
-        made.notes.append(note)
 
 
 def _check_size(

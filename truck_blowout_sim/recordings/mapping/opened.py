@@ -15,7 +15,7 @@ from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.recordings.bag_reader import read_bag
 from truck_blowout_sim.recordings.csv_reader import names_channels, read_csv
 from truck_blowout_sim.recordings.logs import Log, open_log
-from truck_blowout_sim.recordings.logs.bag_log import BagLog, lateness_s
+from truck_blowout_sim.recordings.logs.bag_log import RECEIVE, BagLog, lateness_s
 from truck_blowout_sim.recordings.logs.mat_log import variables_of
 from truck_blowout_sim.recordings.mapping.clocks import CLOCK_START, lay_on, set_clock, wanted
 from truck_blowout_sim.recordings.mapping.rules import Rules, TimeRule
@@ -43,7 +43,7 @@ class Opened:
         zero_s: its own time 0 on an absolute clock, since 1970 or midnight; None without one.
         origin_s: added to the log's times to get the recording's.
         shift_s: added besides, as the mapping says.
-        other_clock_s: how far receive stamps run ahead of header stamps, if on another clock.
+        late_s: how far receive stamps run ahead of header stamps; 0 where both are not compared.
         notes: what a person should know.
     """
 
@@ -56,8 +56,13 @@ class Opened:
     zero_s: float | None = None
     origin_s: float = 0.0
     shift_s: float = 0.0
-    other_clock_s: float = 0.0
+    late_s: float = 0.0
     notes: list[str] = field(default_factory=list)
+
+    @property
+    def other_clock_s(self) -> float:
+        """How far receive stamps run ahead of header stamps, if these are two clocks; else 0."""
+        return self.late_s if abs(self.late_s) > _OTHER_CLOCK_S else 0.0
 
     @property
     def name(self) -> str:
@@ -125,7 +130,8 @@ def _open(path: Path, stated: str, time: TimeRule, rules: Rules, namespace: str 
         opened.native_columns = _native_columns(opened.log, opened.native, rules, namespace)
     opened.notes += [note for note in opened.log.notes if note not in opened.notes]
     if isinstance(opened.log, BagLog):
-        opened.other_clock_s = _other_clock_s(opened.log, rules)
+        if rules.time.column != RECEIVE:
+            opened.late_s = _late_s(opened.log, rules)
         return opened
     names = [name for name in opened.log.names if not opened.log.column(name).times][:1]
     if not names:
@@ -186,9 +192,8 @@ def _align_native(opened: Opened) -> None:
         opened.native = opened.native.shifted(opened.shift_s)
 
 
-def _other_clock_s(log: BagLog, rules: Rules) -> float:
-    """How far receive stamps run ahead of header stamps, if these are two clocks; else 0."""
+def _late_s(log: BagLog, rules: Rules) -> float:
+    """How far receive stamps run ahead of header stamps, median of the topics that have both."""
     late = [lateness_s(log.column(name)) for name in wanted(log, rules)]
     told = [one[0] for one in late if one]
-    middle = float(np.median(told)) if told else 0.0
-    return middle if abs(middle) > _OTHER_CLOCK_S else 0.0
+    return float(np.median(told)) if told else 0.0
