@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
-import numpy as np
+from dataclasses import replace
+from pathlib import Path
 
-from truck_blowout_sim.comparison.resets import longest_run, reset_times_s
-from truck_blowout_sim.recordings import Recording, Series
+import numpy as np
+import pytest
+
+from truck_blowout_sim.comparison.resets import longest_run
+from truck_blowout_sim.recordings import Blowout, Recording, Series, read_recording, write_recording
+from truck_blowout_sim.recordings.resets import reset_times_s
 
 TIME = np.arange(0.0, 10.0, 0.01)
 
@@ -20,13 +25,13 @@ def driving(reset_at_s: float | None) -> Recording:
 
 def test_a_steady_drive_has_no_reset() -> None:
     whole = driving(None)
-    assert reset_times_s(whole) == ()
+    assert reset_times_s(whole.channels) == ()
     assert longest_run(whole) is whole
 
 
 def test_a_reset_is_found_and_the_longer_part_kept() -> None:
     whole = driving(3.0)
-    (at,) = reset_times_s(whole)
+    (at,) = reset_times_s(whole.channels)
     assert abs(at - 3.0) < 0.02
     kept = longest_run(whole)
     assert kept.start_s == at
@@ -38,4 +43,24 @@ def test_a_gap_in_the_samples_is_no_reset() -> None:
     series = driving(None)["tractor_x_m"]
     keep = (series.time_s < 4.0) | (series.time_s > 6.0)
     gap = Recording("gap", {"tractor_x_m": Series(series.time_s[keep], series.value[keep])})
-    assert reset_times_s(gap) == ()
+    assert reset_times_s(gap.channels) == ()
+
+
+@pytest.mark.parametrize("name", ["two.csv", "two.mcap"])
+def test_a_tire_may_burst_in_each_run(tmp_path: Path, name: str) -> None:
+    events = (Blowout(1.0, ("steer_left",)), Blowout(5.0, ("steer_left",)))
+    path = write_recording(replace(driving(3.0), blowouts=events), tmp_path / name)
+    read = read_recording(path)
+    assert read.blowouts == events
+    assert not any("blown again" in note for note in read.notes)
+    assert longest_run(read).blowouts == events[1:]
+    moved = read_recording(path, blow=[Blowout(6.0, ("steer_left",))])
+    assert moved.blowouts == (events[0], Blowout(6.0, ("steer_left",)))
+
+
+def test_a_tire_that_is_named_twice_in_a_run_counts_once(tmp_path: Path) -> None:
+    events = (Blowout(4.0, ("steer_left",)), Blowout(5.0, ("steer_left",)))
+    path = write_recording(replace(driving(3.0), blowouts=events), tmp_path / "two.mcap")
+    read = read_recording(path)
+    assert read.blowouts == events[:1]
+    assert "steer_left is blown again at 5.0 s: left out" in read.notes

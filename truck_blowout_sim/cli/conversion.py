@@ -10,7 +10,7 @@ from truck_blowout_sim.recordings import Recording
 
 def report(recording: Recording, output: Path, as_json: bool) -> None:
     """Say what was written."""
-    tires = "+".join(tire for blowout in recording.blowouts for tire in blowout.tires)
+    tires = "+".join(dict.fromkeys(tire for b in recording.blowouts for tire in b.tires))
     event = f", {tires} blown at {recording.blowouts[0].time_s:g} s" if tires else ""
     result = {
         "output": str(output),

@@ -7,7 +7,7 @@ Validated with: test/recordings/test_bag_format.py against CSVs of the same runs
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -25,6 +25,7 @@ from truck_blowout_sim.recordings.channels import BLOWOUT_EVENT, Channel, Place
 from truck_blowout_sim.recordings.checks import check_values
 from truck_blowout_sim.recordings.names import Parts, parts_of
 from truck_blowout_sim.recordings.recording import Blowout, Recording, Series
+from truck_blowout_sim.recordings.resets import reset_times_s
 from truck_blowout_sim.recordings.topic_names import (
     channel_names,
     joint_channel_names,
@@ -113,15 +114,17 @@ class _Reader:
         metadata = {k: v for k, v in self.bag.metadata.items() if k != ORIGIN_KEY}
         if stated is None and origin_ns:
             metadata["clock_start_s"] = repr(-origin_ns / _NS)
-        channels, blowouts = self._channels(parts), self._blowouts(parts)
+        channels = self._channels(parts)
+        blowouts = self._blowouts(parts, reset_times_s(channels))
         notes = (*self.bag.notes, *self.notes)
         return Recording(self.bag.name, channels, blowouts, metadata, notes)
 
-    def _blowouts(self, parts: Parts) -> tuple[Blowout, ...]:
+    def _blowouts(self, parts: Parts, resets_s: Sequence[float]) -> tuple[Blowout, ...]:
         topic = BLOWOUT_EVENT.topic
         if topic not in self.series:
             return ()
-        blowouts, notes = read_blowouts(self.series[topic], self._times[topic] / _NS, parts)
+        blowouts, notes = read_blowouts(self.series[topic], self._times[topic] / _NS, parts,
+                                        resets_s)  # fmt: skip
         self.notes += notes
         return blowouts
 

@@ -21,6 +21,7 @@ from truck_blowout_sim.recordings.checks import check_times, check_values
 from truck_blowout_sim.recordings.csv_header import Header, parse_header
 from truck_blowout_sim.recordings.names import parts_of
 from truck_blowout_sim.recordings.recording import Blowout, Recording, Series
+from truck_blowout_sim.recordings.resets import reset_times_s, run_at
 
 FloatArray = NDArray[np.float64]
 
@@ -62,7 +63,8 @@ def read_csv(
         series = body.series(column, channel, time_s)
         if len(series):
             channels[channel.name] = series
-    return Recording(path.stem, channels, body.blowouts(time_s), header.metadata, header.notes)
+    blowouts = body.blowouts(time_s, reset_times_s(channels))
+    return Recording(path.stem, channels, blowouts, header.metadata, header.notes)
 
 
 @dataclass(frozen=True)
@@ -111,16 +113,18 @@ class _Body:
                 raise self.error(i, name, quoted(cell), expected)
         raise AssertionError("a cell that is no number was there a moment ago")
 
-    def blowouts(self, time_s: FloatArray) -> tuple[Blowout, ...]:
+    def blowouts(self, time_s: FloatArray, resets_s: Sequence[float]) -> tuple[Blowout, ...]:
         if BLOWOUT_EVENT.name not in self.header.columns:
             return ()
         column = self.header.columns.index(BLOWOUT_EVENT.name)
-        blown: set[str] = set()
+        blown: dict[int, set[str]] = {}  # in each run
         found = []
         for i, row in enumerate(self.rows):
             cell = row[column].strip()
             if cell:
-                found.append(Blowout(float(time_s[i]), self._tires(i, cell, blown)))
+                at_s = float(time_s[i])
+                in_run = blown.setdefault(run_at(at_s, resets_s), set())
+                found.append(Blowout(at_s, self._tires(i, cell, in_run)))
         return tuple(found)
 
     def _tires(self, i: int, cell: str, blown: set[str]) -> tuple[str, ...]:
@@ -131,8 +135,9 @@ class _Body:
                 raise self.error(i, "blowout", f"unknown tire {quoted(tire)}", f"one of {names}")
             if tire in blown:
                 raise self.error(
-                    i, "blowout", f"{tire} is blown a second time", "each tire at most once"
-                )
+                    i, "blowout", f"{tire} is blown a second time",
+                    "each tire at most once, or a reset between (the position jumps)",
+                )  # fmt: skip
             blown.add(tire)
         return tires
 

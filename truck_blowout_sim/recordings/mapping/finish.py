@@ -19,6 +19,7 @@ from truck_blowout_sim.recordings.mapping.clocks import CLOCK_START
 from truck_blowout_sim.recordings.mapping.rules import Mount, Rules
 from truck_blowout_sim.recordings.names import parts_of
 from truck_blowout_sim.recordings.recording import Blowout, Recording, Series
+from truck_blowout_sim.recordings.resets import reset_times_s, run_at
 from truck_blowout_sim.recordings.topic_names import channels_on
 
 FloatArray = NDArray[np.float64]
@@ -34,7 +35,7 @@ def with_blowouts(
     recording: Recording, events: Iterable[Blowout], *, tires: Iterable[str] = (),
     hubs: Iterable[str] = (), file: object = "--blow",
 ) -> Recording:
-    """A copy with further blowouts; a tire that has one already is moved to the new instant.
+    """A copy with further blowouts; that of a tire in the same run is moved to the new instant.
 
     Raises:
         InputError: an unknown tire, or an instant outside the recording.
@@ -53,10 +54,16 @@ def with_blowouts(
                 expected=f"an instant of {recording.name},"
                 f" {recording.start_s:g} s to {recording.end_s:g} s",
             )  # fmt: skip
-    named = {tire for event in added for tire in event.tires}
-    kept = [Blowout(b.time_s, left) for b in recording.blowouts
-            for left in [tuple(t for t in b.tires if t not in named)] if left]  # fmt: skip
-    return replace(recording, blowouts=(*kept, *added))
+    return replace(recording, blowouts=(*_not_moved(recording, added), *added))
+
+
+def _not_moved(recording: Recording, added: Iterable[Blowout]) -> list[Blowout]:
+    """Blowouts of tires for which none is added in the same run; a reset begins another run."""
+    resets_s = reset_times_s(recording.channels)
+    named = {(run_at(event.time_s, resets_s), tire) for event in added for tire in event.tires}
+    return [Blowout(b.time_s, left) for b in recording.blowouts
+            for left in [tuple(t for t in b.tires if (run_at(b.time_s, resets_s), t) not in named)]
+            if left]  # fmt: skip
 
 
 def _on_clock(event: Blowout, recording: Recording) -> Blowout:
