@@ -159,6 +159,14 @@ def test_clocks_that_cannot_be_compared_are_told(log: Path, stamp: str, words: s
     assert read["steering_wheel_angle_rad"].time_s[0] == 0.0
 
 
+def test_clocks_that_may_be_of_two_time_zones_are_told(log: Path) -> None:
+    for name, hour, head in (("log.csv", 12, "Speed [km/h]"), ("steer.csv", 14, "Steer [deg]")):
+        rows = "".join(f"2024-02-01 {hour}:00:{0.01 * i:06.3f},{80 + 0.1 * i}\n" for i in range(N))
+        (log.parent / name).write_text(f"time,{head}\n{rows}")
+    read = read_recording(log, mapping=rules(log, channels() | {"also": ["steer.csv"]}))
+    assert any("steer.csv begins 7200 s after log.csv by their clocks" in n for n in read.notes)
+
+
 def test_a_column_beside_channels_that_are_named_stays_on_their_clock(log: Path) -> None:
     rows = "".join(f"{0.01 * i:.2f},{20 + 0.1 * i},{i}\n" for i in range(N))
     log.write_text("# clock_start_s: 1706788800.0\ntime_s,tractor_vx_mps,Steer\n" + rows)

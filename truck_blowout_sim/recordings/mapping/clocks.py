@@ -23,6 +23,7 @@ CLOCK_START = "clock_start_s"
 # Seconds since 1970 are more than this (three years), seconds since midnight are less.
 _EPOCH_S = 1e8
 _SAME_DAY_S = 1e5
+_ZONE_STEP_S = 900.0  # the clocks of two time zones differ by quarters of an hour
 
 
 def set_clock(opened: Opened, rules: Rules) -> None:
@@ -50,6 +51,9 @@ def lay_on(opened: Opened, main: Opened) -> None:
     assert main.zero_s is not None
     later_s = _without_noise_s(opened.zero_s - main.zero_s)
     opened.origin_s = _without_noise_s(opened.origin_s + opened.zero_s - main.zero_s)
+    if abs(later_s) >= _ZONE_STEP_S:
+        opened.notes.append(f"{opened.path.name} begins {later_s:g} s after {main.path.name} by"
+                            " their clocks, which may be of two time zones: shift_s moves it")
     if opened.native:
         opened.native = opened.native.shifted(later_s)
     elif isinstance(opened.log, MdfLog) and later_s:
