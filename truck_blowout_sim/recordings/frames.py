@@ -12,16 +12,22 @@ from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
-from truck_blowout_sim.errors import InputError
+from truck_blowout_sim.errors import InputError, nearest
+from truck_blowout_sim.recordings.channels import by_name, channels_for
 from truck_blowout_sim.recordings.names import parts_of
 from truck_blowout_sim.recordings.recording import Blowout, Recording, Series
+from truck_blowout_sim.recordings.units import SI_QUANTITIES, unit_for
 
 if TYPE_CHECKING:
     import pandas as pd
     import xarray as xr
 
+FloatArray = NDArray[np.float64]
+
 TIME = "time_s"
+_FILE = "frame"  # stands for a path in errors
 
 
 def to_pandas(recording: Recording) -> pd.DataFrame:
@@ -43,14 +49,17 @@ def from_pandas(frame: pd.DataFrame) -> Recording:
     Args:
         frame: indexed by ``time_s`` or with a column of that name.
 
+    Units in ``frame.attrs["units"]`` are converted; a column without one is in SI.
+
     Raises:
-        InputError: times that do not increase.
+        InputError: times that do not increase, an unknown channel or unit, text, or no numbers.
     """
     if TIME in frame.columns:
         frame = frame.set_index(TIME)
-    times = np.asarray(frame.index, dtype=np.float64)
-    columns = {str(name): np.asarray(frame[name], dtype=np.float64) for name in frame.columns}
-    return _recording(times, columns, frame.attrs)
+    stated = frame.attrs.get("units")
+    units = dict(stated) if isinstance(stated, Mapping) else {}
+    columns = {str(name): np.asarray(frame[name]) for name in frame.columns}
+    return _recording(np.asarray(frame.index), columns, units, frame.attrs)
 
 
 def to_xarray(recording: Recording) -> xr.Dataset:
@@ -75,13 +84,17 @@ def to_xarray(recording: Recording) -> xr.Dataset:
 def from_xarray(dataset: xr.Dataset) -> Recording:
     """The recording that a dataset holds; NaN where a channel has no sample.
 
+    Each variable's ``attrs["units"]`` are converted; one without is in SI.
+
     Raises:
-        InputError: times that do not increase.
+        InputError: times that do not increase, an unknown channel or unit, text, or no numbers.
     """
-    times = np.asarray(dataset[TIME], dtype=np.float64)
-    columns = {str(name): np.asarray(values, dtype=np.float64)
-               for name, values in dataset.data_vars.items()}  # fmt: skip
-    return _recording(times, columns, dataset.attrs)
+    if TIME not in dataset.variables:
+        raise _refusal(f"no {TIME}", "", f"a coordinate {TIME}: seconds")
+    units = {str(name): values.attrs.get("units", "")
+             for name, values in dataset.variables.items()}  # fmt: skip
+    columns = {str(name): np.asarray(values) for name, values in dataset.data_vars.items()}
+    return _recording(np.asarray(dataset[TIME]), columns, units, dataset.attrs)
 
 
 def units_of(names: Iterable[str]) -> dict[str, str]:
@@ -92,21 +105,51 @@ def units_of(names: Iterable[str]) -> dict[str, str]:
 
 
 def _recording(
-    times: np.ndarray[Any, Any], columns: Mapping[str, Any], about: Mapping[Any, Any]
-) -> Recording:
+    times: NDArray[Any], columns: Mapping[str, NDArray[Any]], units: Mapping[Any, Any],
+    about: Mapping[Any, Any],
+) -> Recording:  # fmt: skip
+    table = by_name(parts_of(columns).table())
+    time_s = _in_si(times, str(units.get(TIME) or "s"), "time", TIME)
     channels = {}
     for name, values in columns.items():
-        there = np.isfinite(values)
-        try:
-            channels[name] = Series(times[there], values[there])
-        except ValueError as error:
-            raise InputError(str(error), file="frame", where=f"column {name}",
-                             expected="times that increase from row to row") from None  # fmt: skip
+        if name not in table:
+            raise _refusal("is no channel", name, nearest(name, [*table, *by_name(channels_for())]))
+        unit = table[name].unit
+        told = _in_si(values, str(units.get(name) or unit), SI_QUANTITIES[unit], name)
+        series = _series(time_s, told, name)
+        if len(series):
+            channels[name] = series
+    if not channels:
+        raise _refusal("holds no numbers", "", "a column of numbers for each channel")
     events = tuple(Blowout(float(at), tuple(str(tires).split("+")))
                    for at, tires in zip(about.get("blowout_time_s", ()),
                                         about.get("blowout_tires", ()), strict=True))  # fmt: skip
     metadata = {str(key): str(text) for key, text in dict(about.get("metadata", {})).items()}
     return Recording(str(about.get("name", "frame")), channels, events, metadata)
+
+
+def _in_si(values: NDArray[Any], text: str, quantity: str, name: str) -> FloatArray:
+    """A column's numbers in SI."""
+    unit = unit_for(text, quantity, file=_FILE, where=f"column {name}")
+    if values.dtype.kind in "mM":
+        raise _refusal(f"holds {values.dtype}", name, "numbers")  # their float is nanoseconds
+    try:
+        numbers = np.asarray(values, dtype=np.float64)
+    except (TypeError, ValueError) as error:
+        raise _refusal(f"holds no numbers: {error}", name, "numbers") from None
+    return np.asarray(unit.factor * numbers + unit.offset, dtype=np.float64)
+
+
+def _series(time_s: FloatArray, values: FloatArray, name: str) -> Series:
+    there = np.isfinite(values) if values.shape == time_s.shape else slice(None)
+    try:
+        return Series(time_s[there], values[there])
+    except ValueError as error:
+        raise _refusal(str(error), name, "times that increase from row to row") from None
+
+
+def _refusal(problem: str, name: str, expected: str) -> InputError:
+    return InputError(problem, file=_FILE, where=name and f"column {name}", expected=expected)
 
 
 def _about(recording: Recording) -> dict[str, Any]:
