@@ -71,6 +71,14 @@ def test_the_thesis_s_analysis_runs_with_steering_from_a_second_file(
     assert "--force" in capsys.readouterr().err
 
 
+def test_what_hve_cannot_be_read_from_is_refused_before_anything_is_written(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["compare", TEST_2013, "--hve", "-o", str(tmp_path / "out")]) == 2
+    assert "a .mat with the thesis's variables" in capsys.readouterr().err
+    assert not (tmp_path / "out").exists()
+
+
 @pytest.mark.parametrize(
     ("words", "expected"),
     [

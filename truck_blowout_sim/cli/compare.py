@@ -83,6 +83,7 @@ def command(
     console, loaded = _console(), load_vehicle(vehicle)
     folders = _claimed(recordings, output, logs.inputs(*recordings), no_model=no_model, hve=hve,
                        force=force)  # fmt: skip
+    theirs = {name: _hve_run(name) for name in recordings} if hve else {}
     for name, folder in zip(recordings, folders, strict=False):
 
         def made(tell: Tell, name: str = name) -> Comparison:
@@ -96,7 +97,7 @@ def command(
         compared, page = _drawn(made, folder)
         _tell(console, compared, page, as_json)
         if hve:
-            _hold_hve(console, compared, name, folder / HVE, as_json)
+            _hold_hve(console, compared, theirs[name], folder / HVE, as_json)
 
 
 def _claimed(
@@ -129,18 +130,22 @@ def _drawn(made: Callable[[Tell], Comparison], folder: Path) -> tuple[Comparison
         return compared, write_comparison_report(compared, folder)
 
 
-def _hold_hve(console: Console, compared: Comparison, name: str, folder: Path, as_json: bool
-              ) -> None:
-    """HVE's run against the test's, with the same figures as the model's."""
-    from truck_blowout_sim.comparison import compare_recordings
-    from truck_blowout_sim.report.comparison_page import write_comparison_report
-
+def _hve_run(name: str) -> Recording:
+    """HVE's run in a file, read before anything is written."""
     path = find_recording(name)
     if path.suffix.lower() != ".mat":
         raise InputError("--hve", file=path, expected="a .mat with the thesis's variables (vx_h …)")
     theirs = AS_IT_IS.read(path, source="hve")
-    held = compare_recordings(compared.recording, replace(theirs, name=f"{theirs.name} (HVE)"),
-                              vehicle=compared.vehicle)  # fmt: skip
+    return replace(theirs, name=f"{theirs.name} (HVE)")
+
+
+def _hold_hve(console: Console, compared: Comparison, theirs: Recording, folder: Path,
+              as_json: bool) -> None:
+    """HVE's run against the test's, with the same figures as the model's."""
+    from truck_blowout_sim.comparison import compare_recordings
+    from truck_blowout_sim.report.comparison_page import write_comparison_report
+
+    held = compare_recordings(compared.recording, theirs, vehicle=compared.vehicle)
     page = write_comparison_report(held, folder)
     if not as_json:
         _print(console, held, page)
