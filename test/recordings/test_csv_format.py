@@ -55,6 +55,10 @@ def test_a_file_as_the_interface_describes_it(tmp_path: Path) -> None:
     assert recording.blowouts == (Blowout(0.0, ("steer_left", "drive_1_left_outer")),)
 
 
+def test_a_file_without_a_number_is_refused(tmp_path: Path) -> None:
+    assert "log.csv: holds no numbers" in refusal(tmp_path, f"{HEADER}\n0,,\n1,,\n")
+
+
 def test_round_trip_is_exact(tmp_path: Path, full_recording: Recording) -> None:
     again = read_recording(write_recording(full_recording, tmp_path / "full.csv"))
     assert dict(again.channels) == dict(full_recording.channels)

@@ -111,6 +111,32 @@ def test_a_bad_cell_of_a_used_column_is_named_with_its_line(log: Path) -> None:
     assert "line 7: '8o.5'" in refusal(log, channels())
 
 
+@pytest.mark.parametrize(("cell", "words"), [
+    ("", "column 'Steer' is empty in the log"), ("abc", "column 'Steer' holds text in the log"),
+])  # fmt: skip
+def test_a_column_without_numbers_is_not_said_to_be_missing(
+    log: Path, cell: str, words: str
+) -> None:
+    log.write_text(HEAD + "".join(f"{10 * i},80,{cell},0,1.5\n" for i in range(N)))
+    assert words in refusal(log, channels())
+
+
+def test_a_number_too_large_for_a_computer_is_refused_and_inf_says_nothing(log: Path) -> None:
+    log.write_text(log.read_text().replace("80.5,", "inf,"))
+    assert len(read_recording(log, mapping=rules(log, channels()))["tractor_vx_mps"]) == N - 1
+    log.write_text(log.read_text().replace("inf,", "1e999,"))
+    assert "column 'Speed', line 7: '1e999'" in refusal(log, channels())
+
+
+def test_our_own_csv_is_read_beside_a_mapping_without_a_word_on_its_blowouts(tmp_path: Path
+                                                                             ) -> None:  # fmt: skip
+    path = tmp_path / "own.csv"
+    path.write_text("time_s,blowout,tractor_vx_mps\n0,,20\n0.1,steer_left,20\n0.2,,20\n")
+    read = read_recording(path, mapping=rules(path, {"metadata": {"test": "mine"}}))
+    assert read.blowouts == (Blowout(0.1, ("steer_left",)),)
+    assert not any("blowout" in note for note in read.notes)
+
+
 def test_a_second_file_brings_the_steering_to_the_thesis_s_mat(tmp_path: Path) -> None:
     time_s = np.round(-4.92 + 0.01 * np.arange(1499), 9)[:, None]
     scipy.io.savemat(tmp_path / "exp.mat", {

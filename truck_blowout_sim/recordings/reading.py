@@ -63,6 +63,8 @@ def read_recording(
     if mapping is None and not tuple(also):
         read = read_native(path, tires=tires, hubs=hubs, namespace=namespace, remap=remap,
                            source=source)  # fmt: skip
+        if not read.channels:
+            raise InputError("holds no numbers", file=path, expected="samples of a channel")
         foreign = channels_on((remap or {}).values(), read.channels)
         read = with_local_origin(without_planar_zeros(read, foreign))
         return with_blowouts(read, blow, tires=tires, hubs=hubs) if blow else read

@@ -16,7 +16,7 @@ from truck_blowout_sim.recordings.units import find_unit
 FloatArray = NDArray[np.float64]
 
 _NOTHING = frozenset({"", "-", "--", "nan", "na", "n/a", "null", "none", "inf", "-inf", "+inf",
-                      "#n/a", "1.#qnan", "-1.#ind", "---"})  # fmt: skip
+                      "infinity", "-infinity", "#n/a", "1.#qnan", "-1.#ind", "---"})  # fmt: skip
 _CLOCK = re.compile(r"(?:(\d+):)?(\d{1,2}):(\d{1,2}(?:[.,:]\d+)?)\s*(am|pm)?", re.IGNORECASE)
 _DURATION = re.compile(r"([-+]?\d+(?:[.,]\d+)?) ?(s|sec|min|hr)")  # as MATLAB writes them
 _DATE = re.compile(r"(\d{1,4}[-/. ](?:\d{1,2}|[a-z]{3})[-/. ]\d{1,4})(?: +|t)"
@@ -97,7 +97,7 @@ def column_of(cells: Sequence[str], decimal: str) -> tuple[FloatArray, str, int 
         plain = cells if decimal == "." else [cell.replace(",", ".") for cell in cells]
         values = np.fromiter(map(float, plain), dtype=np.float64, count=len(cells))
         if not any("_" in cell for cell in cells[:1]):
-            return np.where(np.isfinite(values), values, np.nan), "", None
+            return np.where(np.isfinite(values), values, np.nan), "", _too_large(values, cells)
     except ValueError:
         pass
     values = np.array([number(cell, decimal) for cell in cells])
@@ -119,6 +119,12 @@ def _past_midnight(times: FloatArray) -> FloatArray:
     out = times.copy()
     out[there] += _DAY_S * days
     return out
+
+
+def _too_large(values: FloatArray, cells: Sequence[str]) -> int | None:
+    """The row of the first number that no float holds, such as 1e999; `inf` says nothing."""
+    return next((int(i) for i in np.flatnonzero(np.isinf(values)) if not is_nothing(cells[i])),
+                None)  # fmt: skip
 
 
 def _first(wrong: NDArray[np.bool_]) -> int | None:

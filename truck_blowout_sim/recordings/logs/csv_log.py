@@ -41,13 +41,20 @@ def fill(
     """Add the columns that hold numbers; ``places`` are the rows' line numbers, from 1."""
     for name, unit, cells in zip(names, units, zip(*rows, strict=True), strict=True):
         if all(is_nothing(cell) for cell in cells):
+            table.unread[name] = "is empty"
             continue
         values, kind, wrong = column_of(cells, decimal)
         bad = "" if wrong is None else f"line {places[wrong]}: {quoted(cells[wrong])}"
         if kind or (values == values).any():
             table.columns[name] = Column(values, _CLOCK_UNIT if kind else unit, bad=bad)
         else:
-            table.notes.append(f"column {quoted(name)} holds text: not read")
+            table.unread[name] = "holds text"
+            table.notes.append(text_note(name))
+
+
+def text_note(name: str) -> str:
+    """What is said of a column of words."""
+    return f"column {quoted(name)} holds text: not read"
 
 
 def text_of(path: Path) -> str:

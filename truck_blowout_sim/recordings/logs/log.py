@@ -10,6 +10,8 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from truck_blowout_sim.errors import quoted
+
 FloatArray = NDArray[np.float64]
 
 
@@ -62,6 +64,8 @@ class Table:
     columns: dict[str, Column]
     notes: list[str] = field(default_factory=list)
     metadata: dict[str, str] = field(default_factory=dict)
+    unread: dict[str, str] = field(default_factory=dict)
+    """Columns that hold no numbers, and what they are instead."""
 
     @property
     def names(self) -> Sequence[str]:
@@ -75,6 +79,12 @@ class Table:
     def column(self, name: str) -> Column:
         """One column."""
         return self.columns[name]
+
+
+def no_column(log: Log, name: str) -> str:
+    """Why a log has no such column of numbers, as words for an error."""
+    there = find_name(name, log.unread) if isinstance(log, Table) else None
+    return f"column {quoted(name)} {log.unread[there]}" if there else f"no column {quoted(name)}"
 
 
 def find_name(name: str, names: Sequence[str] | Mapping[str, object]) -> str | None:

@@ -19,7 +19,7 @@ from truck_blowout_sim.recordings.bag_reader import NOT_MEASURED_WORDS
 from truck_blowout_sim.recordings.channels import DEFAULT_HUBS, DEFAULT_TIRES, Channel, by_name
 from truck_blowout_sim.recordings.checks import check_values
 from truck_blowout_sim.recordings.logs.bag_log import BagLog
-from truck_blowout_sim.recordings.logs.log import Column
+from truck_blowout_sim.recordings.logs.log import Column, no_column
 from truck_blowout_sim.recordings.mapping.opened import Opened
 from truck_blowout_sim.recordings.mapping.plausible import beyond, hydraulic, reads_like
 from truck_blowout_sim.recordings.mapping.rules import Rules, Source
@@ -166,7 +166,9 @@ def _find(files: list[Opened], rules: Rules, source: Source) -> tuple[Opened, st
     found = [(f, name) for f in wanted for name in [f.log.find(source.column)] if name]
     if not found:
         names = [name for f in wanted for name in f.log.names]
-        raise _error(rules, source.key, f"no column {quoted(source.column)} in the log",
+        problems = [no_column(f.log, source.column) for f in wanted]
+        problem = next((one for one in problems if not one.startswith("no ")), problems[0])
+        raise _error(rules, source.key, f"{problem} in the log",
                      nearest(source.column, names))  # fmt: skip
     if len(found) > 1:
         raise _error(rules, source.key, f"column {quoted(source.column)} is in several files",

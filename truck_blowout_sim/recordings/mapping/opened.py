@@ -13,9 +13,11 @@ import numpy as np
 
 from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.recordings.bag_reader import read_bag
+from truck_blowout_sim.recordings.channels import BLOWOUT_EVENT
 from truck_blowout_sim.recordings.csv_reader import names_channels, read_csv
 from truck_blowout_sim.recordings.logs import Log, open_log
 from truck_blowout_sim.recordings.logs.bag_log import RECEIVE, BagLog, lateness_s
+from truck_blowout_sim.recordings.logs.csv_log import text_note
 from truck_blowout_sim.recordings.logs.mat_log import variables_of
 from truck_blowout_sim.recordings.mapping.clocks import CLOCK_START, lay_on, set_clock, wanted
 from truck_blowout_sim.recordings.mapping.rules import Rules, TimeRule
@@ -128,7 +130,8 @@ def _open(path: Path, stated: str, time: TimeRule, rules: Rules, namespace: str 
     if opened.native:
         opened.notes += opened.native.notes
         opened.native_columns = _native_columns(opened.log, opened.native, rules, namespace)
-    opened.notes += [note for note in opened.log.notes if note not in opened.notes]
+    known = {*opened.notes, *([text_note(BLOWOUT_EVENT.name)] if opened.native else [])}
+    opened.notes += [note for note in opened.log.notes if note not in known]
     if isinstance(opened.log, BagLog):
         if rules.time.column != RECEIVE:
             opened.late_s = _late_s(opened.log, rules)

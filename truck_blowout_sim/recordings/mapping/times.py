@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from truck_blowout_sim.errors import InputError, nearest, quoted
-from truck_blowout_sim.recordings.logs.log import Column, Log
+from truck_blowout_sim.recordings.logs.log import Column, Log, no_column
 from truck_blowout_sim.recordings.mapping.rules import TimeRule
 from truck_blowout_sim.recordings.units import find_unit
 
@@ -60,7 +60,7 @@ def times_of(log: Log, rule: TimeRule, where: str = "key time") -> Times:
     name = log.find(rule.column) if rule.column else time_column(log)
     if name is None:
         if rule.column:
-            raise InputError(f"no column {quoted(rule.column)}", file=log.path, where=where,
+            raise InputError(no_column(log, rule.column), file=log.path, where=where,
                              expected=nearest(rule.column, log.names))  # fmt: skip
         raise InputError("no time column was found", file=log.path, where=where,
                          expected="in the mapping: time: {from: COLUMN, unit: s}")  # fmt: skip
