@@ -94,6 +94,20 @@ def test_vectors_are_on_the_time_of_their_own_structure(tmp_path: Path) -> None:
     np.testing.assert_allclose(read["tractor_yaw_rate_radps"].time_s, half)
 
 
+def test_what_has_no_time_of_its_own_is_on_that_of_the_structure_around_it(tmp_path: Path) -> None:
+    path, half = tmp_path / "log.mat", TIME[::2]
+    log = {"time": TIME, "steer": {"data": np.cos(TIME), "unit": "deg"}, "yaw_rate": TIME,
+           "speed": {"time": half, "data": 72.0 + half, "unit": "km/h"}}  # fmt: skip
+    scipy.io.savemat(path, {"log": log})
+    rules = Rules(channels={"tractor_vx_mps": Source("log.speed.data"),
+                            "steering_wheel_angle_rad": Source("log.steer.data"),
+                            "tractor_yaw_rate_radps": Source("log.yaw_rate", "deg/s")})  # fmt: skip
+    read = read_recording(path, mapping=rules)
+    np.testing.assert_allclose(read["tractor_vx_mps"].time_s, half)
+    np.testing.assert_allclose(read["steering_wheel_angle_rad"].time_s, TIME)
+    np.testing.assert_allclose(read["tractor_yaw_rate_radps"].time_s, TIME)
+
+
 @pytest.mark.parametrize("hdf5", [False, True])
 def test_columns_of_a_matrix_are_named_as_matlab_does(tmp_path: Path, hdf5: bool) -> None:
     path, both = tmp_path / "log.mat", np.stack([72.0 + TIME, np.sin(TIME)], axis=1)

@@ -185,7 +185,7 @@ def _vectors(name: str, values: FloatArray | None) -> list[tuple[str, FloatArray
 
 
 def _with_own_times(table: Table) -> Table:
-    """Where several structures hold a time of their own in seconds, their vectors are on it."""
+    """Where several structures hold a time of their own in seconds, what is inside is on it."""
     clocks = {name.rpartition(".")[0]: name for name, column in table.columns.items()
               if name.rpartition(".")[2].lower() in _TIMES and _in_seconds(column)}
     clocks.pop("", None)
@@ -193,13 +193,19 @@ def _with_own_times(table: Table) -> Table:
         return table
     columns: dict[str, Column] = {}
     for name, column in table.columns.items():
-        clock = clocks.get(name.rpartition(".")[0], name)
-        times = table.columns[clock].values
-        if clock != name and times.size == column.values.size:
-            columns[name] = replace(column, times={clock: times})
-        elif name not in clocks.values():
-            columns[name] = column
+        if name in clocks.values():
+            continue
+        times = {clocks[parent]: table.columns[clocks[parent]].values
+                 for parent in _parents(name) if parent in clocks}  # fmt: skip
+        fitting = [(clock, t) for clock, t in times.items() if t.size == column.values.size]
+        columns[name] = replace(column, times=dict(fitting[:1]))
     return replace(table, columns=columns)
+
+
+def _parents(name: str) -> Iterator[str]:
+    """Structures that a vector is in, the inmost first: ``a.b``, ``a`` of ``a.b.c``."""
+    while name := name.rpartition(".")[0]:
+        yield name
 
 
 def _in_seconds(column: Column) -> bool:
