@@ -14,6 +14,7 @@ from truck_blowout_sim.cli.calibrate import as_plain, lines
 from truck_blowout_sim.cli.main import main
 from truck_blowout_sim.diagnosis.calibrate import (
     Calibration,
+    SheetNumber,
     calibrate,
     describe,
     write_calibrated_vehicle,
@@ -78,6 +79,16 @@ def test_a_number_reads_as_a_sentence(found: Calibration) -> None:
     number = next(n for n in found.told if n.name == "trailer_mass")
     assert describe(number).startswith("trailer mass +")
     assert "prior 2 %: weighing" in describe(number)
+
+
+@pytest.mark.parametrize(("key", "words"), [
+    ("steering.lag_s", "+90 ms"), ("steering.ratio_curve_prad2", "+0.09 1/rad²"),
+    ("driveline.drag_n", "+0.09 N"),
+])  # fmt: skip
+def test_an_amount_has_the_unit_of_what_it_moves(key: str, words: str) -> None:
+    number = SheetNumber("some_number", "add", 0.09, (0.05, 0.13), 0.03, "", {key: 0.09}, True,
+                         False, False)  # fmt: skip
+    assert describe(number).startswith(f"some number {words} (90 %")
 
 
 def test_plain_data_is_json(found: Calibration) -> None:

@@ -245,7 +245,8 @@ def _shown_unit(number: SheetNumber) -> tuple[float, str]:
     """Factor from SI and unit of a number that is added."""
     name = next(iter(number.values), "")
     units = {"_rad": (float(np.degrees(1.0)), "deg"), "_m": (1000.0, "mm"), "_n": (1.0, "N"),
-             "_pa": (1e-3, "kPa"), "_kg": (1.0, "kg")}  # fmt: skip
+             "_pa": (1e-3, "kPa"), "_kg": (1.0, "kg"),
+             "_s": (1e3, "ms"), "_prad2": (1.0, "1/rad²")}  # fmt: skip
     if "misalignment" in name:
         return units["_rad"]
     return next((unit for end, unit in units.items() if name.endswith(end)), (1.0, ""))
