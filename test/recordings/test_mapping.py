@@ -106,6 +106,18 @@ def test_what_is_wrong_is_named_with_what_is_near(
     assert words in refusal(log, tree)
 
 
+@pytest.mark.parametrize(("text", "key"), [
+    ("channels:\n  throttle: {from: A}\n  throttle: {from: B}\n", "channels.throttle"),
+    ("channels: {}\nchannels: {}\n", "channels"),
+    ("also:\n  - {file: a.csv, file: b.csv}\n", "also.1.file"),
+])  # fmt: skip
+def test_a_key_that_stands_there_twice_is_refused(log: Path, text: str, key: str) -> None:
+    path = log.parent / "map.yaml"
+    path.write_text(text)
+    with pytest.raises(InputError, match=f"map.yaml, key {key}: stands there twice"):
+        read_recording(log, mapping=path)
+
+
 def test_a_bad_cell_of_a_used_column_is_named_with_its_line(log: Path) -> None:
     log.write_text(log.read_text().replace("80.5,", "8o.5,"))
     assert "line 7: '8o.5'" in refusal(log, channels())

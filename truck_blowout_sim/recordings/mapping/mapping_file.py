@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 import os
+from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -41,13 +42,35 @@ def load_mapping(path: str | os.PathLike[str]) -> Rules:
     if len(data) > _LONGEST_FILE:
         raise InputError(f"has {len(data)} bytes", file=path, expected="a mapping file (YAML)")
     try:
-        tree = yaml.safe_load(data.decode("utf-8-sig"))
+        text = data.decode("utf-8-sig")
+        tree = yaml.safe_load(text)
+        doubled = _doubled_key(yaml.compose(text, Loader=yaml.SafeLoader), "", set())
     except NOT_YAML as error:
         mark = getattr(error, "problem_mark", None)
         where = f"line {mark.line + 1}" if mark else ""
         raise InputError("is not YAML", file=path, where=where,
                          expected="a mapping file (YAML)") from None  # fmt: skip
+    if doubled:
+        raise InputError("stands there twice", file=path, where=f"key {doubled}",
+                         expected="each key once")  # fmt: skip
     return replace(rules_from({} if tree is None else tree, path), file=path)
+
+
+def _doubled_key(node: yaml.Node | None, place: str, seen: set[int]) -> str:
+    """The first key that one table of a YAML file holds twice; empty if there is none."""
+    if id(node) in seen:
+        return ""  # an alias; it may hold itself
+    seen.add(id(node))
+    parts: list[tuple[str, yaml.Node]] = []
+    if isinstance(node, yaml.MappingNode):
+        parts = [(f"{place}.{key.value}".lstrip("."), value) for key, value in node.value]
+        count = Counter(name for name, _ in parts)
+        if twice := next((name for name, times in count.items() if times > 1), ""):
+            return twice
+    elif isinstance(node, yaml.SequenceNode):
+        parts = [(f"{place}.{at}", value) for at, value in enumerate(node.value, 1)]
+    found = (_doubled_key(value, name, seen) for name, value in parts)
+    return next((name for name in found if name), "")
 
 
 def rules_from(tree: object, file: Path | None = None) -> Rules:
