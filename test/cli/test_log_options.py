@@ -84,6 +84,23 @@ def test_a_mapping_applies_to_the_runs_that_it_fits(log: Path) -> None:
     assert theirs["tractor_vx_mps"].value[0] == pytest.approx(20.0)
 
 
+def test_a_mapping_applies_to_the_groups_that_it_fits(log: Path) -> None:
+    """A run alone in its group, beside runs in other groups, needs no mapping either."""
+    (ours,) = options(log).read_all([SHIPPED], among=2)
+    assert "read under its own names" in ours.notes[-1]
+    (theirs,) = options(log, "steer_left@0.5").read_all([log], among=2)
+    assert theirs.blowouts[0].time_s == 0.5
+
+
+def test_compare_maps_the_runs_that_the_mapping_fits(log: Path, tmp_path: Path,
+                                                     capsys: pytest.CaptureFixture[str]) -> None:
+    own = tmp_path / "own.csv"
+    assert main(["export", str(log), "-m", str(tmp_path / "map.yaml"), "-o", str(own)]) == 0
+    words = ["compare", str(own), str(log), "-m", str(tmp_path / "map.yaml"), "--step", "0.004"]
+    assert main([*words, "-o", str(tmp_path / "out")]) == 0
+    assert "does not fit" in capsys.readouterr().out
+
+
 def test_a_mapping_that_fits_no_run_is_an_error(log: Path) -> None:
     with pytest.raises(InputError, match="no column 'Wheel'"):
         options(log).read_all([SHIPPED])

@@ -63,7 +63,8 @@ def command(
     if output.suffix not in (".yaml", ".yml"):
         raise InputError("is no name of a vehicle file", file=output, expected="a name in .yaml")
     loaded = load_vehicle(vehicle)
-    runs, unseen = (logs.read_all(names, loaded) for names in (recordings, holdout))
+    among = len(recordings) + len(holdout)
+    runs, unseen = (logs.read_all(names, loaded, among) for names in (recordings, holdout))
     say_notes(*runs, *unseen)
     check_brakes(loaded, *runs, *unseen)
     ask_about(implausible_inputs([*runs, *unseen], loaded, impose_speed=impose_speed), yes)

@@ -90,7 +90,7 @@ def command(
             if no_model:
                 first, second = logs.read_all(recordings, loaded)
                 return compare_recordings(first, second, vehicle=loaded, progress=tell)
-            return compare(_read(name, logs, loaded), loaded, step_s=step_s,
+            return compare(_read(name, logs, loaded, len(recordings)), loaded, step_s=step_s,
                            impose_speed=impose_speed, contrasted=True, progress=tell,
                            ask=lambda problems: ask_about(problems, yes))
 
@@ -159,9 +159,9 @@ def _tell(console: Console, compared: Comparison, page: Path, as_json: bool) -> 
         _print(console, compared, page)
 
 
-def _read(name: str, logs: LogOptions, vehicle: Vehicle) -> str | Recording:
+def _read(name: str, logs: LogOptions, vehicle: Vehicle, among: int) -> str | Recording:
     """What to compare with: the name as it is, or the recording where options change it."""
-    return logs.read(name, vehicle) if logs.given else name
+    return logs.read_all([name], vehicle, among)[0] if logs.given else name
 
 
 def _folders(recordings: list[str], output: Path) -> list[Path]:

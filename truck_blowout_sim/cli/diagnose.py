@@ -94,8 +94,10 @@ def command(
 
     _claim(output, corrected, logs.inputs(*recordings, *baseline, *holdout), force)
     loaded = load_vehicle(vehicle)
-    train = logs.read_all(recordings, loaded)
-    base, hold = (logs.without_blowouts().read_all(runs, loaded) for runs in (baseline, holdout))
+    among = len(recordings) + len(baseline) + len(holdout)
+    train = logs.read_all(recordings, loaded, among)
+    base, hold = (logs.without_blowouts().read_all(runs, loaded, among)
+                  for runs in (baseline, holdout))  # fmt: skip
     _check(loaded, [*train, *base, *hold], impose_speed, yes)
     if not as_json:
         _say_roles(train, base, hold)

@@ -99,13 +99,14 @@ class LogOptions:
         )  # fmt: skip
 
     def read_all(
-        self, names: Sequence[str | PathLike[str]], vehicle: Vehicle | None = None
-    ) -> list[Recording]:
+        self, names: Sequence[str | PathLike[str]], vehicle: Vehicle | None = None,
+        among: int = 1,
+    ) -> list[Recording]:  # fmt: skip
         """Several recordings, each under a name of its own.
 
-        Where there are several, the mapping applies to those that it fits: one that names its
-        channels as the table does, as a bag of the simulator, is read without, and a note says
-        so. Blowouts apply to the recordings that mark none.
+        Where there are several, here or ``among`` all that a verb reads, the mapping applies to
+        those that it fits: one that names its channels as the table does, as a bag of the
+        simulator, is read without, and a note says so. Blowouts apply to the recordings that mark none.
 
         Raises:
             InputError: one cannot be read; or ``--also``, which is of one test, and several.
@@ -114,25 +115,30 @@ class LogOptions:
             raise InputError(f"--also with {len(names)} recordings",
                              expected="one recording; or a mapping file with `also`")  # fmt: skip
         if len(names) == 1:
-            return [self.read(names[0], vehicle)]
+            read = self.read if among == 1 else self._read_where_it_fits
+            return [read(names[0], vehicle)]
         return _apart([self._read_one_of_several(name, vehicle) for name in names], names)
 
     def _read_one_of_several(self, name: str | PathLike[str], vehicle: Vehicle | None) -> Recording:
-        plain = replace(self, blow=())
+        return self._marked(replace(self, blow=())._read_where_it_fits(name, vehicle), vehicle)
+
+    def _read_where_it_fits(
+        self, name: str | PathLike[str], vehicle: Vehicle | None = None
+    ) -> Recording:
+        """With the mapping, or else without it under its own names."""
         try:
-            read = plain.read(name, vehicle)
+            return self.read(name, vehicle)
         except InputError:
             if self.mapping is None:
                 raise
             try:
-                read = replace(plain, mapping=None).read(name, vehicle)
+                read = replace(self, mapping=None).read(name, vehicle)
             except InputError:
                 pass
             else:
                 note = f"read under its own names: {self.mapping} does not fit"
-                return self._marked(replace(read, notes=(*read.notes, note)), vehicle)
+                return replace(read, notes=(*read.notes, note))
             raise
-        return self._marked(read, vehicle)
 
     def _marked(self, recording: Recording, vehicle: Vehicle | None) -> Recording:
         if recording.blowouts or not self.blow:
