@@ -106,7 +106,8 @@ class LogOptions:
 
         Where there are several, here or ``among`` all that a verb reads, the mapping applies to
         those that it fits: one that names its channels as the table does, as a bag of the
-        simulator, is read without, and a note says so. Blowouts apply to the recordings that mark none.
+        simulator, is read without, and a note says so. Blowouts apply to the recordings that
+        mark none.
 
         Raises:
             InputError: one cannot be read; or ``--also``, which is of one test, and several.

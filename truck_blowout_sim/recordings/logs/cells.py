@@ -123,8 +123,8 @@ def _past_midnight(times: FloatArray) -> FloatArray:
 
 def _too_large(values: FloatArray, cells: Sequence[str]) -> int | None:
     """The row of the first number that no float holds, such as 1e999; `inf` says nothing."""
-    return next((int(i) for i in np.flatnonzero(np.isinf(values)) if not is_nothing(cells[i])),
-                None)  # fmt: skip
+    infinite = np.flatnonzero(np.isinf(values)).tolist()
+    return next((i for i in infinite if not is_nothing(cells[i])), None)
 
 
 def _first(wrong: NDArray[np.bool_]) -> int | None:

@@ -83,8 +83,9 @@ class Table:
 
 def no_column(log: Log, name: str) -> str:
     """Why a log has no such column of numbers, as words for an error."""
-    there = find_name(name, log.unread) if isinstance(log, Table) else None
-    return f"column {quoted(name)} {log.unread[there]}" if there else f"no column {quoted(name)}"
+    unread = log.unread if isinstance(log, Table) else {}
+    there = find_name(name, unread)
+    return f"column {quoted(name)} {unread[there]}" if there else f"no column {quoted(name)}"
 
 
 def find_name(name: str, names: Sequence[str] | Mapping[str, object]) -> str | None:
