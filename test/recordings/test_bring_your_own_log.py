@@ -70,6 +70,27 @@ def test_a_mapping_is_begun_from_names_units_and_sizes(
     assert all("# GUESS: " in line for line in guessed)
 
 
+def test_a_mapping_is_begun_for_all_files_of_a_test(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Columns of both files, each with its file, and times whose unit is stated nowhere."""
+    times, (a, b) = 0.01 * np.arange(200), (tmp_path / "a.csv", tmp_path / "b.csv")
+    rows = zip(times, 80.0 + times, np.sin(times), strict=True)
+    a.write_text("Time,Vx,Yaw\n" + "".join(f"{t:.2f},{v:.4f},{y:.4f}\n" for t, v, y in rows))
+    rows = zip(times, 30.0 * np.sin(times), times, strict=True)
+    b.write_text("Time,Steer_SW,Vx\n" + "".join(f"{t:.2f},{v:.4f},{y:.4f}\n" for t, v, y in rows))
+    begun = tmp_path / "begun.yaml"
+    assert main(["inspect", str(a), "--also", str(b), "--write-map", str(begun)]) == 0
+    assert re.search(r"Steer_SW .* steering_wheel_angle_rad \(guess\)", capsys.readouterr().out)
+    text = begun.read_text()
+    assert "time: {from: Time, unit: s}  # GUESS: its unit is not stated\nalso:\n" in text
+    assert "  - {file: b.csv, time: {from: Time, unit: s}}  # GUESS: its unit" in text
+    assert "steering_wheel_angle_rad: {from: Steer_SW, file: b.csv, unit: deg}" in text
+    read = read_recording(a, mapping=begun)
+    assert set(read.channels) == {"tractor_vx_mps", "tractor_yaw_rad", "steering_wheel_angle_rad"}
+    np.testing.assert_allclose(read["tractor_vx_mps"].value, (80.0 + times) / 3.6, atol=1e-4)
+
+
 def test_inspect_says_it_in_a_table_and_in_json(capsys: pytest.CaptureFixture[str]) -> None:
     mapping = str(LOGS / "vbox_steer_blowout.map.yaml")
     assert main(["inspect", str(LOGS / VBOX), "--map", mapping]) == 0

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 import numpy as np
@@ -61,8 +61,23 @@ class Line:
 
 
 @dataclass(frozen=True)
+class Further:
+    """A further file of the test.
+
+    Attributes:
+        file: as a mapping names it.
+        time_column, time_unit: where its rows have one time column; ``guessed``: no unit is stated.
+    """
+
+    file: str
+    time_column: str
+    time_unit: str
+    guessed: bool
+
+
+@dataclass(frozen=True)
 class Inventory:
-    """Everything that `inspect` says."""
+    """Everything that `inspect` says; ``time_guessed``: the time's unit is not stated."""
 
     file: str
     kind: str
@@ -77,6 +92,8 @@ class Inventory:
     blowouts: tuple[tuple[float, str], ...] = ()
     time_guess: tuple[str, str] | None = None
     gravity_removed: bool = False
+    time_guessed: bool = False
+    further: tuple[Further, ...] = ()
 
     @property
     def unused(self) -> tuple[str, ...]:
@@ -96,16 +113,18 @@ def inspect_log(
     Raises:
         InputError: it cannot be read.
     """
-    rules = load_mapping(mapping) if mapping else Rules()
+    rules, also = load_mapping(mapping) if mapping else Rules(), tuple(also)
     try:
         files = open_test(Path(path), rules, also=map(Path, also), namespace=namespace)
     except InputError as error:
         if mapping or "time column" not in error.problem:
             raise
         # a log is shown also where its time is not understood yet
-        files = [_without_time(Path(path), error)]
-    proposals = () if mapping else tuple(_proposals(files[0], wheels))
-    lines = [line for opened in files for line in _lines(opened, rules, proposals)]
+        files = [_without_time(Path(path), error), *(_without_time(Path(p)) for p in also)]
+    guesses = [[] for _ in files] if mapping else _proposals(files, wheels)
+    proposals = tuple(one for some in guesses for one in some)
+    lines = [line for opened, some in zip(files, guesses, strict=True)
+             for line in _lines(opened, rules, some)]  # fmt: skip
     main = files[0]
     span = _span(main)
     rows = main.rows
@@ -114,8 +133,23 @@ def inspect_log(
         str(path), main.log.kind, rows.column if rows else "", rows.unit if rows else "",
         *span, tuple(lines), proposals, tuple(n for f in files for n in f.notes), main.metadata,
         tuple((b.time_s, "+".join(b.tires)) for b in (*blowouts, *rules.blowouts)),
-        _time_guess(main) if rows is None else None, gravity_is_removed(main.log, proposals),
+        _time_guess(main) if rows is None else None,
+        any(gravity_is_removed(f.log, some) for f, some in zip(files, guesses, strict=True)),
+        rows is not None and rows.guessed, tuple(_further(main, f) for f in files[1:]),
     )  # fmt: skip
+
+
+def _further(main: Opened, opened: Opened) -> Further:
+    column, unit = (opened.rows.column, opened.rows.unit) if opened.rows else (
+        _time_guess(opened) or ("", ""))  # fmt: skip
+    return Further(_name_in_mapping(main, opened), column, unit,
+                   opened.rows is None or opened.rows.guessed)  # fmt: skip
+
+
+def _name_in_mapping(main: Opened, opened: Opened) -> str:
+    """A file's name, as a mapping finds files beside the log; elsewhere the whole path."""
+    beside = opened.path.resolve().parent == main.path.resolve().parent
+    return opened.path.name if beside else str(opened.path.resolve())
 
 
 def _time_guess(opened: Opened) -> tuple[str, str] | None:
@@ -127,19 +161,37 @@ def _time_guess(opened: Opened) -> tuple[str, str] | None:
     return (column, "ms") if column else None
 
 
-def _without_time(path: Path, error: InputError) -> Opened:
+def _without_time(path: Path, error: InputError | None = None) -> Opened:
     log = open_log(path)
-    return Opened(path, "", log, notes=[f"{error.problem}; expected {error.expected}", *log.notes])
+    said = [f"{error.problem}; expected {error.expected}"] if error else []
+    return Opened(path, "", log, notes=[*said, *log.notes])
 
 
-def _proposals(opened: Opened, wheels: Wheels | None) -> list[Proposal]:
-    taken = opened.native.channels if opened.native else {}
-    own = {opened.rows.column} if opened.rows else set()
-    return [p for p in propose(opened.log, taken, wheels)
-            if p.column not in opened.native_columns | own]  # fmt: skip
+def _proposals(files: list[Opened], wheels: Wheels | None) -> list[list[Proposal]]:
+    """Guesses for each file; a channel that several have is taken from the first."""
+    taken: dict[str, object] = {}
+    for opened in files:
+        taken |= opened.native.channels if opened.native else {}
+    found = []
+    for opened in files:
+        own = {opened.rows.column} if opened.rows else set()
+        others = [f for f in files if f is not opened]
+        some = [replace(p, file=_file_of(p.column, files[0], opened, others))
+                for p in propose(opened.log, taken, wheels)
+                if p.column not in opened.native_columns | own]  # fmt: skip
+        taken |= {p.channel: p for p in some}
+        found.append(some)
+    return found
 
 
-def _lines(opened: Opened, rules: Rules, proposals: tuple[Proposal, ...]) -> list[Line]:
+def _file_of(column: str, main: Opened, opened: Opened, others: list[Opened]) -> str:
+    """The file that a mapping must name: a further one, or one of several with this column."""
+    if opened is main and not any(other.log.find(column) for other in others):
+        return ""
+    return _name_in_mapping(main, opened)
+
+
+def _lines(opened: Opened, rules: Rules, proposals: Iterable[Proposal]) -> list[Line]:
     guessed = {proposal.column: proposal.channel for proposal in proposals}
     mapped = _mapped(opened, rules)
     own = opened.rows.column if opened.rows else ""

@@ -54,6 +54,7 @@ class Proposal:
         unit: empty where the log states it.
         sign, offset, radius_m: as in a mapping file.
         why: what each part was guessed from.
+        file: of several, the one that the column is in, as a mapping names it; empty: any.
     """
 
     column: str
@@ -63,6 +64,7 @@ class Proposal:
     offset: float = 0.0
     why: tuple[str, ...] = ()
     radius_m: float = 0.0
+    file: str = ""
 
 
 @dataclass(frozen=True)
@@ -116,17 +118,17 @@ def propose(log: Log, taken: Mapping[str, object] | None = None, wheels: Wheels 
         if channel.name not in best or rank > best[channel.name][0]:
             best[channel.name] = (rank, found, column)
     order = {name: k for k, name in enumerate(table)}
-    picked = sorted((best[name] for name in _of_one_kind(best)), key=lambda e: order[e[1].channel])
+    picked = [best[name] for name in sorted(_of_one_kind(best, taken or {}), key=order.__getitem__)]
     signed = _with_signs([(proposal, column) for _, proposal, column in picked])
     return [_west_positive(one) for one in signed] if log.kind == VBO_KIND else signed
 
 
-def _of_one_kind(found: Collection[str]) -> list[str]:
+def _of_one_kind(found: Collection[str], taken: Collection[str]) -> list[str]:
     """Names without half positions, and without latitudes where there are positions in meters."""
     kept = list(found)
     for unit in UNITS:
         globe = [f"{unit}_{stem}" for stem in ("latitude_rad", "longitude_rad", "altitude_m")]
-        plane = {f"{unit}_x_m", f"{unit}_y_m"} & set(found)
+        plane = {f"{unit}_x_m", f"{unit}_y_m"} & {*found, *taken}
         if plane or not set(globe[:2]) <= set(found):
             kept = [name for name in kept if name not in globe]
     return kept

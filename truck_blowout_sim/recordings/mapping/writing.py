@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import json
 
-from truck_blowout_sim.recordings.mapping.inventory import Inventory
+from truck_blowout_sim.recordings.mapping.inventory import Further, Inventory
 from truck_blowout_sim.recordings.mapping.proposing import Proposal
 
 _YAML_WORDS = ("y", "n", "yes", "no", "on", "off", "true", "false", "null")
@@ -18,6 +18,7 @@ _HEAD = """\
 # value = sign * (number + offset), then converted from `unit` to SI.
 # Axes: x forward, y left, z up; yaw, yaw rate and hand wheel to the left are positive.
 """
+_UNSTATED = "  # GUESS: its unit is not stated"
 _NOTHING = "  # {}: nothing was recognized; e.g. tractor_vx_mps: {{from: COLUMN, unit: km/h}}\n"
 _GRAVITY_REMOVED = ("metadata: {accelerometers: gravity removed}"
                     "  # GUESS: the vertical acceleration is 0 in the mean\n")
@@ -38,8 +39,9 @@ def mapping_text(inventory: Inventory) -> str:
         column, unit = inventory.time_guess
         out.append(f"time: {{from: {_text(column)}, unit: {unit}}}  # GUESS: from the steps\n")
     elif inventory.time_column:
-        unit = "" if inventory.time_unit == "clock" else f", unit: {inventory.time_unit or 's'}"
-        out.append(f"time: {{from: {_text(inventory.time_column)}{unit}}}\n")
+        words = _time(inventory.time_column, inventory.time_unit)
+        out.append(f"time: {words}{_UNSTATED if inventory.time_guessed else ''}\n")
+    out += ["also:\n"] * bool(inventory.further) + [_also(one) for one in inventory.further]
     out.append("channels:" + ("\n" if inventory.proposals else " {}\n"))
     out += [_entry(proposal) for proposal in inventory.proposals]
     if not inventory.proposals:
@@ -55,8 +57,21 @@ def mapping_text(inventory: Inventory) -> str:
     return "".join(out)
 
 
+def _time(column: str, unit: str) -> str:
+    stated = "" if unit == "clock" else f", unit: {unit or 's'}"
+    return f"{{from: {_text(column)}{stated}}}"
+
+
+def _also(further: Further) -> str:
+    time = f", time: {_time(further.time_column, further.time_unit)}" * bool(further.time_column)
+    guess = _UNSTATED if further.time_column and further.guessed else ""
+    return f"  - {{file: {_text(further.file)}{time}}}{guess}\n"
+
+
 def _entry(proposal: Proposal) -> str:
     parts = [f"from: {_text(proposal.column)}"]
+    if proposal.file:
+        parts.append(f"file: {_text(proposal.file)}")
     if proposal.unit:
         parts.append(f"unit: {_text(proposal.unit)}")
     if proposal.sign != 1.0:
