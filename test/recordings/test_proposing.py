@@ -53,6 +53,8 @@ def test_names(name: str, channel: str) -> None:
     ([1.0, 0.98], "tractor_az_mps2", "acceleration", "g"),
     ([9.8], "tractor_az_mps2", "acceleration", "m/s2"),
     ([8.0], "tire_pressure_steer_left_pa", "pressure", "bar"),
+    ([2.42], "brake_pressure_pa", "pressure", "bar"),
+    ([0.8], "brake_pressure_pa", "pressure", "MPa"), ([6.5], "tractor_yaw_rad", "angle", "deg"),
     ([110.0], "tire_pressure_steer_left_pa", "pressure", "psi"),
     ([758.0], "tire_pressure_steer_left_pa", "pressure", "kPa"),
     ([758e3], "tire_pressure_steer_left_pa", "pressure", "Pa"),
@@ -69,6 +71,25 @@ def test_a_unit_in_the_name_goes_before_the_size(name: str, unit: str) -> None:
     column = Column(np.array([-30.0, 30.0]))
     (found,) = propose(Table(Path("log"), "bag (MCAP)", {name: column}))
     assert found.unit == unit
+
+
+@pytest.mark.parametrize(("amount", "factors", "units"), [
+    (0.3, {}, ["rad", "m/s", "rad/s", "m/s2"]),
+    (0.05, {"yaw": 57.3, "AVz": 57.3}, ["deg", "m/s", "deg/s", "m/s2"]),
+    (0.01, {"yaw": 57.3, "AVz": 57.3}, ["deg", "m/s", "deg/s", "m/s2"]),
+    (0.01, {"Vx": 3.6}, ["rad", "km/h", "rad/s", "m/s2"]),
+    (0.04, {"Vx": 3.6, "Ay": 1 / 9.81, "AVz": 57.3, "yaw": 57.3}, ["deg", "km/h", "deg/s", "g"]),
+])  # fmt: skip
+def test_small_numbers_get_the_units_in_which_they_agree(
+    amount: float, factors: dict[str, float], units: list[str]
+) -> None:
+    """Lateral acceleration, speed and yaw rate tell each other's units; so do heading and rate."""
+    times = 0.01 * np.arange(1000)
+    rate, speed = amount * np.sin(times), np.full(times.size, 20.0)
+    drive = {"yaw": amount * (1.0 - np.cos(times)), "Vx": speed, "AVz": rate, "Ay": speed * rate}
+    columns = {name: Column(factors.get(name, 1.0) * values) for name, values in drive.items()}
+    found = propose(Table(Path("log"), "text", columns), time_s=times)
+    assert [proposal.unit for proposal in found] == units
 
 
 @pytest.mark.parametrize(("upward_g", "sign", "removed"), [

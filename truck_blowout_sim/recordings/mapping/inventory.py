@@ -174,10 +174,11 @@ def _proposals(files: list[Opened], wheels: Wheels | None) -> list[list[Proposal
         taken |= opened.native.channels if opened.native else {}
     found = []
     for opened in files:
-        own = {opened.rows.column} if opened.rows else set()
+        rows = opened.rows
+        own = {rows.column} if rows else set()
         others = [f for f in files if f is not opened]
         some = [replace(p, file=_file_of(p.column, files[0], opened, others))
-                for p in propose(opened.log, taken, wheels)
+                for p in propose(opened.log, taken, wheels, rows.time_s if rows else None)
                 if p.column not in opened.native_columns | own]  # fmt: skip
         taken |= {p.channel: p for p in some}
         found.append(some)

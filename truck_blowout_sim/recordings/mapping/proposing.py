@@ -7,6 +7,7 @@ Validated with: test/recordings/test_proposing.py, test/recordings/test_bring_yo
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass, replace
@@ -24,6 +25,7 @@ from truck_blowout_sim.recordings.channels import (
 )
 from truck_blowout_sim.recordings.logs.log import Column, Log
 from truck_blowout_sim.recordings.logs.vbo_log import KIND as VBO_KIND
+from truck_blowout_sim.recordings.mapping.agreeing import BY_SIZE, Guesses
 from truck_blowout_sim.recordings.mapping.plausible import most_of
 from truck_blowout_sim.recordings.mapping.stand_ins import stand_ins
 from truck_blowout_sim.recordings.mapping.vocabulary import channel_hinted
@@ -94,14 +96,15 @@ class Wheels:
         return self.radius_m[self.hubs.index(hub)]
 
 
-def propose(log: Log, taken: Mapping[str, object] | None = None, wheels: Wheels | None = None
-            ) -> list[Proposal]:
+def propose(log: Log, taken: Mapping[str, object] | None = None, wheels: Wheels | None = None,
+            time_s: FloatArray | None = None) -> list[Proposal]:  # fmt: skip
     """Guess which column is which channel; each channel once, the fullest column first.
 
     Args:
         log: the columns.
         taken: channels that are there already.
         wheels: of the vehicle; None: the default truck's.
+        time_s: of the log's rows, where they have one time column.
     """
     wheels = wheels or Wheels()
     table = by_name((*channels_for(wheels.hubs), *stand_ins()))
@@ -119,7 +122,8 @@ def propose(log: Log, taken: Mapping[str, object] | None = None, wheels: Wheels 
             best[channel.name] = (rank, found, column)
     order = {name: k for k, name in enumerate(table)}
     picked = [best[name] for name in sorted(_of_one_kind(best, taken or {}), key=order.__getitem__)]
-    signed = _with_signs([(proposal, column) for _, proposal, column in picked])
+    pairs = Guesses([(proposal, column) for _, proposal, column in picked], time_s).agreed()
+    signed = _with_signs(pairs)
     return [_west_positive(one) for one in signed] if log.kind == VBO_KIND else signed
 
 
@@ -145,7 +149,8 @@ def unit_by_size(numbers: FloatArray, channel: str, quantity: str) -> str:
             return "g" if abs(middle - 1.0) < abs(middle - GRAVITY_MPS2) else "m/s2"
         return "g" if high < 1.0 else "m/s2"
     if quantity == "pressure":
-        limits = ((2.5, "MPa"), (16.0, "bar"), (250.0, "psi"), (2500.0, "kPa"))
+        # 1.2 to 2.5 MPa: above air brakes and truck tires, so bar, as of a car's tires
+        limits = ((1.2, "MPa"), (16.0, "bar"), (250.0, "psi"), (2500.0, "kPa"))
         return next((name for most, name in limits if high < most), "Pa")
     if quantity == "ratio":
         return "%" if high > (most_of(channel) or 1.05) else "1"
@@ -160,7 +165,7 @@ def _angle_limit(channel: str) -> float:
     """Beyond this an angle is in degrees: a lean below half a radian, a hand wheel of 2 turns."""
     if "roll" in channel or "pitch" in channel:
         return 0.5
-    return 12.0 if channel.startswith("steering") else 7.0
+    return 12.0 if channel.startswith("steering") else 2.0 * math.pi
 
 
 def _of_column(name: str, column: Column, channel: Channel, wheels: Wheels) -> Proposal | None:
@@ -180,7 +185,7 @@ def _of_column(name: str, column: Column, channel: Channel, wheels: Wheels) -> P
         if in_name is not None and in_name.quantity != quantity:
             return None
         unit = in_name.name if in_name else unit_by_size(told, channel.name, quantity)
-        why.append(f"unit from {'the name' if in_name else 'the size of the numbers'}")
+        why.append("unit from the name" if in_name else BY_SIZE)
     return Proposal(name, channel.name, unit, why=tuple(why))
 
 
