@@ -18,7 +18,10 @@ from truck_blowout_sim.recordings import Blowout, Recording, Series, read_record
 from truck_blowout_sim.recordings.mapping import load_mapping
 from truck_blowout_sim.recordings.mapping.consistency import contradictions
 from truck_blowout_sim.recordings.mapping.finish import at_base_link, with_local_origin
+from truck_blowout_sim.recordings.mapping.odd_sizes import odd_sizes
+from truck_blowout_sim.recordings.mapping.plausible import reads_like
 from truck_blowout_sim.recordings.mapping.rules import Mount
+from truck_blowout_sim.recordings.units import find_unit
 
 IN_TMP = settings(suppress_health_check=[HealthCheck.function_scoped_fixture], max_examples=60)
 N = 101
@@ -240,6 +243,11 @@ def test_coordinates_of_the_earth_get_a_local_origin(tmp_path: Path) -> None:
     ({"tractor_yaw_rate_radps": math.pi / 180}, ("yaw_rate_radps is 0.0175 times", "for deg")),
     ({"tractor_vx_mps": 1 / 3.6}, ("m/s taken for km/h",)),
     ({"tractor_ay_mps2": 1 / 9.80665}, ("g taken for m/s2",)),
+    ({"tractor_yaw_rad": 57.3}, ("the heading reads like deg taken for rad",)),
+    ({"tractor_yaw_rate_radps": 57.3}, ("the yaw rate reads like deg/s taken for rad/s",
+                                        "times what the turning of its path says")),
+    ({"tractor_x_m": 1 / 0.3048, "tractor_y_m": 1 / 0.3048}, ("position reads like ft taken",)),
+    ({"tractor_x_m": 1e-3, "tractor_y_m": 1e-3}, ("position reads like km taken for m",)),
     ({"tractor_az_mps2": 0.01}, ("accelerometers: gravity removed",)),
     ({"tractor_az_mps2": -1.0}, ("tractor_az_mps2 is -1 times what gravity says",)),
 ])  # fmt: skip
@@ -259,6 +267,32 @@ def test_a_wrong_unit_shows_against_the_other_channels(
     said = " | ".join(contradictions(drive))
     assert all(word in said for word in words)
     assert bool(said) == bool(words)
+
+
+@pytest.mark.parametrize(("name", "value", "words"), [
+    ("tire_pressure_steer_left_pa", 110.0, "is 110 Pa: reads like psi taken for Pa"),
+    ("tire_pressure_steer_left_pa", 7.58e3, "reads like bar taken for kPa"),
+    ("tire_pressure_steer_left_pa", 7.58e5, ""), ("tire_pressure_steer_left_pa", 0.0, ""),
+    ("brake_pressure_steer_pa", 2.4, "is 2.4 Pa: reads like bar taken for Pa"),
+    ("brake_pressure_steer_pa", 0.0, ""), ("hub_speed_steer_left_radps", 41.0, ""),
+    ("hub_speed_steer_left_radps", 72.0, "wheel of 0.278 m: reads like km/h taken for rad/s"),
+    ("hub_speed_steer_left_radps", 382.0, "rpm taken for rad/s"),
+    ("tractor_yaw_rate_radps", 1.5, "reaches 30 m/s2, more than tires hold: reads like deg/s"),
+    ("tractor_yaw_rate_radps", 0.3, ""),
+])  # fmt: skip
+def test_an_odd_size_is_named_with_the_unit_behind_it(name: str, value: float, words: str) -> None:
+    time_s = np.arange(0, 5, 0.1)
+    both = {"tractor_vx_mps": np.full(time_s.size, 20.0), name: np.full(time_s.size, value)}
+    drive = Recording("drive", {n: Series(time_s, v) for n, v in both.items()})
+    said = " | ".join(odd_sizes(drive))
+    assert words in said
+    assert bool(said) == bool(words)
+
+
+def test_tire_pressures_in_psi_are_not_said_to_be_kpa() -> None:
+    bar = find_unit("bar")
+    assert bar is not None
+    assert reads_like(np.full(9, 110.0), "pressure", "tire_pressure_steer_left_pa", bar) == "psi"
 
 
 @IN_TMP

@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 
 from truck_blowout_sim.recordings.logs.log import Column, Table
+from truck_blowout_sim.recordings.mapping.plausible import unit_by_size
 from truck_blowout_sim.recordings.mapping.proposing import (
     Wheels,
     gravity_is_removed,
     propose,
-    unit_by_size,
 )
 from truck_blowout_sim.recordings.mapping.vocabulary import channel_hinted
 

@@ -21,6 +21,7 @@ from truck_blowout_sim.recordings.mapping.finish import (
     without_excluded,
     without_planar_zeros,
 )
+from truck_blowout_sim.recordings.mapping.odd_sizes import odd_sizes
 from truck_blowout_sim.recordings.recording import Blowout, Recording
 from truck_blowout_sim.recordings.topic_names import channels_on
 
@@ -76,7 +77,7 @@ def read_recording(
                          expected=f"a mapping with channels ({BEGIN_MAPPING})")  # fmt: skip
     read = without_planar_zeros(without_excluded(read, rules), _foreign(files, rules, read))
     read = with_local_origin(at_base_link(read, rules.sensors))
-    read = replace(read, notes=(*read.notes, *contradictions(read)))
+    read = replace(read, notes=(*read.notes, *contradictions(read), *odd_sizes(read)))
     stated = with_blowouts(read, rules.blowouts, tires=tires, hubs=hubs, file=rules.file or path)
     return with_blowouts(stated, blow, tires=tires, hubs=hubs)
 

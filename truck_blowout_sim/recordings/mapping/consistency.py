@@ -25,20 +25,40 @@ from truck_blowout_sim.recordings.units import GRAVITY_MPS2
 
 FloatArray = NDArray[np.float64]
 
-# ratio of the number to what it should be, and what that means
-_MISTAKES = (
-    (180.0 / math.pi, "reads like deg taken for rad"),
-    (math.pi / 180.0, "reads like rad taken for deg"),
-    (3.6, "reads like km/h taken for m/s"),
-    (1 / 3.6, "reads like m/s taken for km/h"),
-    (3600.0 / 1609.344, "reads like mph taken for m/s"),
-    (1609.344 / 3600.0, "reads like m/s taken for mph"),
-    (GRAVITY_MPS2, "reads like m/s2 taken for g"),
-    (1 / GRAVITY_MPS2, "reads like g taken for m/s2"),
-    (-1.0, "reads like the opposite sign"),
-)
-_GRAVITY, _WEIGHTLESS = "gravity", 0.05  # below 1/9.8, which is another unit
+_DEG = 180.0 / math.pi
+_FOOT_M, _MPH = 0.3048, 3600.0 / 1609.344
+_HEADING, _PLACE, _TURN, _GRAVITY = "yaw_rad", "its position", "speed times yaw rate", "gravity"
+_PATH = "the turning of its path"
+# what a channel is held against: ratio of its number to what that says, and what the ratio means
+_MISTAKES: dict[str, tuple[tuple[float, str], ...]] = {
+    _HEADING: ((_DEG, "reads like deg taken for rad"), (1 / _DEG, "reads like rad taken for deg")),
+    _PATH: ((_DEG, "reads like deg/s taken for rad/s"), (1 / _DEG, "reads like rad/s taken for"
+                                                                   " deg/s")),
+    _PLACE: (
+        (3.6, "reads like km/h taken for m/s"), (1 / 3.6, "reads like m/s taken for km/h"),
+        (_MPH, "reads like mph taken for m/s"), (1 / _MPH, "reads like m/s taken for mph"),
+        (_FOOT_M, "the position reads like ft taken for m"),
+        (1 / _FOOT_M, "the position reads like m taken for ft"),
+        (1e3, "the position reads like km taken for m"),
+        (1e-3, "the position reads like m taken for km"),
+    ),
+    _TURN: (
+        (GRAVITY_MPS2, "reads like m/s2 taken for g"),
+        (1 / GRAVITY_MPS2, "reads like g taken for m/s2"),
+        (1 / _DEG, "the yaw rate reads like deg/s taken for rad/s"),
+        (_DEG, "the yaw rate reads like rad/s taken for deg/s"),
+        (1 / 3.6, "the speed reads like km/h taken for m/s"),
+        (3.6, "the speed reads like m/s taken for km/h"),
+    ),
+    _GRAVITY: ((GRAVITY_MPS2, "reads like m/s2 taken for g"),
+               (1 / GRAVITY_MPS2, "reads like g taken for m/s2")),
+}  # fmt: skip
+_OPPOSITE = (-1.0, "reads like the opposite sign")
+_WRONG_HEADING = "the heading reads like deg taken for rad"
+_WEIGHTLESS = 0.05  # of gravity: below 1/9.8, which is another unit
 _CLOSE = 0.12
+_TURN_CLOSE = 0.25  # a body that rolls adds gravity to its lateral acceleration
+_FAR_OFF = 20.0  # a turning path is noisy, and tells only its sign and a factor of 57
 _ALIKE = 0.8  # correlation below which two channels say nothing about each other
 _STEP_S = 0.1
 _FEWEST = 20
@@ -48,14 +68,29 @@ _MOVING_MPS = 3.0
 def contradictions(recording: Recording) -> tuple[str, ...]:
     """Notes on channels that contradict another by the ratio of two units, or by sign."""
     notes = []
-    for name, other, ratio in _ratios(recording):
+    ratios = list(_ratios(recording))
+    sound = {name.partition("_")[0] for name, other, ratio in ratios
+             if other == _TURN and abs(ratio - 1.0) < _TURN_CLOSE}  # fmt: skip
+    for name, other, ratio in ratios:
         if other == _GRAVITY and abs(ratio) < _WEIGHTLESS:
             notes.append(f"{name} is {ratio:.2g} times gravity: reads like accelerations without"
                          " it; if so, map metadata: {accelerometers: gravity removed}")
-        for mistake, words in _MISTAKES:
-            if abs(ratio / mistake - 1.0) < _CLOSE:
-                notes.append(f"{name} is {ratio:.3g} times what {other} says: {words}")
+        words = _meaning(other, ratio)
+        if other == _HEADING and ratio * _DEG < 2.0 and name.partition("_")[0] in sound:
+            words = words and _WRONG_HEADING  # the rate agrees with the lateral acceleration
+        if words:
+            notes.append(f"{name} is {ratio:.3g} times what {other} says: {words}")
     return tuple(notes)
+
+
+def _meaning(other: str, ratio: float) -> str:
+    """The mistake nearest to a ratio; empty if none is near."""
+    if ratio == 0.0:
+        return ""
+    misses = [(abs(ratio / mistake - 1.0), words) for mistake, words in
+              (*_MISTAKES[other], _OPPOSITE)]  # fmt: skip
+    miss, words = min(misses)
+    return words if miss < (_TURN_CLOSE if other == _TURN else _CLOSE) else ""
 
 
 def _ratios(recording: Recording) -> Iterator[tuple[str, str, float]]:
@@ -68,16 +103,16 @@ def _ratios(recording: Recording) -> Iterator[tuple[str, str, float]]:
                 if f"{unit}_{stem}" in recording}  # fmt: skip
         rate, speed = have.get("yaw_rate_radps"), have.get("vx_mps")
         if rate is not None and "yaw_rad" in have:
-            yield from _pair(unit, "yaw_rate_radps", "yaw_rad", rate,
+            yield from _pair(unit, "yaw_rate_radps", _HEADING, rate,
                              np.gradient(have["yaw_rad"], times))  # fmt: skip
         if speed is not None and {"x_m", "y_m"} <= have.keys():
             moved = np.hypot(np.gradient(have["x_m"], times), np.gradient(have["y_m"], times))
-            yield from _mean_pair(unit, "vx_mps", "its position", speed, moved)
+            yield from _mean_pair(unit, "vx_mps", _PLACE, speed, moved)
             if rate is not None and np.nanmin(moved) > _MOVING_MPS:
-                yield from _sign(unit, "yaw_rate_radps", "the turning of its path", rate,
+                yield from _sign(unit, "yaw_rate_radps", _PATH, rate,
                                  _path_rate(have["x_m"], have["y_m"], times))  # fmt: skip
         if "ay_mps2" in have and rate is not None and speed is not None:
-            yield from _pair(unit, "ay_mps2", "speed times yaw rate", have["ay_mps2"], speed * rate)
+            yield from _pair(unit, "ay_mps2", _TURN, have["ay_mps2"], speed * rate)
         up = f"{unit}_az_mps2"
         if up in recording and "removed" not in recording.metadata.get("accelerometers", ""):
             yield up, _GRAVITY, float(np.median(recording[up].value)) / GRAVITY_MPS2
@@ -101,17 +136,19 @@ def _path_rate(x_m: FloatArray, y_m: FloatArray, times: FloatArray) -> FloatArra
 
 def _sign(unit: str, stem: str, other: str, one: FloatArray, reference: FloatArray
           ) -> Iterator[tuple[str, str, float]]:  # fmt: skip
-    """1 or -1 where the two go together over a second; noise of positions spoils more than that."""
+    """1 or -1 where the two go together over a second; the ratio itself only if it is far off."""
     second = np.full(round(1.0 / _STEP_S), _STEP_S)
     a, b = (np.convolve(values, second, mode="valid") for values in (one, reference))
     if a.size >= _FEWEST and np.std(a) > 0.0 and np.std(b) > 0.0:
         together = float(np.corrcoef(a, b)[0, 1])
         if abs(together) > _ALIKE:
-            yield f"{unit}_{stem}", other, math.copysign(1.0, together)
+            slope = abs(float(np.sum(a * b) / np.sum(b * b)))
+            size = slope if max(slope, 1.0 / slope) > _FAR_OFF else 1.0
+            yield f"{unit}_{stem}", other, math.copysign(size, together)
 
 
 def _mean_pair(unit: str, stem: str, other: str, one: FloatArray, reference: FloatArray
                ) -> Iterator[tuple[str, str, float]]:  # fmt: skip
-    there = np.isfinite(one) & np.isfinite(reference) & (reference > _MOVING_MPS)
+    there = np.isfinite(one) & (reference > 0.0) & (np.maximum(one, reference) > _MOVING_MPS)
     if np.count_nonzero(there) >= _FEWEST:
         yield f"{unit}_{stem}", other, float(np.median(one[there] / reference[there]))

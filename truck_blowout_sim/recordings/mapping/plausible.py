@@ -9,13 +9,14 @@ Validated with: test/recordings/test_mapping.py.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 
 import numpy as np
 from numpy.typing import NDArray
 
 from truck_blowout_sim.recordings.channels import Channel
-from truck_blowout_sim.recordings.units import Unit, find_unit, units_of
+from truck_blowout_sim.recordings.units import GRAVITY_MPS2, Unit, find_unit, units_of
 
 FloatArray = NDArray[np.float64]
 
@@ -75,6 +76,36 @@ def most_of(name: str) -> float | None:
     return next((most for start, most in _MOST.items() if name.startswith(start)), None)
 
 
+def unit_by_size(numbers: FloatArray, channel: str, quantity: str) -> str:
+    """The unit of a quantity under which the numbers are those of an ordinary drive."""
+    told = np.abs(numbers[np.isfinite(numbers)])
+    if not told.size:
+        return ""
+    high, middle = float(np.percentile(told, 99.0)), float(np.median(told))
+    if quantity == "acceleration":
+        if channel.endswith("az_mps2"):
+            return "g" if abs(middle - 1.0) < abs(middle - GRAVITY_MPS2) else "m/s2"
+        return "g" if high < 1.0 else "m/s2"
+    if quantity == "pressure":
+        # 1.2 to 2.5 MPa: above air brakes and truck tires, so bar, as of a car's tires
+        limits = ((1.2, "MPa"), (16.0, "bar"), (250.0, "psi"), (2500.0, "kPa"))
+        return next((name for most, name in limits if high < most), "Pa")
+    if quantity == "ratio":
+        return "%" if high > (most_of(channel) or 1.05) else "1"
+    if channel.endswith(("latitude_rad", "longitude_rad")):
+        return "deg" if high <= 180.0 else "arcmin"
+    limits_by = {"speed": 45.0, "angular rate": 1.2, "angle": _angle_limit(channel)}
+    si, other = units_of(quantity)[:2]
+    return other if high > limits_by.get(quantity, np.inf) else si
+
+
+def _angle_limit(channel: str) -> float:
+    """Beyond this an angle is in degrees: a lean below half a radian, a hand wheel of 2 turns."""
+    if "roll" in channel or "pitch" in channel:
+        return 0.5
+    return 12.0 if channel.startswith("steering") else 2.0 * math.pi
+
+
 def reads_like(numbers: FloatArray, quantity: str, channel: str, stated: Unit) -> str:
     """Unit under which these numbers, as they stand in the log, would be an ordinary drive's.
 
@@ -92,7 +123,9 @@ def reads_like(numbers: FloatArray, quantity: str, channel: str, stated: Unit) -
     if quantity == "angle" and ("roll" in channel or "pitch" in channel):
         high = 1.0
     largest = float(np.percentile(np.abs(numbers), 99.0)) if numbers.size else 0.0
-    for name in units_of(quantity):
+    # of pressures most units fit somehow: the usual one of numbers of this size first
+    first = [unit_by_size(numbers, channel, quantity)] if quantity == "pressure" else []
+    for name in (*first, *units_of(quantity)):
         unit = find_unit(name)
         if unit is None or unit.name == stated.name or "absolute" in name:
             continue

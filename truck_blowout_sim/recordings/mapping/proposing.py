@@ -7,7 +7,6 @@ Validated with: test/recordings/test_proposing.py, test/recordings/test_bring_yo
 
 from __future__ import annotations
 
-import math
 import re
 from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass, replace
@@ -26,7 +25,7 @@ from truck_blowout_sim.recordings.channels import (
 from truck_blowout_sim.recordings.logs.log import Column, Log
 from truck_blowout_sim.recordings.logs.vbo_log import KIND as VBO_KIND
 from truck_blowout_sim.recordings.mapping.agreeing import BY_SIZE, Guesses
-from truck_blowout_sim.recordings.mapping.plausible import most_of
+from truck_blowout_sim.recordings.mapping.plausible import unit_by_size
 from truck_blowout_sim.recordings.mapping.stand_ins import stand_ins
 from truck_blowout_sim.recordings.mapping.vocabulary import channel_hinted
 from truck_blowout_sim.recordings.units import (
@@ -34,7 +33,6 @@ from truck_blowout_sim.recordings.units import (
     SI_QUANTITIES,
     Unit,
     find_unit,
-    units_of,
 )
 
 FloatArray = NDArray[np.float64]
@@ -136,36 +134,6 @@ def _of_one_kind(found: Collection[str], taken: Collection[str]) -> list[str]:
         if plane or not set(globe[:2]) <= set(found):
             kept = [name for name in kept if name not in globe]
     return kept
-
-
-def unit_by_size(numbers: FloatArray, channel: str, quantity: str) -> str:
-    """The unit of a quantity under which the numbers are those of an ordinary drive."""
-    told = np.abs(numbers[np.isfinite(numbers)])
-    if not told.size:
-        return ""
-    high, middle = float(np.percentile(told, 99.0)), float(np.median(told))
-    if quantity == "acceleration":
-        if channel.endswith("az_mps2"):
-            return "g" if abs(middle - 1.0) < abs(middle - GRAVITY_MPS2) else "m/s2"
-        return "g" if high < 1.0 else "m/s2"
-    if quantity == "pressure":
-        # 1.2 to 2.5 MPa: above air brakes and truck tires, so bar, as of a car's tires
-        limits = ((1.2, "MPa"), (16.0, "bar"), (250.0, "psi"), (2500.0, "kPa"))
-        return next((name for most, name in limits if high < most), "Pa")
-    if quantity == "ratio":
-        return "%" if high > (most_of(channel) or 1.05) else "1"
-    if channel.endswith(("latitude_rad", "longitude_rad")):
-        return "deg" if high <= 180.0 else "arcmin"
-    limits_by = {"speed": 45.0, "angular rate": 1.2, "angle": _angle_limit(channel)}
-    si, other = units_of(quantity)[:2]
-    return other if high > limits_by.get(quantity, np.inf) else si
-
-
-def _angle_limit(channel: str) -> float:
-    """Beyond this an angle is in degrees: a lean below half a radian, a hand wheel of 2 turns."""
-    if "roll" in channel or "pitch" in channel:
-        return 0.5
-    return 12.0 if channel.startswith("steering") else 2.0 * math.pi
 
 
 def _of_column(name: str, column: Column, channel: Channel, wheels: Wheels) -> Proposal | None:
