@@ -94,10 +94,7 @@ def command(
 
     _claim(output, corrected, logs.inputs(*recordings, *baseline, *holdout), force)
     loaded = load_vehicle(vehicle)
-    among = len(recordings) + len(baseline) + len(holdout)
-    train = logs.read_all(recordings, loaded, among)
-    base, hold = (logs.without_blowouts().read_all(runs, loaded, among)
-                  for runs in (baseline, holdout))  # fmt: skip
+    train, base, hold = _read(logs, loaded, recordings, baseline, holdout)
     _check(loaded, [*train, *base, *hold], impose_speed, yes)
     if not as_json:
         _say_roles(train, base, hold)
@@ -117,6 +114,15 @@ def command(
         say(True, dict(answer.as_json()), ())
     else:
         _print(Console(), answer, output)
+
+
+def _read(logs: LogOptions, vehicle: Vehicle, recordings: Sequence[Path], *others: Sequence[Path]
+          ) -> list[list[Recording]]:  # fmt: skip
+    """The runs of each group; ``--blow`` and ``--also`` speak of the first one."""
+    among = len(recordings) + sum(map(len, others))
+    rest = logs.without_blowouts()
+    return [logs.read_all(recordings, vehicle, among),
+            *(rest.read_all(group, vehicle, among) for group in others)]  # fmt: skip
 
 
 def _claim(output: Path, corrected: Path | None, inputs: Sequence[Path], force: bool) -> None:
