@@ -127,7 +127,8 @@ def test_a_bad_cell_of_a_used_column_is_named_with_its_line(log: Path) -> None:
 
 
 @pytest.mark.parametrize(("cell", "words"), [
-    ("", "column 'Steer' is empty in the log"), ("abc", "column 'Steer' holds text in the log"),
+    ("", "column 'Steer' is empty in the log; expected numbers"),
+    ("abc", "column 'Steer' holds text in the log"),
 ])  # fmt: skip
 def test_a_column_without_numbers_is_not_said_to_be_missing(
     log: Path, cell: str, words: str

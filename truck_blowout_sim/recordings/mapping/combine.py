@@ -167,9 +167,9 @@ def _find(files: list[Opened], rules: Rules, source: Source) -> tuple[Opened, st
     if not found:
         names = [name for f in wanted for name in f.log.names]
         problems = [no_column(f.log, source.column) for f in wanted]
-        problem = next((one for one in problems if not one.startswith("no ")), problems[0])
-        raise _error(rules, source.key, f"{problem} in the log",
-                     nearest(source.column, names))  # fmt: skip
+        unread = [one for one in problems if not one.startswith("no column")]
+        raise _error(rules, source.key, f"{(unread or problems)[0]} in the log",
+                     "numbers" if unread else nearest(source.column, names))  # fmt: skip
     if len(found) > 1:
         raise _error(rules, source.key, f"column {quoted(source.column)} is in several files",
                      f"file: {found[0][0].path.name} beside it")  # fmt: skip
