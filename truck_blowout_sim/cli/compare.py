@@ -81,8 +81,8 @@ def command(
     from truck_blowout_sim.vehicle import load_vehicle
 
     console, loaded = _console(), load_vehicle(vehicle)
-    folders = _claimed(recordings, output, logs.inputs(*recordings), no_model=no_model, hve=hve,
-                       force=force)  # fmt: skip
+    inputs = logs.inputs(*recordings)
+    folders = _claimed(recordings, output, inputs, no_model=no_model, hve=hve, force=force)
     theirs = {name: _hve_run(name) for name in recordings} if hve else {}
     for name, folder in zip(recordings, folders, strict=False):
 
