@@ -55,8 +55,7 @@ def command(
         0.001, "--step-s", "--step", min=1e-5, max=0.005, help="Step [s]."
     ),
     impose_speed: bool | None = typer.Option(
-        None,
-        "--impose-speed/--no-impose-speed",
+        None, "--impose-speed/--no-impose-speed",
         help="Make the model follow the recorded speed. By default only where throttle or a brake"
         " pressure was not recorded.",
     ),
