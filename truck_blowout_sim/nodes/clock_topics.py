@@ -111,6 +111,6 @@ class FollowedClock:
                 self._simulator.record(True)
         elif kind == "forward":
             plant.move_to(now_ns)
-            log.warning(f"/clock jumped ahead {seconds}: the truck is carried over as it is")
+            log.warning(f"/clock jumped ahead {seconds}: the truck keeps its state")
         elif now_ns < before_ns:
             self._pace.target_ns = before_ns

@@ -54,7 +54,7 @@ _GENERAL = (
     Spec("step_awaits", "", "Inputs, joined by commas, of which `step` awaits a new message (for at"
          " most a second) before it advances: `steering_wheel_angle,throttle`.", live=True),
     Spec("max_clock_jump_s", 1.0, "A followed `/clock` that leaps ahead by more is a jump: the"
-         " truck is carried over as it is, not simulated through the gap.", "s", 0.01, 3600, True),
+         " truck keeps its state; the gap is skipped.", "s", 0.01, 3600, True),
     Spec("record_path", "", "Bag to write from the start; later ones get a number. Ends in"
          " `.mcap`: a bare file, else a rosbag2 folder. Changed while running, it must lie under"
          " `record_folder`.", live=True),
