@@ -18,7 +18,7 @@ import psutil
 ENVIRONMENT = {
     "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
     # two measurements at a time must not hear each other
-    "ROS_DOMAIN_ID": str(os.getpid() % 90 + 10),
+    "ROS_DOMAIN_ID": os.environ.get("ROS_DOMAIN_ID") or str(os.getpid() % 90 + 10),
     "ROS_LOG_DIR": str(Path(tempfile.gettempdir()) / "truck_blowout_sim_benchmark_log"),
 }
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import subprocess
 import sys
 from pathlib import Path
@@ -126,3 +127,29 @@ def test_an_unfinished_bag_is_exported_with_a_note_and_recovered(tmp_path: Path,
     assert saved.returncode == 0
     assert "messages" in saved.stdout
     assert cli("export", bag, "-o", tmp_path / "whole.csv").stderr == ""
+
+
+def test_an_imported_bag_shows_the_truck_unless_told_not_to(tmp_path: Path, log: Path) -> None:
+    def topics(*words: str) -> set[str]:
+        assert cli("import", log, "-o", tmp_path / "bag", "--force", *words).returncode == 0
+        text = (tmp_path / "bag" / "metadata.yaml").read_text()
+        return {line.split()[-1] for line in text.splitlines() if " name: /" in line}
+
+    shown = {"/tf", "/tf_static", "/clock", "/truck/robot_description"}
+    assert shown <= topics()
+    assert not shown & topics("--no-show")
+    unfit = cli("import", log, "-o", tmp_path / "other", "--vehicle", "bmw_320i")
+    assert unfit.returncode == 2
+    assert "blowout of 'steer_left'" in unfit.stderr
+    assert not (tmp_path / "other").exists()
+
+
+def test_a_log_of_a_truck_that_is_not_shipped_is_imported_without_a_model(
+    tmp_path: Path, log: Path
+) -> None:
+    log.write_text("# tire_names: nose tail\n# hub_names: nose tail\n"
+                   + CSV.replace("steer_left", "nose"))  # fmt: skip
+    done = cli("import", log, "-o", tmp_path / "bag", "--json")
+    assert done.returncode == 0
+    assert "--vehicle names one" in json.loads(done.stdout)["shown"][0]
+    assert "/tf" not in (tmp_path / "bag" / "metadata.yaml").read_text()

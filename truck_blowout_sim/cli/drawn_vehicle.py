@@ -21,6 +21,13 @@ def vehicle_of(run: Recording, wanted: str | None) -> tuple[Vehicle, str]:
     Raises:
         InputError: the vehicle that the user asked for cannot be loaded.
     """
+    fitting = fitting_vehicle(run, wanted)
+    return fitting or (load_vehicle(DEFAULT_VEHICLE),
+                       f"vehicle: {DEFAULT_VEHICLE}, none fits the recording")  # fmt: skip
+
+
+def fitting_vehicle(run: Recording, wanted: str | None) -> tuple[Vehicle, str] | None:
+    """As `vehicle_of`, but None where no shipped vehicle has the tires and hubs of the run."""
     if wanted is not None:
         return load_vehicle(wanted), ""
     named = run.metadata.get("vehicle", "")
@@ -35,4 +42,4 @@ def vehicle_of(run: Recording, wanted: str | None) -> tuple[Vehicle, str]:
         vehicle = load_vehicle(name)
         if set(parts.hubs) <= set(vehicle.hubs) and tires <= set(vehicle.tires):
             return vehicle, f"vehicle: {name}, the recording names no vehicle file"
-    return load_vehicle(DEFAULT_VEHICLE), f"vehicle: {DEFAULT_VEHICLE}, none fits the recording"
+    return None

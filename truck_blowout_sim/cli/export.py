@@ -6,11 +6,10 @@ from pathlib import Path
 
 import typer
 
-from truck_blowout_sim.cli.conversion import report
+from truck_blowout_sim.cli.conversion import convert, report
 from truck_blowout_sim.cli.outputs import FORCE, JSON, claim
 from truck_blowout_sim.cli.reading import AS_IT_IS, LogOptions, reads_logs, say_notes
 from truck_blowout_sim.errors import InputError
-from truck_blowout_sim.recordings import write_recording
 from truck_blowout_sim.recordings.mat_thesis import THESIS_CHANNELS
 
 
@@ -47,8 +46,8 @@ def command(
         recording = recording.only_channels(sorted(THESIS_CHANNELS))
     if plain:
         _check_ending(output, ".csv", "--plain")
-    write_recording(recording, output, thesis_variables=thesis_variables, plain=plain)
-    report(recording, output, as_json)
+    shown = convert(recording, output, thesis_variables=thesis_variables, plain=plain)
+    report(recording, output, shown, as_json)
 
 
 def _check_ending(output: Path, ending: str, option: str) -> None:

@@ -6,10 +6,9 @@ from pathlib import Path
 
 import typer
 
-from truck_blowout_sim.cli.conversion import report
+from truck_blowout_sim.cli.conversion import SHOW, VEHICLE, convert, report
 from truck_blowout_sim.cli.outputs import FORCE, JSON, claim
 from truck_blowout_sim.cli.reading import AS_IT_IS, LogOptions, reads_logs, say_notes
-from truck_blowout_sim.recordings import write_recording
 
 
 @reads_logs
@@ -24,6 +23,8 @@ def command(
     source: str = typer.Option(
         "experiment", help="Of a .mat with the thesis's variables: experiment (_e) or hve (_h)."
     ),
+    vehicle: str | None = VEHICLE,
+    show: bool = SHOW,
     force: bool = FORCE,
     as_json: bool = JSON,
 ) -> None:
@@ -34,5 +35,5 @@ def command(
     claim(output, inputs=logs.inputs(log), force=force)
     recording = logs.read(log, source=source)
     say_notes(recording)
-    write_recording(recording, output)
-    report(recording, output, as_json)
+    shown = convert(recording, output, vehicle=vehicle, show=show)
+    report(recording, output, shown, as_json)

@@ -34,6 +34,7 @@ class MovingFrames:
         output_names: names of the model's output vector.
         joint_columns: position of each moving joint, by name, in the joints' vector.
         joints: include the joints; without them, the units alone.
+        placed: the units stand in `map`; without it, the joints alone.
     """
 
     def __init__(
@@ -43,18 +44,19 @@ class MovingFrames:
         joint_columns: dict[str, int],
         *,
         joints: bool = True,
+        placed: bool = True,
     ) -> None:
         names = list(output_names)
-        self._places = _columns(names, vehicle, ("x_m", "y_m", "z_m"))
-        self._angles = _columns(names, vehicle, ("roll_rad", "pitch_rad", "yaw_rad"))
+        placed_units = vehicle.units if placed else ()
+        self._places = _columns(names, placed_units, ("x_m", "y_m", "z_m"))
+        self._angles = _columns(names, placed_units, ("roll_rad", "pitch_rad", "yaw_rad"))
         moving = [j for j in joints_of(vehicle) if joints and j.kind != "fixed"]
         self._joints = np.array([joint_columns[j.name] for j in moving], dtype=np.intp)
         self._axis = np.array([j.axis for j in moving], dtype=np.float64).reshape(-1, 3)
         self._at = np.array([j.at for j in moving], dtype=np.float64).reshape(-1, 3)
         self._slides = np.array([j.kind == "prismatic" for j in moving], dtype=np.bool_)
-        units = len(vehicle.units)
-        self._values = np.zeros((units + len(moving), 7))
-        frames = [_frame("map", f"{unit}/base_link") for unit in vehicle.units]
+        self._values = np.zeros((len(placed_units) + len(moving), 7))
+        frames = [_frame("map", f"{unit}/base_link") for unit in placed_units]
         self._message = _prepared([*frames, *(_joint_frame(j) for j in moving)])
 
     def fill(self, stamp_ns: int, outputs: FloatArray, joints: FloatArray) -> bytes:
@@ -89,9 +91,9 @@ def fixed_frames(vehicle: Vehicle, *, joints: bool = True) -> bytes:
     return _prepared(frames).fill(0, np.array(values).reshape(-1, 7))
 
 
-def _columns(names: list[str], vehicle: Vehicle, keys: Sequence[str]) -> NDArray[np.intp]:
-    found = [[names.index(f"{unit}_{key}") for key in keys] for unit in vehicle.units]
-    return np.array(found, dtype=np.intp)
+def _columns(names: list[str], units: Sequence[str], keys: Sequence[str]) -> NDArray[np.intp]:
+    found = [[names.index(f"{unit}_{key}") for key in keys] for unit in units]
+    return np.array(found, dtype=np.intp).reshape(-1, len(keys))
 
 
 def _prepared(frames: Sequence[object]) -> Prepared:

@@ -52,6 +52,7 @@ class Scene:
         output_names: names of the model's output vector.
         joints: /tf carries the joints of the robot model, too, not the units alone.
         display: shared with the joint states that are published; its own if not given.
+        placed: /tf places the units in `map`.
     """
 
     def __init__(
@@ -61,13 +62,14 @@ class Scene:
         *,
         joints: bool = True,
         display: DisplayJoints | None = None,
+        placed: bool = True,
     ) -> None:
         self._display = display or DisplayJoints(vehicle, output_names)
         names = [*output_names, *(row.name for row in self._display.channels)]
         positions = _joint_columns(vehicle, self._display, names)
         self._columns = np.array(list(positions.values()), dtype=np.intp)
         order = {joint: at for at, joint in enumerate(positions)}
-        self._frames = MovingFrames(vehicle, output_names, order, joints=joints)
+        self._frames = MovingFrames(vehicle, output_names, order, joints=joints, placed=placed)
         self._arrows = ForceArrows(vehicle, output_names)
         self.latched = (
             Said(ROBOT_DESCRIPTION, STRING, template(STRING, data=urdf_of(vehicle))),
@@ -98,6 +100,9 @@ def beside(
     times_s: FloatArray,
     outputs: FloatArray,
     blowouts: Sequence[Blowout],
+    *,
+    placed: bool = True,
+    arrows: bool = True,
 ) -> Iterator[Extra]:
     """What a bag of a run needs to show the truck by itself, in order of time.
 
@@ -107,8 +112,10 @@ def beside(
         times_s: instants, shape (n,); stamps count from 0 or from the first, if that is earlier.
         outputs: shape (n, outputs).
         blowouts: events of the run.
+        placed: where the truck was is known; without it, /tf holds no transform from `map`.
+        arrows: the tire forces are known.
     """
-    scene = Scene(vehicle, output_names)
+    scene = Scene(vehicle, output_names, placed=placed)
     origin_s = min(0.0, float(times_s[0])) if len(times_s) else 0.0
     arrows_s = -np.inf
     for number, (time_s, row) in enumerate(zip(times_s.tolist(), outputs, strict=True)):
@@ -118,7 +125,7 @@ def beside(
         clock = template(CLOCK_TYPE, clock__sec=stamp_ns // 10**9, clock__nanosec=stamp_ns % 10**9)
         yield Extra(time_s, CLOCK, CLOCK_TYPE, clock)
         yield Extra(time_s, TF, TF_MESSAGE, scene.frames(stamp_ns, row))
-        if time_s >= arrows_s - 1e-9:
+        if arrows and time_s >= arrows_s - 1e-9:
             arrows_s = time_s + _ARROWS_EVERY_S
             blown = {tire for b in blowouts if b.time_s <= time_s for tire in b.tires}
             yield Extra(time_s, TIRE_FORCES, MARKERS, scene.arrows(stamp_ns, row, blown))

@@ -20,6 +20,9 @@ from truck_blowout_sim.motion.source import Floats, Source
 from truck_blowout_sim.vehicle import Vehicle
 from truck_blowout_sim.vehicle.places import hitch_of
 
+PLACE = "place of the"
+"""Begins every sentence on a place that was not recorded."""
+
 _HEADING_FROM_S = 1.0  # the first second of a path gives its heading
 _LEAST_PATH_M = 0.5
 
@@ -93,10 +96,10 @@ def _dead_reckoned(source: Source, unit: str, yaw: Floats, x: Floats | None, y: 
     forward, known = source.or_constant(f"{unit}_vx_mps", 0.0)
     left, slipping = source.or_constant(f"{unit}_vy_mps", 0.0)
     if not known:
-        source.assume(f"place of the {unit}: it is drawn standing, neither position nor speed was"
+        source.assume(f"{PLACE} {unit}: it is drawn standing, neither position nor speed was"
                       " recorded")
     else:
-        source.assume(f"place of the {unit}: its speed, integrated"
+        source.assume(f"{PLACE} {unit}: its speed, integrated"
                       + ("" if slipping else ", without side slip"))
     c, s = np.cos(yaw), np.sin(yaw)
     along = source.integral(forward * c - left * s)
