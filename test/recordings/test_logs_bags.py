@@ -1,4 +1,4 @@
-"""Bags of other stacks: foreign message types, SQLite, compressed, ROS 1."""
+"""Bags of other stacks: foreign message types, SQLite, compressed."""
 
 from __future__ import annotations
 
@@ -10,7 +10,6 @@ import numpy as np
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
-from rosbags.rosbag1 import Writer as Writer1
 from rosbags.rosbag2 import CompressionFormat, CompressionMode, StoragePlugin, Writer
 from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 
@@ -163,22 +162,10 @@ def test_a_recorder_on_another_clock_is_laid_on_the_stamps(tmp_path: Path) -> No
     assert read["steering_wheel_angle_rad"].time_s[0] == pytest.approx(0.0, abs=1e-6)
 
 
-def write_ros1(path: Path) -> Path:
-    store = get_typestore(Stores.ROS1_NOETIC)
-    with Writer1(path) as writer:
-        topic = writer.add_connection("/speed", "std_msgs/msg/Float32", typestore=store)
-        for i in range(5):
-            message = store.types["std_msgs/msg/Float32"](float(i))
-            writer.write(topic, START_NS + i, store.serialize_ros1(message, topic.msgtype))
-    return path
-
-
-def test_a_bare_sqlite_file_and_a_ros_1_bag(tmp_path: Path) -> None:
+def test_a_bare_sqlite_file(tmp_path: Path) -> None:
     folder = write(tmp_path / "bag", StoragePlugin.SQLITE3)
     (file,) = folder.glob("*.db3")
     assert SPEED in open_log(file).names
-    column = open_log(write_ros1(tmp_path / "old.bag")).column("/speed:data")
-    np.testing.assert_array_equal(column.values, np.arange(5.0))
 
 
 def test_a_field_that_is_not_there_names_the_nearest(tmp_path: Path) -> None:
@@ -206,31 +193,6 @@ def test_damage_gives_a_recording_or_one_line(
     line = ""
     try:
         read_recording(path, mapping=RULES)
-    except InputError as error:
-        line = str(error)
-    assert "\n" not in line
-
-
-@pytest.fixture(scope="module")
-def ros1_bytes(tmp_path_factory: pytest.TempPathFactory) -> bytes:
-    return write_ros1(tmp_path_factory.mktemp("ros1") / "old.bag").read_bytes()
-
-
-@IN_TMP
-@given(st.randoms(use_true_random=False), st.booleans())
-def test_damage_of_a_ros_1_bag_gives_a_log_or_one_line(
-    tmp_path: Path, ros1_bytes: bytes, dice: random.Random, cut: bool
-) -> None:
-    data = bytearray(ros1_bytes)
-    for _ in range(4):
-        data[dice.randrange(len(data))] = dice.randrange(256)
-    path = tmp_path / "damaged.bag"
-    path.write_bytes(data[: dice.randrange(len(data))] if cut else data)
-    line = ""
-    try:
-        log = open_log(path)
-        for name in log.names:
-            log.column(name)
     except InputError as error:
         line = str(error)
     assert "\n" not in line

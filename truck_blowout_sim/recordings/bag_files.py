@@ -118,13 +118,7 @@ def _add(bag: BagFiles, part: Scan, file: Path) -> None:
         held = bag.topics.setdefault(
             name, Topic(name, topic.ros_type, topic.encoding, topic.definition)
         )
-        if held.ros_type != topic.ros_type:
-            raise InputError(
-                f"two types, {held.ros_type} and {topic.ros_type}",
-                file=file,
-                where=f"topic {name}",
-                expected="one type a topic",
-            )
+        held.require_type(topic.ros_type, file)
         held.log_times_ns += topic.log_times_ns
         held.data += topic.data
     bag.metadata.update(_embedded(part, file))

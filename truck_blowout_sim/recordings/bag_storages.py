@@ -7,6 +7,7 @@ Validated with: test/recordings/test_logs_bags.py.
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
@@ -29,7 +30,7 @@ def read_storage(path: Path) -> dict[str, Topic]:
     ros1 = path.suffix == ".bag"
     try:
         with _reader(path, ros1) as reader:
-            topics = {f"/{c.topic.strip('/')}": _topic(c) for c in reader.connections}
+            topics = _topics(reader.connections, path)
             for connection, log_time_ns, data in reader.messages(connections=reader.connections):
                 topic = topics[f"/{connection.topic.strip('/')}"]
                 topic.log_times_ns.append(log_time_ns)
@@ -52,6 +53,15 @@ def _reader(path: Path, ros1: bool) -> Any:  # noqa: ANN401 -- two classes of on
     from rosbags.rosbag2 import Reader
 
     return Reader(path)
+
+
+def _topics(connections: Iterable[Connection], path: Path) -> dict[str, Topic]:
+    """Empty topics by absolute name; several nodes may have written to one."""
+    topics: dict[str, Topic] = {}
+    for connection in connections:
+        name = f"/{connection.topic.strip('/')}"
+        topics.setdefault(name, _topic(connection)).require_type(connection.msgtype, path)
+    return topics
 
 
 def _topic(connection: Connection) -> Topic:

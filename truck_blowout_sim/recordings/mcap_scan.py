@@ -41,6 +41,20 @@ class Topic:
     log_times_ns: list[int] = field(default_factory=list)
     data: list[bytes] = field(default_factory=list)
 
+    def require_type(self, ros_type: str, file: Path) -> None:
+        """Refuse another type on the same topic, as its messages would be misread.
+
+        Raises:
+            InputError: it is another one.
+        """
+        if self.ros_type != ros_type:
+            raise InputError(
+                f"two types, {self.ros_type} and {ros_type}",
+                file=file,
+                where=f"topic /{self.name.strip('/')}",
+                expected="one type a topic",
+            )
+
 
 @dataclass
 class Scan:

@@ -22,6 +22,7 @@ from rosbags.typesys import (
 from rosbags.typesys.store import Typestore
 
 ROS_DISTRO = "kilted"
+_HEADER = "std_msgs/msg/Header"
 
 _SAID_ONCE = ("robot_description", "tf_static", "blown_tires")
 _FOREVER = {"sec": 9223372036, "nsec": 854775807}
@@ -38,7 +39,8 @@ def store_of(definitions: Iterable[tuple[str, str]]) -> Typestore:
 
     Args:
         definitions: message type and its text (``.msg`` or IDL, nested types included), empty
-            where the bag holds none.
+            where the bag holds none. The header is always that of ROS 2: that of ROS 1 has a
+            counter more, which a conversion to CDR drops.
 
     Raises:
         ValueError: a text that is no definition.
@@ -48,9 +50,10 @@ def store_of(definitions: Iterable[tuple[str, str]]) -> Typestore:
         if not text or (ros_type in types and definition(ros_type).strip() == text.strip()):
             continue
         try:
-            types.update(_parsed(ros_type, text))
+            parsed = _parsed(ros_type, text)
         except (TypesysError, ValueError, KeyError, AssertionError) as error:
             raise ValueError(f"definition of {ros_type}: {error}") from None
+        types.update({name: fields for name, fields in parsed.items() if name != _HEADER})
     store = get_typestore(Stores.EMPTY)
     store.register(types)
     return store
