@@ -97,6 +97,11 @@ def test_the_head_is_kept_and_text_columns_are_told(tmp_path: Path) -> None:
     assert any("'note' holds text" in note for note in open_log(log(tmp_path, DATED)).notes)
 
 
+def test_a_clock_time_above_the_table_is_no_entry(tmp_path: Path) -> None:
+    opened = open_log(log(tmp_path, "File made on 24/11/2026 @ 12:34\nTruck: 7\n" + CARSIM))
+    assert dict(opened.metadata) == {"Truck": "7"}
+
+
 def test_a_last_line_that_is_cut_short_is_told(tmp_path: Path) -> None:
     opened = open_log(log(tmp_path, CARSIM + "0.30,8"))
     assert len(opened.column("Vx").values) == 30

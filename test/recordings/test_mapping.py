@@ -270,6 +270,31 @@ def test_a_wrong_unit_shows_against_the_other_channels(
     assert bool(said) == bool(words)
 
 
+@pytest.mark.parametrize(("factors", "words"), [
+    ({}, ""), ({"tractor_vx_mps": 1 / 1.609}, "the speed reads like mph taken for km/h"),
+    ({"tractor_vx_mps": 1.609}, "the speed reads like km/h taken for mph"),
+    ({"tractor_vx_mps": 2.237}, "the speed reads like mph taken for m/s"),
+    ({"tractor_ax_mps2": 9.81}, "tractor_ax_mps2 is 10.8 times what its change of speed says"),
+    ({"tractor_ax_mps2": -1.0}, "reads like the opposite sign"),
+])  # fmt: skip
+def test_a_stop_shows_a_speed_in_another_unit(factors: dict[str, float], words: str) -> None:
+    """As on a slope of 3 %, with a nose that dives."""
+    time_s = np.arange(0, 10, 0.02)
+    along = np.where(time_s > 3.0, -2.0 * np.sin(0.4 * (time_s - 3.0)), 0.0)
+    made = {"tractor_vx_mps": 22.0 + 0.02 * np.cumsum(along), "tractor_ax_mps2": 1.1 * along + 0.3}
+    drive = Recording("stop", {n: Series(time_s, factors.get(n, 1.0) * v)
+                               for n, v in made.items()})  # fmt: skip
+    said = " | ".join(contradictions(drive))
+    assert words in said
+    assert bool(said) == bool(words)
+
+
+def test_a_burst_tire_is_no_odd_size() -> None:
+    time_s = np.arange(0, 5, 0.1)
+    gauge = Series(time_s, np.where(time_s < 1.0, 7.6e5, 1.9e3))
+    assert not odd_sizes(Recording("drive", {"tire_pressure_steer_left_pa": gauge}))
+
+
 @pytest.mark.parametrize(("name", "value", "words"), [
     ("tire_pressure_steer_left_pa", 110.0, "is 110 Pa: reads like psi taken for Pa"),
     ("tire_pressure_steer_left_pa", 7.58e3, "reads like bar taken for kPa"),

@@ -9,11 +9,8 @@ import pytest
 
 from truck_blowout_sim.recordings.logs.log import Column, Table
 from truck_blowout_sim.recordings.mapping.plausible import unit_by_size
-from truck_blowout_sim.recordings.mapping.proposing import (
-    Wheels,
-    gravity_is_removed,
-    propose,
-)
+from truck_blowout_sim.recordings.mapping.proposing import Wheels, propose
+from truck_blowout_sim.recordings.mapping.signs import gravity_is_removed
 from truck_blowout_sim.recordings.mapping.vocabulary import channel_hinted
 
 
@@ -40,6 +37,11 @@ from truck_blowout_sim.recordings.mapping.vocabulary import channel_hinted
     ("BrkPrs", "brake_pressure_pa"), ("Brake pressure front", "brake_pressure_steer_pa"),
     ("data.Vx", "tractor_vx_mps"), ("log.AVz_2", "trailer_yaw_rate_radps"),
     ("log.trailer.AVz", "trailer_yaw_rate_radps"), ("log.speed.data", "tractor_vx_mps"),
+    ("sog", "tractor_vx_mps"), ("course over ground", "tractor_yaw_rad"),
+    ("G Force Lat", "tractor_ay_mps2"), ("G Force Long", "tractor_ax_mps2"),
+    ("TirePressLF_kPa", "tire_pressure_steer_left_pa"), ("Tyre pressure", ""),
+    ("RF Tyre Pressure", "tire_pressure_steer_right_pa"),
+    ("Reifendruck VL", "tire_pressure_steer_left_pa"),
     ("EngineSpeed", ""), ("steer_axle_rpm", ""), ("Note", ""),
 ])  # fmt: skip
 def test_names(name: str, channel: str) -> None:
@@ -48,6 +50,7 @@ def test_names(name: str, channel: str) -> None:
 
 @pytest.mark.parametrize(("numbers", "channel", "quantity", "unit"), [
     ([80.0, 90.0], "tractor_vx_mps", "speed", "km/h"), ([20.0], "tractor_vx_mps", "speed", "m/s"),
+    ([40.0], "tractor_vx_mps", "speed", "km/h"),
     ([3.0], "tractor_yaw_rate_radps", "angular rate", "deg/s"),
     ([0.05], "tractor_yaw_rate_radps", "angular rate", "rad/s"),
     ([1.0, 0.98], "tractor_az_mps2", "acceleration", "g"),
@@ -90,6 +93,73 @@ def test_small_numbers_get_the_units_in_which_they_agree(
     columns = {name: Column(factors.get(name, 1.0) * values) for name, values in drive.items()}
     found = propose(Table(Path("log"), "text", columns), time_s=times)
     assert [proposal.unit for proposal in found] == units
+
+
+G, MPH, KNOT = 9.81, 0.44704, 0.51444
+
+
+@pytest.mark.parametrize(("speed_mps", "factor", "unit"), [
+    (16.0, MPH, "mph"), (23.0, MPH, "mph"), (23.0, 1 / 3.6, "km/h"), (9.0, 1 / 3.6, "km/h"),
+    (17.0, 1.0, "m/s"), (41.0, 1.0, "m/s"),
+])  # fmt: skip
+@pytest.mark.parametrize("acceleration", [G, 1.0])
+def test_a_stop_tells_the_unit_of_the_speed(
+    speed_mps: float, factor: float, unit: str, acceleration: float
+) -> None:
+    """The nose dives, so that the accelerometer reads a tenth more; a slope adds a constant."""
+    times = 0.02 * np.arange(500)
+    along = np.where(times > 5.0, -0.3 * speed_mps * 0.5 * (1.0 - np.cos(times)), 0.0)
+    speed = speed_mps + 0.02 * np.cumsum(along)
+    speed -= min(0.0, speed.min())
+    log = Table(Path("log"), "text", {
+        "speed": Column(speed / factor),
+        "ax": Column((1.1 * along + 0.2) / acceleration, "g" if acceleration == G else "m/s2"),
+    })  # fmt: skip
+    found = {p.channel: p.unit for p in propose(log, time_s=times)}
+    assert found["tractor_vx_mps"] == unit
+
+
+@pytest.mark.parametrize(("factor", "unit"), [
+    (MPH, "mph"), (KNOT, "knots"), (1 / 3.6, "km/h"), (1.0, "m/s"),
+])  # fmt: skip
+@pytest.mark.parametrize("speed_mps", [8.0, 24.0])
+def test_the_way_tells_knots_from_mph(speed_mps: float, factor: float, unit: str) -> None:
+    times = 0.1 * np.arange(200)
+    east = speed_mps * times
+    log = Table(Path("log"), "text", {
+        "speed": Column(np.full(times.size, speed_mps / factor)),
+        "easting": Column(500_000.0 + 0.6 * east), "northing": Column(0.8 * east),
+    })  # fmt: skip
+    found = {p.channel: p.unit for p in propose(log, time_s=times)}
+    assert (found["tractor_vx_mps"], found["tractor_x_m"]) == (unit, "m")
+
+
+def small(**factors: float) -> dict[str, Column]:
+    """Columns of straight driving, which tell no units."""
+    dice = np.random.default_rng(1)
+    return {name: Column(dice.normal(0.0, 0.01, 300) / by) for name, by in factors.items()}
+
+
+@pytest.mark.parametrize(("speed", "units"), [
+    (Column(np.full(300, 80.0)), {"vy_mps": "km/h", "yaw_rate_radps": "deg/s", "roll_rad": "deg"}),
+    (Column(np.full(300, 23.0), "m/s"),
+     {"vy_mps": "m/s", "yaw_rate_radps": "rad/s", "roll_rad": "rad"}),
+    (Column(np.full(300, 50.0), "mph"),
+     {"vy_mps": "mph", "yaw_rate_radps": "deg/s", "roll_rad": "deg"}),
+])  # fmt: skip
+def test_small_numbers_have_the_units_of_their_log(speed: Column, units: dict[str, str]) -> None:
+    log = Table(Path("log"), "text", {"Vx": speed, **small(Vy=1.0, AVz=1.0, Roll=1.0)})
+    found = {p.channel.removeprefix("tractor_"): p for p in propose(log)}
+    assert {stem: found[stem].unit for stem in units} == units
+    if units["vy_mps"] != "m/s":
+        assert "unit as of Vx" in found["vy_mps"].why
+
+
+def test_topics_have_units_of_their_own() -> None:
+    log = Table(Path("log"), "bag (MCAP)", {
+        "/speed_kmh:data": Column(np.full(300, 80.0)), "/gyro:yaw_rate": small(r=1.0)["r"],
+    })  # fmt: skip
+    assert [p.unit for p in propose(log)] == ["km/h", "rad/s"]
 
 
 @pytest.mark.parametrize(("upward_g", "sign", "removed"), [

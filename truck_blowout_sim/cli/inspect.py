@@ -76,7 +76,8 @@ def _wheels(vehicle: Vehicle) -> Wheels:
 
     radii = [vehicle.tire_specs[vehicle.tires_of_hub(hub)[0]].unloaded_radius_m
              for hub in vehicle.hubs]  # fmt: skip
-    return Wheels(vehicle.hubs, tuple(radii), "this vehicle's unloaded tire")
+    return Wheels(vehicle.hubs, tuple(radii), "this vehicle's unloaded tire",
+                  vehicle.tires)  # fmt: skip
 
 
 def _checked(found: Inventory, read: Recording) -> Inventory:

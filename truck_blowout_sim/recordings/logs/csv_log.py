@@ -6,6 +6,7 @@ Validated with: test/recordings/test_logs_text.py.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -17,6 +18,7 @@ from truck_blowout_sim.recordings.logs.log import Column, Table
 _CLOCK_UNIT = "clock"
 _MOST_ODD_SHARE = 0.01
 _MOST_ODD = 5
+_ENTRY = re.compile(r":(?!\d)|(?<!\d):")  # after a key; the colon of 12:34 is none
 _BYTE_ORDER_MARKS = {b"\xff\xfe": "utf-16", b"\xfe\xff": "utf-16", b"\xef\xbb\xbf": "utf-8-sig"}
 
 
@@ -106,10 +108,10 @@ def _rows(
 def _metadata(lines: Sequence[str]) -> dict[str, str]:
     found = {}
     for line in lines:
-        key, mark, value = line.strip().lstrip("#%").partition(":")
-        if not mark:
-            key, mark, value = line.partition("=")
-        key, value = (part.strip(' \t",;') for part in (key, value))
-        if mark and key and value and len(key) < 60:
+        parts = _ENTRY.split(line.strip().lstrip("#%"), maxsplit=1)
+        if len(parts) < 2:
+            parts = line.split("=", 1)
+        key, value = (*(part.strip(' \t",;') for part in parts), "")[:2]
+        if key and value and len(key) < 60:
             found[" ".join(key.split())] = " ".join(value.split())
     return found

@@ -3,6 +3,7 @@
     yaw rate      = d(heading)/dt
     speed         = length of d(position)/dt
     lateral force = speed * yaw rate (steady)
+    forward force = d(speed)/dt, but for a constant
     yaw rate      = turning of the path, in sign
     upward force  = 9.81 m/s2 in the mean
 
@@ -28,7 +29,8 @@ FloatArray = NDArray[np.float64]
 _DEG = 180.0 / math.pi
 _FOOT_M, _MPH = 0.3048, 3600.0 / 1609.344
 _HEADING, _PLACE, _TURN, _GRAVITY = "yaw_rad", "its position", "speed times yaw rate", "gravity"
-_PATH = "the turning of its path"
+_PATH, _CHANGE = "the turning of its path", "its change of speed"
+_MPH_IN_KMH = 1.609344
 # what a channel is held against: ratio of its number to what that says, and what the ratio means
 _MISTAKES: dict[str, tuple[tuple[float, str], ...]] = {
     _HEADING: ((_DEG, "reads like deg taken for rad"), (1 / _DEG, "reads like rad taken for deg")),
@@ -49,6 +51,16 @@ _MISTAKES: dict[str, tuple[tuple[float, str], ...]] = {
         (_DEG, "the yaw rate reads like rad/s taken for deg/s"),
         (1 / 3.6, "the speed reads like km/h taken for m/s"),
         (3.6, "the speed reads like m/s taken for km/h"),
+    ),
+    _CHANGE: (
+        (_MPH_IN_KMH, "the speed reads like mph taken for km/h"),
+        (1 / _MPH_IN_KMH, "the speed reads like km/h taken for mph"),
+        (1 / 3.6, "the speed reads like km/h taken for m/s"),
+        (3.6, "the speed reads like m/s taken for km/h"),
+        (1 / _MPH, "the speed reads like mph taken for m/s"),
+        (_MPH, "the speed reads like m/s taken for mph"),
+        (GRAVITY_MPS2, "reads like m/s2 taken for g"),
+        (1 / GRAVITY_MPS2, "reads like g taken for m/s2"),
     ),
     _GRAVITY: ((GRAVITY_MPS2, "reads like m/s2 taken for g"),
                (1 / GRAVITY_MPS2, "reads like g taken for m/s2")),
@@ -99,7 +111,8 @@ def _ratios(recording: Recording) -> Iterator[tuple[str, str, float]]:
         return
     for unit in UNITS:
         have = {stem: recording.at(f"{unit}_{stem}", times)
-                for stem in ("yaw_rad", "yaw_rate_radps", "x_m", "y_m", "vx_mps", "ay_mps2")
+                for stem in ("yaw_rad", "yaw_rate_radps", "x_m", "y_m", "vx_mps", "ax_mps2",
+                             "ay_mps2")
                 if f"{unit}_{stem}" in recording}  # fmt: skip
         rate, speed = have.get("yaw_rate_radps"), have.get("vx_mps")
         if rate is not None and "yaw_rad" in have:
@@ -113,6 +126,9 @@ def _ratios(recording: Recording) -> Iterator[tuple[str, str, float]]:
                                  _path_rate(have["x_m"], have["y_m"], times))  # fmt: skip
         if "ay_mps2" in have and rate is not None and speed is not None:
             yield from _pair(unit, "ay_mps2", _TURN, have["ay_mps2"], speed * rate)
+        if "ax_mps2" in have and speed is not None:
+            along = (_over_a_second(side) for side in (have["ax_mps2"], np.gradient(speed, times)))
+            yield from _pair(unit, "ax_mps2", _CHANGE, *(side - np.nanmean(side) for side in along))
         up = f"{unit}_az_mps2"
         if up in recording and "removed" not in recording.metadata.get("accelerometers", ""):
             yield up, _GRAVITY, float(np.median(recording[up].value)) / GRAVITY_MPS2
@@ -137,14 +153,18 @@ def _path_rate(x_m: FloatArray, y_m: FloatArray, times: FloatArray) -> FloatArra
 def _sign(unit: str, stem: str, other: str, one: FloatArray, reference: FloatArray
           ) -> Iterator[tuple[str, str, float]]:  # fmt: skip
     """1 or -1 where the two go together over a second; the ratio itself only if it is far off."""
-    second = np.full(round(1.0 / _STEP_S), _STEP_S)
-    a, b = (np.convolve(values, second, mode="valid") for values in (one, reference))
+    a, b = _over_a_second(one), _over_a_second(reference)
     if a.size >= _FEWEST and np.std(a) > 0.0 and np.std(b) > 0.0:
         together = float(np.corrcoef(a, b)[0, 1])
         if abs(together) > _ALIKE:
             slope = abs(float(np.sum(a * b) / np.sum(b * b)))
             size = slope if max(slope, 1.0 / slope) > _FAR_OFF else 1.0
             yield f"{unit}_{stem}", other, math.copysign(size, together)
+
+
+def _over_a_second(values: FloatArray) -> FloatArray:
+    second = np.full(round(1.0 / _STEP_S), _STEP_S)
+    return np.asarray(np.convolve(values, second, mode="valid"), dtype=np.float64)
 
 
 def _mean_pair(unit: str, stem: str, other: str, one: FloatArray, reference: FloatArray

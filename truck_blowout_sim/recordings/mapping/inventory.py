@@ -22,10 +22,10 @@ from truck_blowout_sim.recordings.mapping.opened import Opened, open_test
 from truck_blowout_sim.recordings.mapping.proposing import (
     Proposal,
     Wheels,
-    gravity_is_removed,
     propose,
 )
 from truck_blowout_sim.recordings.mapping.rules import Rules, Source
+from truck_blowout_sim.recordings.mapping.signs import gravity_is_removed
 from truck_blowout_sim.recordings.mapping.times import time_column
 from truck_blowout_sim.recordings.units import find_unit
 

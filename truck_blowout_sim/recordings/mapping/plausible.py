@@ -42,6 +42,7 @@ _MOST = {
     "articulation_rad": 3.5,
 }
 AIR_BRAKES_PA = 1.5e6
+_FAST_MPS = 38.0  # 85 mph, the highest speed limit for trucks: larger numbers are hardly in m/s
 # What most of an ordinary drive stays below: a unit that brings the numbers there is likely meant.
 _USUAL: Mapping[str, tuple[float, float]] = {
     "speed": (0.5, 45.0), "angular rate": (0.002, 1.5), "angle": (0.001, 12.0),
@@ -94,7 +95,7 @@ def unit_by_size(numbers: FloatArray, channel: str, quantity: str) -> str:
         return "%" if high > (most_of(channel) or 1.05) else "1"
     if channel.endswith(("latitude_rad", "longitude_rad")):
         return "deg" if high <= 180.0 else "arcmin"
-    limits_by = {"speed": 45.0, "angular rate": 1.2, "angle": _angle_limit(channel)}
+    limits_by = {"speed": _FAST_MPS, "angular rate": 1.2, "angle": _angle_limit(channel)}
     si, other = units_of(quantity)[:2]
     return other if high > limits_by.get(quantity, np.inf) else si
 

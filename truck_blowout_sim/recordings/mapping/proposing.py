@@ -8,7 +8,7 @@ Validated with: test/recordings/test_proposing.py, test/recordings/test_bring_yo
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Iterable, Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -16,32 +16,23 @@ from numpy.typing import NDArray
 
 from truck_blowout_sim.recordings.channels import (
     DEFAULT_HUBS,
+    DEFAULT_TIRES,
     UNITS,
     Channel,
     by_name,
     channels_for,
-    hub_of,
 )
 from truck_blowout_sim.recordings.logs.log import Column, Log
 from truck_blowout_sim.recordings.logs.vbo_log import KIND as VBO_KIND
 from truck_blowout_sim.recordings.mapping.agreeing import BY_SIZE, Guesses
 from truck_blowout_sim.recordings.mapping.plausible import unit_by_size
+from truck_blowout_sim.recordings.mapping.signs import with_signs
 from truck_blowout_sim.recordings.mapping.stand_ins import stand_ins
 from truck_blowout_sim.recordings.mapping.vocabulary import channel_hinted
-from truck_blowout_sim.recordings.units import (
-    GRAVITY_MPS2,
-    SI_QUANTITIES,
-    Unit,
-    find_unit,
-)
+from truck_blowout_sim.recordings.units import SI_QUANTITIES, Unit, find_unit
 
 FloatArray = NDArray[np.float64]
 
-_DOWNWARD = ("vy_mps", "y_m", "yaw_rad", "yaw_rate_radps", "pitch_rad", "pitch_rate_radps",
-             "ay_mps2", "az_mps2")  # fmt: skip
-_HALF = 0.5  # of gravity: between an acceleration with it and one without
-_MOSTLY = 0.3  # correlation that a sign needs
-_COMPASS_DEG = 90.0
 _TRUCK_WHEEL_M = 0.5  # rolling radius of 11R22.5 and 295/75R22.5
 
 
@@ -75,19 +66,22 @@ class Wheels:
         hubs: names, every axle's left one, then its right one, from the front.
         radius_m: rolling radius of each, for wheel speeds in km/h.
         source: what the radii are of.
+        tires: names; a gauge is that of a hub with one tire.
     """
 
     hubs: tuple[str, ...] = DEFAULT_HUBS
     radius_m: tuple[float, ...] = (_TRUCK_WHEEL_M,) * len(DEFAULT_HUBS)
     source: str = "a 22.5 in truck tire"
+    tires: tuple[str, ...] = DEFAULT_TIRES
 
     def named(self, channel: str) -> str:
-        """A hub's channel by this vehicle's name of the hub; empty where it has no such axle."""
-        hub = hub_of(channel)
-        if hub not in DEFAULT_HUBS:
-            return channel
-        at = DEFAULT_HUBS.index(hub)
-        return f"hub_speed_{self.hubs[at]}_radps" if at < len(self.hubs) else ""
+        """A wheel's channel by this vehicle's name of it; empty where it has no such axle."""
+        for before, after in (("hub_speed_", "_radps"), ("tire_pressure_", "_pa")):
+            hub = channel.removeprefix(before).removesuffix(after)
+            if channel.startswith(before) and hub in DEFAULT_HUBS:
+                at = DEFAULT_HUBS.index(hub)
+                return f"{before}{self.hubs[at]}{after}" if at < len(self.hubs) else ""
+        return channel
 
     def radius_of(self, hub: str) -> float:
         """Radius of a hub's wheel."""
@@ -105,7 +99,7 @@ def propose(log: Log, taken: Mapping[str, object] | None = None, wheels: Wheels 
         time_s: of the log's rows, where they have one time column.
     """
     wheels = wheels or Wheels()
-    table = by_name((*channels_for(wheels.hubs), *stand_ins()))
+    table = by_name((*channels_for(wheels.hubs, wheels.tires), *stand_ins()))
     best: dict[str, tuple[tuple[float, int], Proposal, Column]] = {}
     for at, name in enumerate(log.names):
         channel = table.get(wheels.named(channel_hinted(name)))
@@ -120,8 +114,8 @@ def propose(log: Log, taken: Mapping[str, object] | None = None, wheels: Wheels 
             best[channel.name] = (rank, found, column)
     order = {name: k for k, name in enumerate(table)}
     picked = [best[name] for name in sorted(_of_one_kind(best, taken or {}), key=order.__getitem__)]
-    pairs = Guesses([(proposal, column) for _, proposal, column in picked], time_s).agreed()
-    signed = _with_signs(pairs)
+    guesses = Guesses([(proposal, column) for _, proposal, column in picked], time_s)
+    signed = with_signs(guesses.agreed(), guesses.together)
     return [_west_positive(one) for one in signed] if log.kind == VBO_KIND else signed
 
 
@@ -194,60 +188,3 @@ def _rank(name: str, column: Column) -> float:
     told = column.values[np.isfinite(column.values)]
     moves = 1.0 if np.ptp(told) > 0.0 else 0.0
     return moves + min(told.size, 10**7) / 1e7
-
-
-def _with_signs(pairs: list[tuple[Proposal, Column]]) -> list[Proposal]:
-    """Signs from gravity (z down) and from what must go together in a turn."""
-    columns = {proposal.channel: column for proposal, column in pairs}
-    downward = {unit for unit in UNITS if upward_g(pairs, unit) < -_HALF}
-    out = []
-    for proposal, column in pairs:
-        unit, _, stem = proposal.channel.partition("_")
-        sign, why = 1.0, list(proposal.why)
-        if unit in downward and stem in _DOWNWARD:
-            sign = -1.0
-            why.append("sign: the vertical acceleration reads downward (SAE axes)")
-        reference = columns.get("tractor_yaw_rate_radps")
-        if proposal.channel == "steering_wheel_angle_rad" and reference is not None:
-            anchor = -1.0 if "tractor" in downward else 1.0
-            if anchor * _together(column, reference) < -_MOSTLY:
-                sign = -1.0
-                why.append("sign: it turns against the yaw rate")
-        offset = 0.0
-        if "heading" in proposal.column.lower() and stem == "yaw_rad":
-            sign, offset = -1.0, -_COMPASS_DEG
-            why.append("sign and offset: a compass heading, clockwise from north")
-        out.append(replace(proposal, sign=sign, offset=offset, why=tuple(why)))
-    return out
-
-
-def upward_g(pairs: Iterable[tuple[Proposal, Column]], unit: str) -> float:
-    """Median vertical acceleration of a unit: 1; -1 where z points down; 0 or NaN."""
-    for proposal, column in pairs:
-        stated = find_unit(proposal.unit or column.unit)
-        if proposal.channel == f"{unit}_az_mps2" and stated is not None:
-            return float(np.nanmedian(column.values)) * stated.factor / GRAVITY_MPS2
-    return np.nan
-
-
-def gravity_is_removed(log: Log, proposals: Iterable[Proposal]) -> bool:
-    """Whether the vertical accelerations say that gravity is not in them, as CarSim's."""
-    pairs = [(one, log.column(one.column)) for one in proposals if one.channel.endswith("_az_mps2")]
-    return any(abs(upward_g(pairs, unit)) < _HALF for unit in UNITS)
-
-
-def _together(one: Column, other: Column) -> float:
-    """Correlation of two columns; 0 where they cannot be laid side by side."""
-    a, b = one.values, other.values
-    if one.times and other.times:
-        ta, tb = (next(iter(c.times.values())) for c in (one, other))
-        if ta.size < 2 or tb.size < 2:
-            return 0.0
-        b, a = np.interp(ta, tb, b), a
-    elif a.size != b.size:
-        return 0.0
-    there = np.isfinite(a) & np.isfinite(b)
-    a, b = a[there], b[there]
-    if a.size < 3 or np.std(a) == 0.0 or np.std(b) == 0.0:
-        return 0.0
-    return float(np.corrcoef(a, b)[0, 1])

@@ -18,9 +18,9 @@ EXACT = {
     "avy": "pitch_rate_radps", "ax": "ax_mps2", "ay": "ay_mps2", "az": "az_mps2",
     "roll": "roll_rad", "pitch": "pitch_rad", "yaw": "yaw_rad", "xo": "x_m", "yo": "y_m",
     "steer sw": "steering_wheel_angle_rad", "throttle": "throttle", "velocity": "vx_mps",
-    "heading": "yaw_rad", "longacc": "ax_mps2", "latacc": "ay_mps2",
+    "heading": "yaw_rad", "cog": "yaw_rad", "longacc": "ax_mps2", "latacc": "ay_mps2",
     "swa": "steering_wheel_angle_rad", "lws angle": "steering_wheel_angle_rad",
-    "speed": "vx_mps", "r": "yaw_rate_radps", "pbk con": "brake_pressure_pa",
+    "speed": "vx_mps", "sog": "vx_mps", "r": "yaw_rate_radps", "pbk con": "brake_pressure_pa",
     "x": "x_m", "y": "y_m", "easting": "x_m", "northing": "y_m",
     "lat": "latitude_rad", "long": "longitude_rad", "lon": "longitude_rad",
     "lng": "longitude_rad", "altitude": "altitude_m", "alt": "altitude_m", "height": "altitude_m",
@@ -35,11 +35,15 @@ WHEELS = {
 """CarSim's wheel speeds, axles counted from the front."""
 
 _WHEEL_SPEED = re.compile(r"wh?(ee)?l ?(sp(ee)?d|rpm|rate|vel\w*)|\b(sp(ee)?d|rpm) wh?(ee)?l\b")
+_TIRE_PRESSURE = re.compile(r"\b(tires?|tyres?)\b.* ?(pres\w*|prs)\b|\breifen\w*druck\w*\b")
+_OF_WHEELS = (
+    (_WHEEL_SPEED, ("hub_speed_", "_radps")), (_TIRE_PRESSURE, ("tire_pressure_", "_pa")),
+)  # fmt: skip
 _CORNERS = (
-    (re.compile(r"\b(f ?l|l ?f|front \w*? ?left|left front)\b"), "steer_left"),
-    (re.compile(r"\b(f ?r|r ?f|front \w*? ?right|right front)\b"), "steer_right"),
-    (re.compile(r"\b(r ?l|l ?r|rear \w*? ?left|left rear)\b"), "drive_1_left"),
-    (re.compile(r"\b(r ?r|rear \w*? ?right|right rear)\b"), "drive_1_right"),
+    (re.compile(r"\b(f ?l|l ?f|v ?l|vorn links|front \w*? ?left|left front)\b"), "steer_left"),
+    (re.compile(r"\b(f ?r|r ?f|v ?r|vorn rechts|front \w*? ?right|right front)\b"), "steer_right"),
+    (re.compile(r"\b(r ?l|l ?r|h ?l|hinten links|rear \w*? ?left|left rear)\b"), "drive_1_left"),
+    (re.compile(r"\b(r ?r|h ?r|hinten rechts|rear \w*? ?right|right rear)\b"), "drive_1_right"),
 )
 
 # words of a name, the most telling first; a name of several words is tried as a whole
@@ -59,17 +63,18 @@ PATTERNS = tuple(
         (r"(roll ?(rate|vel\w*)|gyro ?x|ang\w* vel\w* x|angular x|rate ?x|wx)", "roll_rate_radps"),
         (r"(pitch ?(rate|vel\w*)|gyro ?y|ang\w* vel\w* y|angular y|rate ?y|wy)",
          "pitch_rate_radps"),
-        (r"(lat\w* acc\w*|acc\w* (lat\w*|y)|linear acceleration y|quer\w*besch\w*|a ?y)\b",
-         "ay_mps2"),
-        (r"(lon\w* acc\w*|acc\w* (lon\w*|x)|linear acceleration x|laengs\w*besch\w*|a ?x)\b",
-         "ax_mps2"),
-        (r"(vert\w* acc\w*|acc\w* (vert\w*|z)|linear acceleration z|a ?z)\b", "az_mps2"),
+        (r"(lat\w* (acc\w*|g ?force)|(acc\w*|g ?force) (lat\w*|y)|linear acceleration y"
+         r"|quer\w*besch\w*|a ?y)\b", "ay_mps2"),
+        (r"(lon\w* (acc\w*|g ?force)|(acc\w*|g ?force) (lon\w*|x)|linear acceleration x"
+         r"|laengs\w*besch\w*|a ?x)\b", "ax_mps2"),
+        (r"(vert\w* (acc\w*|g ?force)|(acc\w*|g ?force) (vert\w*|z)|linear acceleration z"
+         r"|a ?z)\b", "az_mps2"),
         (r"(lat\w* (vel\w*|speed)|vel\w* (lat\w*|y)|linear y|v ?y)\b", "vy_mps"),
         (r"(vert\w* (vel\w*|speed)|vel\w* (vert\w*|z)|linear z|wheel ?(speed|spd)|whl ?spd"
          r"|engine ?speed)", ""),
         (r"(veh\w* ?(spd|speed|vel\w*)|speed|lon\w* vel\w*|vel\w* x|linear x|\bv ?x\b|geschw\w*"
          r"|velocity)", "vx_mps"),
-        (r"(yaw( ?angle)?|heading|course|psi|kurs)$", "yaw_rad"),
+        (r"(yaw( ?angle)?|heading|course( over ground)?|track ?angle|psi|kurs)$", "yaw_rad"),
         (r"roll( ?angle)?$", "roll_rad"),
         (r"pitch( ?angle)?$", "pitch_rad"),
         (r"(position x|pos ?x|utm ?e\w*|easting|x ?pos\w*)$", "x_m"),
@@ -106,9 +111,10 @@ def channel_hinted(name: str) -> str:
     as_is = " ".join(re.sub(r"[^0-9A-Za-z]+", " ", name).lower().split())
     if as_is in WHEELS:
         return WHEELS[as_is]
-    if _WHEEL_SPEED.search(words):
-        return next((f"hub_speed_{hub}_radps" for corner, hub in _CORNERS if corner.search(words)),
-                    "")  # fmt: skip
+    for quantity, (before, after) in _OF_WHEELS:
+        if quantity.search(words):
+            hub = next((hub for corner, hub in _CORNERS if corner.search(words)), "")
+            return f"{before}{hub}{after}" if hub else ""
     trailer = bool(TRAILER.search(words.replace("_", " ")) or TRAILER.search(name.lower()))
     bare = TRAILER.sub("", words).strip()
     short = TRAILER.sub("", as_is).strip()
