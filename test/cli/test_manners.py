@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import subprocess
 import sys
@@ -47,6 +48,16 @@ def test_a_sweep_in_which_every_run_fails_is_refused(
     said = capsys.readouterr().out
     assert said.startswith("1 run, 1 failed")
     assert "did you mean 'steer_left'?" in said
+
+
+@pytest.mark.parametrize("words", [["run", "--list", "--json"], ["run", "--json", "--list"]])
+def test_list_is_json_where_json_is_asked_for(
+    words: list[str], capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(words) == 0
+    found = json.loads(capsys.readouterr().out)
+    assert list(found) == ["scenarios", "vehicles"]
+    assert "Ferrari" in found["vehicles"]["ferrari_250lm"]
 
 
 def test_list_shows_shipped_files_with_titles(capsys: pytest.CaptureFixture[str]) -> None:

@@ -40,7 +40,7 @@ def test_the_flat_tire_alone_is_colored_and_stands_where_it_is(vehicle: Vehicle)
     motion = motion_of(drive(), vehicle)
     index = int(np.argmin(np.abs(motion.times_s - 5.0)))
     _, axes = new_axes()
-    draw_above(axes, vehicle, motion, index, arrows=False)
+    draw_above(axes, vehicle, motion, index)
     flat = [p for p in axes.patches if to_hex(p.get_facecolor()) == VERMILION]
     assert len(flat) == 1
     middle = flat[0].get_xy()[:4].mean(axis=0)

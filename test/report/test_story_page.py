@@ -59,5 +59,5 @@ def test_a_consistent_record_has_a_page_too(story: Story, tmp_path: Path) -> Non
     page = write_story(replace(story, diagnosis=NOTHING), tmp_path / "index.html").read_text()
     assert "Nowhere beyond noise" in page
     assert "Verdict: consistent. The model explains this." in page
-    assert "Nothing was named: consistent. Three of ten show as much." in page
+    assert "No effect was named; the verdict is “consistent”. Three of ten show as much." in page
     assert "with the named effects" not in page

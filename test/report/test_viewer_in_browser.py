@@ -117,7 +117,7 @@ def test_plots_read_the_channel_at_the_cursor_in_the_chosen_units(browser: Brows
         "app.seek(2) || (app.plots.panels.find(p => p.channels[0] === 'tractor_vx_mps')"
         ".chips.textContent)")
     assert "44.74 mph" in words
-    assert "42.5 mph" in words
+    assert "42.50 mph" in words
 
 
 def test_side_by_side_draws_both_halves(browser: Browser) -> None:

@@ -90,10 +90,12 @@ def command(
     Example: truck-blowout diagnose stop.csv --baseline calm.csv --holdout burst.csv -o diagnosis
     """
     from truck_blowout_sim.diagnosis import diagnose, effort, keeping
-    from truck_blowout_sim.vehicle import load_vehicle
+    from truck_blowout_sim.diagnosis.settings import load_settings
+    from truck_blowout_sim.vehicle import load_vehicle, pack
 
     _claim(output, corrected, logs.inputs(*recordings, *baseline, *holdout), force)
     loaded = load_vehicle(vehicle)
+    load_settings(pack(loaded), settings)  # a typo is told before anything else is said
     train, base, hold = _read(logs, loaded, recordings, baseline, holdout)
     _check(loaded, [*train, *base, *hold], impose_speed, yes)
     if not as_json:

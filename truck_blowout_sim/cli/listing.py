@@ -8,6 +8,7 @@ from typing import Any
 import typer
 import yaml
 
+from truck_blowout_sim.cli.outputs import say
 from truck_blowout_sim.recordings.shipped import shipped_recordings
 from truck_blowout_sim.resources import config_dir, config_names
 
@@ -19,10 +20,11 @@ _TEST = "# test: "  # the line of a recording's head that says what was tested
 def list_option(*kinds: str) -> Any:  # noqa: ANN401 (what Typer takes as a default)
     """An option `--list` that prints the shipped files of some kinds and ends the program."""
 
-    def show(wanted: bool) -> None:
+    def show(context: typer.Context, wanted: bool) -> None:
         if wanted:
-            for line in listing(*kinds):
-                typer.echo(line)
+            # options that stand behind this one are not parsed yet: look at the words themselves
+            as_json = "--json" in (context.obj or ())
+            say(as_json, titles(*kinds), listing(*kinds))
             raise typer.Exit
 
     return typer.Option(False, "--list", callback=show, is_eager=True,
@@ -31,12 +33,16 @@ def list_option(*kinds: str) -> Any:  # noqa: ANN401 (what Typer takes as a defa
 
 def listing(*kinds: str) -> Iterator[str]:
     """Names with titles, kind by kind."""
-    for kind in kinds:
-        names = _names(kind)
-        width = max(map(len, names), default=0)
+    for kind, found in titles(*kinds).items():
+        width = max(map(len, found), default=0)
         yield f"{kind}:"
-        for name in names:
-            yield f"  {name:{width}}  {_title(kind, name)}".rstrip()
+        for name, title in found.items():
+            yield f"  {name:{width}}  {title}".rstrip()
+
+
+def titles(*kinds: str) -> dict[str, dict[str, str]]:
+    """Title of each shipped file by kind and name."""
+    return {kind: {name: _title(kind, name) for name in _names(kind)} for kind in kinds}
 
 
 def names_of(kind: str) -> Callable[[str], list[str]]:

@@ -64,7 +64,8 @@ def main(arguments: Sequence[str] | None = None, program: str = PROGRAM) -> int:
     try:
         program_of_verb = build(words)
         words = repeat_flags(words, _several_valued(words))
-        status = program_of_verb(words or ["--help"], prog_name=program, standalone_mode=False)
+        status = program_of_verb(words or ["--help"], prog_name=program, standalone_mode=False,
+                                 obj=tuple(words))
     except BaseException as error:  # noqa: BLE001 -- the one place where every failure ends
         return report(error, program=program, traceback=traceback)
     if status == INTERRUPTED:

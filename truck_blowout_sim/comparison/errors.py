@@ -20,6 +20,7 @@ Floats = NDArray[np.float64]
 
 # Below this multiple of its noise a measured channel has no shape that could be rated.
 _SIGNAL_OVER_NOISE = 6.0
+_ROUNDING = 1e-9  # SI: what is smaller is shown as 0
 _MOST_RATED_SAMPLES = 3000
 _FEWEST_RATED_SAMPLES = 20
 
@@ -78,7 +79,8 @@ class ChannelError:
 
     def shown(self, value: float) -> str:
         """A value of this channel as a person reads it, three significant digits and the unit."""
-        return f"{shortened(value * self.unit.per_si)} {self.unit.symbol}".rstrip()
+        shown = 0.0 if abs(value) < _ROUNDING else value * self.unit.per_si
+        return f"{shortened(shown)} {self.unit.symbol}".rstrip()
 
 
 def channel_error(pair: Pair, label: str, noise: Sigma | None, *, imposed: bool = False

@@ -12,7 +12,8 @@ import math
 import re
 from dataclasses import dataclass
 
-FOOT_M = 0.3048
+from truck_blowout_sim.vehicle.units import FOOT_M
+
 MPH_MPS = 0.44704
 PSI_PA = 6894.757293168361
 G_MPS2 = 9.80665

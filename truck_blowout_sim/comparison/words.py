@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 
 from truck_blowout_sim.comparison.iso18571 import grade
 from truck_blowout_sim.recordings import Channel, channels_for
-from truck_blowout_sim.recordings.channels import UNITS
 from truck_blowout_sim.vehicle import Vehicle
 
 if TYPE_CHECKING:
@@ -43,8 +42,7 @@ def _label(row: Channel) -> str:
     """The table's words without what a reader of the name knows anyway."""
     if row.group in _SHORT:
         return f"{_SHORT[row.group]}, {row.part}"
-    words, comma, _ = row.quantity.partition(",")
-    return f"{words} of the {row.part}" if comma and row.part in UNITS else words
+    return row.quantity.partition(",")[0]
 
 
 def verdict(comparison: Comparison) -> str:

@@ -97,7 +97,8 @@ def channels_for(
     rows += [_pressure("chamber", hub) for hub in hubs]
     rows += [_height(unit) for unit in units]
     if len(units) > 1:
-        rows.append(_joint("articulation_rad", "articulation", "trailer yaw minus tractor yaw"))
+        rows.append(_joint("articulation_rad", "articulation",
+                           "articulation angle, trailer minus tractor yaw"))
     rows += [_joint(f"{hub}_steer_rad", f"{hub}_steer", f"road-wheel steer of hub {hub}", hub)
              for hub in steered]  # fmt: skip
     rows += [_joint(f"hub_spin_angle_{hub}_rad", f"{hub}_spin", f"spin angle of hub {hub}", hub)
@@ -164,6 +165,7 @@ def _body_rows(unit: str) -> list[Channel]:
     frame = f"{unit}/base_link"
     rows = []
     for stem, si_unit, words, bound, odometry_field, imu_field in _BODY:
+        what, comma, sign = words.partition(",")
         places = []
         if stem == "yaw_rate_radps":
             places.append(Place(f"{unit}/yaw_rate", FLOAT64, "data"))
@@ -175,8 +177,8 @@ def _body_rows(unit: str) -> list[Channel]:
             places.append(Place(f"{unit}/imu", IMU, imu_field, frame))
         instrument = "imu" if "rate" in stem or stem.startswith("a") else "odometry"
         rows.append(Channel(
-            f"{unit}_{stem}", si_unit, f"{words} of the {unit}", unit, f"{unit} {instrument}",
-            -bound, bound, places[0], tuple(places[1:]), part=unit,
+            f"{unit}_{stem}", si_unit, f"{what} of the {unit}{comma}{sign}", unit,
+            f"{unit} {instrument}", -bound, bound, places[0], tuple(places[1:]), part=unit,
         ))  # fmt: skip
     return rows
 

@@ -20,11 +20,15 @@ from truck_blowout_sim.comparison.units import axes_sign, display_unit
 from truck_blowout_sim.recordings import Recording
 from truck_blowout_sim.recordings.channels import by_name
 from truck_blowout_sim.recordings.names import parts_of
+from truck_blowout_sim.report.common_words import shared_words
 from truck_blowout_sim.report.style import CYCLE, EVENT, Picture, new_figure, styled
 
 TIME = "time_s"
 _DASHES: tuple[Any, ...] = ("-", (0, (5, 2)), (0, (1.5, 1.5)), (0, (6, 2, 1.5, 2)))
-_PANEL_HEIGHT, _WIDTH = 2.3, 8.4
+_PANEL_HEIGHT, _WIDTH, _LEGEND_ROWS = 2.3, 8.4, 10
+_SAE = "\nSAE axes: right, down and clockwise are positive"
+_TURNED = (("left positive", "right positive"), ("left side up", "right side up"),
+           ("to the left", "to the right"), ("nose down", "nose up"), ("upward", "downward"))
 
 
 @dataclass(frozen=True)
@@ -63,29 +67,32 @@ def channel_plot(runs: Sequence[Recording], request: PlotRequest, name: str) -> 
         for axes in panels:
             _mark(axes, runs, named=axes is panels[0])
     for axes in panels if not shared else panels[-1:]:
-        axes.set_xlabel("time (s)" if shared else _label(runs, request.over, request))
+        over = "time (s)" if shared else _label(_words(runs, request.over, request),
+                                                [request.over], request)
+        axes.set_xlabel(over + ("" if request.axes == "iso" else _SAE))
     words = ", ".join(run.name for run in runs)
     return Picture(name, words, "; ".join("+".join(group) for group in request.panels), figure)
 
 
 def _panel(axes: Axes, runs: Sequence[Recording], channels: Sequence[str], request: PlotRequest
            ) -> None:
+    common, own = shared_words([_words(runs, channel, request) for channel in channels])
+    several = len(channels) > 1
     for r, run in enumerate(runs):
         for c, channel in enumerate(channels):
             if channel not in run:
                 continue
             x, y = _values(run, channel, request)
-            several = len(channels) > 1
-            words = [w for w, shown in ((channel, several), (run.name, len(runs) > 1)) if shown]
-            axes.plot(x, y, color=CYCLE[(c if several else r) % len(CYCLE)],
-                      linestyle=_DASHES[r % len(_DASHES)],
+            words = [w for w, shown in ((own[c], several), (run.name, len(runs) > 1)) if shown]
+            turns, color = divmod(c, len(CYCLE)) if several else (0, r % len(CYCLE))
+            axes.plot(x, y, color=CYCLE[color], linestyle=_DASHES[(r + turns) % len(_DASHES)],
                       label=", ".join(words) or channel, zorder=3)  # fmt: skip
             if request.over != TIME:
                 _ring(axes, run, channel, request)
-    axes.set_ylabel(_label(runs, channels[0], request) if len(channels) == 1
-                    else _symbols(channels, request))
-    if len(channels) > 1 or len(runs) > 1:
-        axes.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0), borderaxespad=0.3)
+    axes.set_ylabel(_label(common, channels, request))
+    if several or len(runs) > 1:
+        axes.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0), borderaxespad=0.3,
+                    ncols=1 + (len(channels) * len(runs) - 1) // _LEGEND_ROWS)  # fmt: skip
 
 
 def _values(run: Recording, channel: str, request: PlotRequest) -> tuple[Any, Any]:
@@ -122,27 +129,29 @@ def _ring(axes: Axes, run: Recording, channel: str, request: PlotRequest) -> Non
                       fontsize=8)  # fmt: skip
 
 
-def _label(runs: Sequence[Recording], channel: str, request: PlotRequest) -> str:
-    """The quantity in words with its unit, on two lines where it is long."""
+def _words(runs: Sequence[Recording], channel: str, request: PlotRequest) -> str:
+    """The quantity in words, with the side that is positive in the axes asked for."""
     table = by_name(parts_of([name for run in runs for name in run.channels]).table())
     words = table[channel].quantity if channel in table else channel
-    symbol = display_unit(channel, request.units).symbol
-    if axes_sign(channel, request.axes) < 0.0:
-        words = words.replace("left positive", "right positive").replace("to the left",
-                                                                         "to the right")
-    return f"{_folded(words)}" + (f" ({symbol})" if symbol else "")
+    if display_unit(channel, request.units).symbol == "%":
+        words = words.partition(",")[0]  # not "0 to 1"
+    for ours, theirs in _TURNED if axes_sign(channel, request.axes) < 0.0 else ():
+        words = words.replace(ours, theirs)
+    return words
+
+
+def _label(words: str, channels: Sequence[str], request: PlotRequest) -> str:
+    """Words with the units, on two lines where they are long."""
+    symbols = ", ".join(filter(None, dict.fromkeys(
+        display_unit(channel, request.units).symbol for channel in channels)))  # fmt: skip
+    return f"{_folded(words)} ({symbols})" if words and symbols else words or symbols
 
 
 def _folded(words: str) -> str:
     if len(words) < 26:
         return words
-    at = words.find(" ", len(words) // 2 - 2)
+    at = words.find(", ") + 1 or words.find(" ", len(words) // 2 - 2)
     return words if at < 0 else f"{words[:at]}\n{words[at + 1:]}"
-
-
-def _symbols(channels: Sequence[str], request: PlotRequest) -> str:
-    return ", ".join(dict.fromkeys(
-        display_unit(channel, request.units).symbol for channel in channels))  # fmt: skip
 
 
 def _mark(axes: Axes, runs: Sequence[Recording], *, named: bool) -> None:

@@ -45,11 +45,13 @@ def comparison_page(comparison: Comparison, pictures: tuple[Picture, ...] | None
     """The page as HTML that needs no other file."""
     recording = comparison.recording
     start, end = comparison.interval_s
+    headline, _, more = verdict(comparison).partition("; ")
     return render("comparison.html", {
         "name": recording.name,
         "vehicle": comparison.vehicle.name,
         "vehicle_title": comparison.vehicle.title,
-        "verdict": verdict(comparison),
+        "verdict": headline,
+        "more": more,
         "rebuilt": recording.metadata.get("origin", "") if comparison.marks else "",
         "interval": f"{start:.2f} s to {end:.2f} s",
         "blowouts": _blowouts(comparison),

@@ -56,8 +56,9 @@ def overlay_picture(
         for recording, time_s, tires in blowouts:
             if recording == overlay.recording:
                 axes.axvline(time_s, color=EVENT, linewidth=1.0, linestyle=":")
-                axes.annotate(f" {tires} blows", (time_s, 1.0), xycoords=("data", "axes fraction"),
-                              va="top", fontsize=7, color=EVENT)
+                axes.annotate(f"{tires} blows", (time_s, 1.0), xycoords=("data", "axes fraction"),
+                              xytext=(0, 2), textcoords="offset points", ha="center", va="bottom",
+                              fontsize=7, color=EVENT, annotation_clip=False)
     for axes in panels[len(overlays) :]:
         axes.remove()
     figure.supxlabel("time (s)", fontsize=9)

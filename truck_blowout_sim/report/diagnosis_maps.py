@@ -17,6 +17,7 @@ Floats = NDArray[np.float64]
 # Within three sigma lies what noise makes by itself; beyond, each shade is a factor.
 _NOISE, _MOST = 3.0, 100.0
 _NORM = SymLogNorm(linthresh=_NOISE, linscale=0.35, vmin=-_MOST, vmax=_MOST)
+_LEAST_IN = 2.5
 _TICKS = (-100, -30, -10, -3, 3, 10, 30, 100)
 
 
@@ -25,7 +26,7 @@ def map_picture(mismatch: ChannelTimeMap, labels: Mapping[str, str], number: int
     grids = [("model as given", mismatch.before)]
     if mismatch.after is not None:
         grids.append(("model as diagnosed", mismatch.after))
-    height = 1.1 + 0.19 * len(mismatch.channels)
+    height = max(1.1 + 0.19 * len(mismatch.channels), _LEAST_IN)  # room for the bar's words
     figure = new_figure((9.6, height))
     panels = figure.subplots(1, len(grids), sharey=True, squeeze=False)[0]
     for axes, (words, grid) in zip(panels, grids, strict=True):
@@ -38,6 +39,7 @@ def map_picture(mismatch: ChannelTimeMap, labels: Mapping[str, str], number: int
     panels[0].invert_yaxis()
     bar = figure.colorbar(panels[0].collections[0], ax=list(panels), shrink=min(1.0, 3.0 / height),
                           ticks=_TICKS, format="%d", pad=0.01)  # fmt: skip
+    bar.minorticks_off()
     bar.set_label("model − record, in σ")
     caption = (
         f"{mismatch.recording} ({mismatch.role}). White: what noise explains; "

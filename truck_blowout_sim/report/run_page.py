@@ -21,7 +21,7 @@ from truck_blowout_sim.report.style import (
     new_figure,
     styled,
 )
-from truck_blowout_sim.report.truck_above import M_PER_N, draw_above, path_line
+from truck_blowout_sim.report.truck_above import arrow_scale, draw_above, path_line
 from truck_blowout_sim.vehicle import Vehicle
 
 _AFTER_BLOWOUT_S = (0.0, 0.5, 1.0, 2.0)
@@ -76,6 +76,7 @@ def five_instants(run: Recording, motion: Motion) -> list[int]:
 def _above(run: Recording, motion: Motion, vehicle: Vehicle) -> Picture:
     """The truck at five instants, heading to the right: as first, or each time if it turned far."""
     picks = five_instants(run, motion)
+    scale = arrow_scale(motion, picks)
     first = motion.units[vehicle.units[0]]
     last = motion.units[vehicle.units[-1]]
     turned = np.ptp(first.yaw_rad[picks]) > _TURNED_RAD
@@ -88,7 +89,7 @@ def _above(run: Recording, motion: Motion, vehicle: Vehicle) -> Picture:
         if turned:
             turn = -0.5 * float(first.yaw_rad[k] + last.yaw_rad[k])
         middle = (float(first.x_m[k] + last.x_m[k]) / 2, float(first.y_m[k] + last.y_m[k]) / 2)
-        draw_above(axes, vehicle, motion, k, turn_rad=turn, center=middle)
+        draw_above(axes, vehicle, motion, k, n_per_m=scale, turn_rad=turn, center=middle)
         c, s = np.cos(turn), np.sin(turn)
         x, y = first.x_m - middle[0], first.y_m - middle[1]
         path_line(axes, c * x - s * y, s * x + c * y)
@@ -100,9 +101,7 @@ def _above(run: Recording, motion: Motion, vehicle: Vehicle) -> Picture:
                       va="top", weight="bold", color=INK)  # fmt: skip
         axes.grid(visible=False)
     figure.axes[-1].set_xlabel("m")
-    forces = any(wheel.forces_n for wheel in motion.wheels.values())
-    arrows = f" Arrows: force of the road on each tire, 1 m = {1e-3 / M_PER_N:g} kN." if forces \
-        else ""
+    arrows = f" Arrows: force of the road on each tire, 1 m = {scale / 1e3:g} kN." if scale else ""
     return Picture("truck_above", "The truck from above at five instants",
                    "To scale; the flat tire in color; the line is the path of the tractor."
                    + (" Each is turned to lie level." if turned else "") + arrows,
@@ -127,7 +126,7 @@ def _path(run: Recording, motion: Motion, vehicle: Vehicle) -> Picture:
         for axes in (scale, stretched):
             axes.plot(along, across, color=color, label=unit, zorder=3)
     for k in five_instants(run, motion):
-        draw_above(scale, vehicle, motion, k, arrows=False, turn_rad=-yaw, center=(x0, y0))
+        draw_above(scale, vehicle, motion, k, turn_rad=-yaw, center=(x0, y0))
     scale.margins(0.02, 0.15)
     scale.set_aspect("equal", adjustable="datalim")
     scale.set_ylabel("left (m)")
@@ -151,7 +150,7 @@ def _groups(run: Recording, vehicle: Vehicle
            (each("{}_vx_mps"), each("{}_yaw_rate_radps"), each("{}_roll_rad"),
             ("articulation_rad",)))
     tires = _shown_tires(run, vehicle)
-    yield ("tires", "Tires", "Pressure and forces of the blown tires and of those across the axle.",
+    yield ("tires", "Tires", "Pressure and forces of the blown tires and of their mirror images.",
            (tuple(f"tire_pressure_{t}_pa" for t in tires), tuple(f"tire_fz_{t}_n" for t in tires),
             tuple(f"tire_fy_{t}_n" for t in tires), tuple(f"tire_fx_{t}_n" for t in tires)))
 

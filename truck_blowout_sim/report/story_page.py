@@ -18,6 +18,7 @@ from matplotlib.axes import Axes
 
 from truck_blowout_sim.comparison import Comparison, verdict
 from truck_blowout_sim.comparison.units import display_unit
+from truck_blowout_sim.comparison.words import labels_for
 from truck_blowout_sim.report.comparison_lines import draw_measured, event_times
 from truck_blowout_sim.report.page import render, write_text
 from truck_blowout_sim.report.style import AFTER, BEFORE, EVENT, Picture, new_figure, styled
@@ -64,7 +65,8 @@ def _content(story: Story) -> dict[str, object]:
         "equation": effect["equation"], "where": _place(effect["where"]),
         "parameters": [_parameter(name, value) for name, value in effect["parameters"].items()],
     } for effect in found["effects"]]  # fmt: skip
-    rows = [(name, f"{before:.1f}", f"{fit['after'].get(name, float('nan')):.1f}")
+    labels = labels_for(story.before.vehicle)
+    rows = [(labels.get(name, name), f"{before:.1f}", f"{fit['after'].get(name, float('nan')):.1f}")
             for name, before in fit["before"].items()]
     record = story.before.recording
     return {
@@ -76,7 +78,8 @@ def _content(story: Story) -> dict[str, object]:
         "wrong": said.get("wrong", ""), "sure": said.get("sure", ""),
         "aliases": [" or ".join(n.replace("_", " ") for n in names)
                     for names in found["alias_sets"] if len(names) > 1],
-        "location": _located(location), "fit": rows, "next_test": found.get("next_test", ""),
+        "location": _located(location, labels), "fit": rows,
+        "next_test": found.get("next_test", ""),
         "added": _added(story), "links": list(story.links),
         "inputs": _inputs(story), "mismatch": _overlay(story, amended=False),
         "amended": _overlay(story, amended=True),
@@ -94,11 +97,13 @@ def _parameter(name: str, value: Mapping[str, Any]) -> tuple[str, str, str]:
     return name.replace("_", " "), f"{value['value']:.3g} {value['unit']}", interval
 
 
-def _located(location: Mapping[str, Any]) -> list[tuple[str, str]]:
+def _located(location: Mapping[str, Any], labels: Mapping[str, str]
+             ) -> list[tuple[str, str]]:
     rows = []
     if location["channels"]:
-        rows.append(("channels", ", ".join(f"{c['name']} ({c['sigma']:.1f} σ)"
-                                           for c in location["channels"])))
+        rows.append(("channels", ", ".join(
+            f"{labels.get(c['name'], c['name'])} ({c['sigma']:.1f} σ)"
+            for c in location["channels"])))
     if location["interval_s"]:
         rows.append(("from, to", "{:.2f} to {:.2f} s".format(*location["interval_s"])))
     if location["body"]:

@@ -74,7 +74,8 @@ _UNDATED: dict[str, Any] = {
     "pdf": {"CreationDate": None, "Creator": None, "Producer": None},
 }  # fmt: skip
 # what stands in the dark style for each color of the light one
-_DARK = {PAPER: "#14191f", INK: "#e6eaee", SOFT: "#9aa6b2", GRID: "#2c343c", BLUE: SKY}
+_DARK = {PAPER: "#14191f", INK: "#e6eaee", SOFT: "#9aa6b2", GRID: "#2c343c", BLUE: SKY,
+         SKY: YELLOW}
 
 
 @dataclass(frozen=True, eq=False)

@@ -5,7 +5,7 @@ Validated with: test/report/test_run_page.py.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -20,11 +20,13 @@ from truck_blowout_sim.vehicle.places import HubPlace, hub_places
 Floats = NDArray[np.float64]
 _TIRE_WIDTH_OF_RADIUS, _BODY, _RUBBER, _FLAT = 0.56, "#dfe5ea", "#3a4149", VERMILION
 _FLAT_BELOW = 0.3  # part of the air left
-M_PER_N = 1.0 / 4000.0
+_LONGEST_M = 2.5
+_ROUND_N = (500.0, 1e3, 2e3, 5e3, 1e4, 2e4, 5e4)
 
 
-def draw_above(axes: Axes, vehicle: Vehicle, motion: Motion, index: int, *, arrows: bool = True,
-               turn_rad: float = 0.0, center: tuple[float, float] = (0.0, 0.0)) -> None:
+def draw_above(axes: Axes, vehicle: Vehicle, motion: Motion, index: int, *,
+               n_per_m: float | None = None, turn_rad: float = 0.0,
+               center: tuple[float, float] = (0.0, 0.0)) -> None:
     """Draw the truck at one instant of its motion.
 
     Args:
@@ -32,7 +34,7 @@ def draw_above(axes: Axes, vehicle: Vehicle, motion: Motion, index: int, *, arro
         vehicle: lengths.
         motion: where its parts were.
         index: instant.
-        arrows: force on the road of each tire.
+        n_per_m: force that an arrow of one meter stands for; None draws no arrows.
         turn_rad, center: the map is turned by this about that point.
     """
     def placed(points: Floats) -> Floats:
@@ -51,11 +53,20 @@ def draw_above(axes: Axes, vehicle: Vehicle, motion: Motion, index: int, *, arro
             flat = float(motion.wheels[hub.hub].air[tire][index]) < _FLAT_BELOW
             axes.add_patch(Polygon(placed(outline), facecolor=_FLAT if flat else _RUBBER,
                                    edgecolor="none", zorder=3))  # fmt: skip
-            if arrows and force is not None and np.hypot(*force) > 100.0:
-                a, b = placed(np.stack([contact, contact + force * M_PER_N]))
+            if n_per_m and force is not None and np.hypot(*force) > 0.04 * n_per_m:
+                a, b = placed(np.stack([contact, contact + force / n_per_m]))
                 axes.annotate("", b, a, zorder=4, arrowprops={
                     "arrowstyle": "-|>", "color": BLUE, "linewidth": 1.1, "shrinkA": 0,
                     "shrinkB": 0, "mutation_scale": 7})  # fmt: skip
+
+
+def arrow_scale(motion: Motion, picks: Sequence[int]) -> float | None:
+    """Round force [N] of one meter, so that the longest arrow stays short; None without forces."""
+    most = [float(np.hypot(force[0][list(picks)], force[1][list(picks)]).max())
+            for wheel in motion.wheels.values() for force in wheel.forces_n.values()]
+    if not most:
+        return None
+    return next((n for n in _ROUND_N if n * _LONGEST_M >= max(most)), _ROUND_N[-1])
 
 
 def _pose(motion: Motion, unit: str, index: int) -> tuple[Floats, float]:

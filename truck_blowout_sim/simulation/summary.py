@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from truck_blowout_sim.recordings import Recording
-from truck_blowout_sim.vehicle.units import MILE_PER_HOUR_MPS
+from truck_blowout_sim.vehicle.units import FOOT_M, MILE_PER_HOUR_MPS
 
 _STANDING_MPS = 0.05
 
@@ -25,9 +25,9 @@ def _speed(recording: Recording) -> str:
     standing = np.flatnonzero(np.abs(speed.value) < _STANDING_MPS)
     if first > 1.0 and standing.size:
         stop = int(standing[0])
-        distance = _travelled(recording)[stop]
-        return f"{first:.1f} mph to standstill in {distance:.0f} m at {speed.time_s[stop]:.1f} s"
-    return f"{first:.1f} to {last:.1f} mph over {_travelled(recording)[-1]:.0f} m"
+        way_ft = _travelled(recording)[stop] / FOOT_M
+        return f"{first:.1f} mph to standstill in {way_ft:.0f} ft at {speed.time_s[stop]:.1f} s"
+    return f"{first:.1f} to {last:.1f} mph over {_travelled(recording)[-1] / FOOT_M:.0f} ft"
 
 
 def _travelled(recording: Recording) -> NDArray[np.float64]:
@@ -53,7 +53,7 @@ def _place(recording: Recording) -> str:
     if abs(off) < 0.05:
         return "ended on the line it started on"
     side = "left" if off > 0.0 else "right"
-    return f"ended {abs(off):.1f} m {side} of the line it started on"
+    return f"ended {abs(off) / FOOT_M:.1f} ft {side} of the line it started on"
 
 
 def _rolled_over(recording: Recording) -> list[str]:

@@ -13,6 +13,7 @@ PSI_PA = 6894.757293168361
 POUND_KG = 0.45359237
 POUND_FORCE_N = 4.4482216152605
 INCH_M = 0.0254
+FOOT_M = 12.0 * INCH_M
 MILE_PER_HOUR_MPS = 0.44704
 KMH_MPS = 1.0 / 3.6
 
@@ -28,7 +29,7 @@ UNITS: dict[str, Unit] = {
     "mm": Unit("m", 1e-3),
     "cm": Unit("m", 1e-2),
     "in": Unit("m", INCH_M),
-    "ft": Unit("m", 12 * INCH_M),
+    "ft": Unit("m", FOOT_M),
     "cm2": Unit("m2", 1e-4),
     "l": Unit("m3", 1e-3),
     "lb": Unit("kg", POUND_KG),

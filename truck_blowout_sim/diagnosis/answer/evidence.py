@@ -11,7 +11,14 @@ from truck_blowout_sim.diagnosis.case.runs import Run
 from truck_blowout_sim.diagnosis.case.study import Study, row_ranges
 from truck_blowout_sim.diagnosis.fit.quantiles import NINETY
 from truck_blowout_sim.diagnosis.name.judging import Found
-from truck_blowout_sim.diagnosis.result import Calibrated, Candidate, ChannelTimeMap, Overlay
+from truck_blowout_sim.diagnosis.result import (
+    Calibrated,
+    Candidate,
+    ChannelTimeMap,
+    Overlay,
+    Parameter,
+    amount_text,
+)
 
 Floats = NDArray[np.float64]
 Left = Sequence[tuple[Run, Floats]]  # run and its [n, m] residual in units of ``run.sigma``
@@ -105,8 +112,9 @@ def candidates(found: Found) -> tuple[Candidate, ...]:
     for trial in found.tried[:25]:
         ranked, h = trial.ranked, trial.ranked.hypothesis
         amount = h.effect.amount
-        low, high = sorted((amount.report(h.amount - NINETY * ranked.sigma),
-                            amount.report(h.amount + NINETY * ranked.sigma)))
+        low, value, high = (amount.report(h.amount + k * NINETY * ranked.sigma)
+                            for k in (-1.0, 0.0, 1.0))
+        shown = Parameter(value, amount.unit, (min(low, high), max(low, high)))
         result.append(Candidate(
             name=h.effect.name, where=h.place, delta_chi2=ranked.delta,
             accepted=h.key in named, aliased=h.key in aliased,
@@ -114,7 +122,7 @@ def candidates(found: Found) -> tuple[Candidate, ...]:
             limit=trial.fate.limit,
             p_value=(found.chance.p_value(ranked.support)
                      if found.chance and ranked.refitted else None),
-            amount=f"{amount.report(h.amount):.3g} ({low:.3g} to {high:.3g}) {amount.unit}"))
+            amount=amount_text(amount.name, shown).replace("90 %: ", "")))
     return tuple(result)
 
 

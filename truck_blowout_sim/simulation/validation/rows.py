@@ -8,10 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from truck_blowout_sim.recordings import Recording
-from truck_blowout_sim.vehicle.units import INCH_M, MILE_PER_HOUR_MPS
+from truck_blowout_sim.vehicle.units import FOOT_M, MILE_PER_HOUR_MPS
 
 Floats = NDArray[np.float64]
-FOOT_M = 12.0 * INCH_M
 
 
 @dataclass(frozen=True)

@@ -2,11 +2,11 @@
 
 // forward, left, up of the eye, then of the point looked at, from the middle of the truck, in m.
 const VIEWS = {
-  'chase': {eye: [-17, 8.5, 6.2], to: [0.5, 0, -0.6]},
+  'chase': {eye: [-20, 9.5, 7], to: [-1.2, 0, -1.2]},
   'front left': {eye: [10.4, 6.2, 1.1], to: [2.6, 0.4, -0.1]},
   'front right': {eye: [10.4, -6.2, 1.1], to: [2.6, -0.4, -0.1]},
   'side': {eye: [-2.2, 19, 1.6], to: [-2.2, 0, 0]},
-  'top': {eye: [-0.02, 0, 32], to: [0, 0, 0]},
+  'top': {eye: [-2.72, 0, 38], to: [-2.7, 0, 0]},
   'driver': {eye: [2.4, 0.55, 1.35], to: [22, 0.4, -0.4]},
 };
 

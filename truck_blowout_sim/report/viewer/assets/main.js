@@ -32,11 +32,12 @@ class App {
     this.eye = new Eye($('scene'));
     const [first] = Object.values(this.runs[0].vehicle.units);
     const length = Object.values(this.runs[0].vehicle.units).reduce((n, u) => n + u.front - u.rear, 0);
-    this.eye.size = Math.min(1.25, 0.25 + 0.75 * length / 19);
+    this.eye.size = Math.min(1.25, 0.32 + 0.68 * length / 19);
     this.second = new THREE.PerspectiveCamera(38, 1, 0.3, 900);
     try {
       // a processor that draws alone is spared the four-fold work of smooth edges
-      this.renderer = new THREE.WebGLRenderer({canvas: $('scene'), antialias: !drawnBySoftware()});
+      this.bySoftware = drawnBySoftware();
+      this.renderer = new THREE.WebGLRenderer({canvas: $('scene'), antialias: !this.bySoftware});
     } catch (error) {
       $('message').hidden = false;
       $('message').textContent = 'This browser gives no WebGL: the plots work, the truck cannot be drawn.';
@@ -240,7 +241,7 @@ class App {
     const full = this.frames.length > 3 && now - this.frames[0] > 700;
     const rate = (this.frames.length - 1) / (now - this.frames[0]) * 1000;
     this.rate = rate;
-    if (full && rate < 24 && this.sharp > 0.55) { this.sharp *= 0.8; this.frames = []; this.resize(); }
+    if (full && rate < (this.bySoftware ? 29 : 24) && this.sharp > 0.55) { this.sharp *= 0.8; this.frames = []; this.resize(); }
   }
 
   // From now on pictures are drawn on demand only.

@@ -161,7 +161,7 @@ class Plots {
     }
     panel.chips.querySelectorAll('b').forEach((b, k) => {
       b.textContent = panel.curves.filter(q => q.k === k)
-        .map(q => `${plain(valueAt(q.c, t) * q.factor)} ${q.symbol}`).join(' | ');
+        .map(q => `${steady(valueAt(q.c, t) * q.factor, s)} ${q.symbol}`).join(' | ');
     });
   }
 
@@ -218,6 +218,13 @@ function plain(v) {
   const a = Math.abs(v);
   return a !== 0 && (a < 1e-3 || a >= 1e6) ? v.toExponential(1)
     : (+v.toFixed(a >= 100 ? 1 : a >= 1 ? 2 : 3)).toString();
+}
+
+// As many decimals as the plot's range deserves, so that the words keep their width while time runs.
+function steady(v, {lo, hi}) {
+  if (v !== v) return '–';
+  const digits = Math.min(Math.max(2 - Math.floor(Math.log10(hi - lo)), 0), 6);
+  return (+v.toFixed(digits) + 0).toFixed(digits);
 }
 
 const short = name => name.replace(/_(radps|rad|mps2|mps|pa|nm|n|m|s)$/, '').replaceAll('_', ' ');

@@ -11,7 +11,9 @@ class Truck {
     this.materials = [];
     this.group = new THREE.Group();
     const paint = (color, more = {}) => {
-      const m = new THREE.MeshLambertMaterial({color, side: THREE.DoubleSide, ...more});
+      // three.js draws see-through, two-sided faces twice unless told not to
+      const m = new THREE.MeshLambertMaterial({color, side: THREE.DoubleSide, forceSinglePass: true,
+        ...more});
       this.materials.push(m);
       return m;
     };
@@ -276,17 +278,30 @@ const DRAW = {
 
   car(s, u, color) {
     const g = u.ground, f = u.front, r = u.rear, w = u.halfWidth + 0.02, R = u.wheelRadius;
-    const mid = (u.axles[0] + u.axles[u.axles.length - 1]) / 2, body = 0xb3202c;
-    s.loft(r, 0.8 * w, g + 0.3, g + 0.78, mid, 0.78 * w, g + 0.16, g + 0.72, body);
-    s.loft(mid, 0.78 * w, g + 0.16, g + 0.72, f, 0.72 * w, g + 0.2, g + 0.5, body);
-    s.hull([[mid + 0.75, -0.62 * w, g + 0.7], [mid + 0.75, 0.62 * w, g + 0.7],
-      [mid - 0.85, 0.62 * w, g + 0.74], [mid - 0.85, -0.62 * w, g + 0.74]],
-    [[mid + 0.2, -0.48 * w, g + 1.06], [mid + 0.2, 0.48 * w, g + 1.06],
-      [mid - 0.4, 0.48 * w, g + 1.08], [mid - 0.4, -0.48 * w, g + 1.08]], 0x17232e);
-    for (const x of [u.axles[0], u.axles[u.axles.length - 1]])
-      for (const y of [-1, 1])
-        s.box(x - R - 0.06, x + R + 0.06, y > 0 ? 0.72 * w : -w, y > 0 ? w : -0.72 * w,
-          g + 1.5 * R, g + 2 * R + 0.1, body);
+    const body = 0xb3202c, glass = 0x17232e, arch = R + 0.07, low = g + 0.18, deck = g + 2 * R + 0.14;
+    const axles = [...u.axles].sort((a, b) => a - b), back = axles[0], fore = axles[axles.length - 1];
+    // full width between the wheel arches, narrow beside the wheels, full again over them
+    const gaps = axles.flatMap(x => [x - arch, x + arch]).filter(x => x > r && x < f);
+    const ends = [r, ...gaps, f];
+    s.box(r + 0.05, f - 0.05, -0.7 * w, 0.7 * w, low, deck - 0.03, body);
+    for (let k = 0; k < ends.length; k += 2) {
+      const nose = ends[k + 1] === f, tail = ends[k] === r;
+      s.loft(ends[k], tail ? 0.93 * w : w, low, tail ? deck - 0.04 : deck,
+        ends[k + 1], nose ? 0.9 * w : w, low, nose ? deck - 0.13 : deck, body);
+    }
+    for (const x of axles) s.box(x - arch, x + arch, -w, w, g + 2 * R + 0.02, deck, body);
+    // the glass house stands between the axles and leans inwards
+    const len = fore - back, a0 = back - 0.05 * len, a1 = fore - 0.22 * len, top = deck + 0.52;
+    const foot = x => [[x, -0.86 * w, deck], [x, 0.86 * w, deck]];
+    const b0 = back + 0.2 * len, b1 = fore - 0.46 * len;
+    s.hull([...foot(a1), ...foot(a0).reverse()], [[b1, -0.66 * w, top], [b1, 0.66 * w, top],
+      [b0, 0.66 * w, top], [b0, -0.66 * w, top]], glass);
+    s.box(b0, b1, -0.66 * w, 0.66 * w, top, top + 0.03, body);
+    for (const y of [-1, 1]) {
+      const lo = y > 0 ? 0.5 * w : -0.85 * w, hi = y > 0 ? 0.85 * w : -0.5 * w;
+      s.box(f - 0.04, f + 0.02, lo, hi, deck - 0.3, deck - 0.18, 0xfff3cf);
+      s.box(r - 0.02, r + 0.04, lo, hi, deck - 0.28, deck - 0.14, 0x5e0f14);
+    }
   },
 };
 

@@ -126,7 +126,7 @@ function ribbon(u, n, half, color, opacity, z) {
   g.setAttribute('position', new THREE.BufferAttribute(new Float32Array(p), 3));
   g.setIndex(index);
   return new THREE.Mesh(g, new THREE.MeshBasicMaterial({color, transparent: true, opacity,
-    depthWrite: false, side: THREE.DoubleSide}));
+    depthWrite: false, side: THREE.DoubleSide, forceSinglePass: true}));
 }
 
 function label(text, x, y, height) {
