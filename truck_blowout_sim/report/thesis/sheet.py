@@ -41,6 +41,7 @@ def axis_system(data: ThesisData, stated: str, kind: str) -> Figure:
         _arrow(axes, origin, (0.0, -1.5 if down else 1.5), words)
         axes.set(xlim=(rear - 1, front + 4), ylim=(-2.2, 3.4) if seen == "side" else (-2.4, 2.4),
                  title=f"seen from {'the left' if seen == 'side' else 'above'}")  # fmt: skip
+        axes.set(xlabel="x (m)", ylabel=f"{up} (m)")
         axes.set_aspect("equal")
         axes.grid(visible=False)
     panels[0].axhline(0.0, color=INK, linewidth=1.2)
