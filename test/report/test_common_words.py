@@ -14,6 +14,8 @@ from truck_blowout_sim.report.common_words import shared_words
     (("yaw rate of the tractor", "yaw rate of the trailer"), "yaw rate", ["tractor", "trailer"]),
     (("force of tire steer_left, left positive", "force of tire steer_right, left positive"),
      "force of tire, left positive", ["steer_left", "steer_right"]),
+    (("pressure of the steer circuit, gauge", "pressure of the drive circuit, gauge"),
+     "pressure of the circuit, gauge", ["steer", "drive"]),
     (("forward speed", "throttle"), "", ["forward speed", "throttle"]),
     (("yaw rate", "yaw rate of the trailer"), "", ["yaw rate", "yaw rate of the trailer"]),
     (("yaw rate of the tractor",), "yaw rate of the tractor", ["yaw rate of the tractor"]),

@@ -26,7 +26,9 @@ def shared_words(names: Sequence[str]) -> tuple[str, list[str]]:
     rest = [words[first:] for words in split]
     last = _same([words[::-1] for words in rest])
     own = [words[:len(words) - last] for words in rest]
-    shared = [*_trimmed(split[0][:first]), *rest[0][len(rest[0]) - last:]]
+    end = rest[0][len(rest[0]) - last:]
+    start = split[0][:first]
+    shared = start + end if end and end[0] != "," else _trimmed(start) + end
     if not shared or not all(own):
         return "", list(names)
     return _joined(shared), [_joined(words) for words in own]
