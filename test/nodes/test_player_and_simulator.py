@@ -9,6 +9,8 @@ from typing import Any
 import numpy as np
 import pytest
 from nav_msgs.msg import Odometry
+from rcl_interfaces.msg import Parameter, ParameterType, ParameterValue
+from rcl_interfaces.srv import SetParameters
 from std_msgs.msg import String
 from std_srvs.srv import Trigger
 
@@ -68,6 +70,28 @@ def test_ctrl_c_ends_the_bag_that_the_player_began(
     assert f"messages to {bags / 'stopped'}" in simulator.output
     assert read_recording(bags / "stopped").blowouts[0].tires == ("steer_left",)
     assert runs(client)
+
+
+def test_a_simulator_at_another_speed_than_the_recording_is_told(
+    simulator: Any, start: Any, client: Any, bags: Path
+) -> None:
+    def run_at(factor: float) -> None:
+        value = ParameterValue(type=ParameterType.PARAMETER_DOUBLE, double_value=factor)
+        request = SetParameters.Request(
+            parameters=[Parameter(name="real_time_factor", value=value)]
+        )
+        client.call(SetParameters, "/truck/simulator/set_parameters", request)
+
+    path = log(bags / "slow.csv")
+    run_at(0.2)
+    by_wall = start("player", path, "--playback-duration", 2.5)
+    assert by_wall.wait() == 0, by_wall.output
+    assert "commands came at the wrong instants" in by_wall.output
+    by_clock = start("player", path, "--playback-duration", 0.5,
+                     "--ros-args", "-p", "use_sim_time:=true")  # fmt: skip
+    assert by_clock.wait() == 0, by_clock.output
+    assert "wrong instants" not in by_clock.output
+    run_at(1.0)
 
 
 def test_a_bag_elsewhere_is_refused_and_the_simulator_left_running(

@@ -68,14 +68,20 @@ class CommandTopic:
         """Write a value that applies from now on although no message brought it."""
         self._write(self.topic, FLOAT64, self._now_ns(), float64_bytes(value))
 
-    def take(self, value: float) -> None:
-        """Offer a value to the input; record it, or warn of it now and then."""
+    def take(self, value: float, via: str = "") -> None:
+        """Offer a value to the input; record it, or warn of it now and then.
+
+        Args:
+            value: in the input's unit.
+            via: the topic that it came from, if it is another one.
+        """
         refusal = self.guarded.offer(value, self._now_ns())
         if not refusal:
             self.record(value)
         elif monotonic() >= self._next_warning_s:
             self._next_warning_s = monotonic() + _WARN_EVERY_S
-            self._log.warning(f"{refusal}; the last good value holds")
+            origin = f"{via}, as " if via else ""
+            self._log.warning(f"{origin}{refusal}; the last good value holds")
 
     def _take(self, data: bytes) -> None:
         order = "<" if data[1] else ">"

@@ -20,6 +20,7 @@ from truck_blowout_sim import read_recording
 from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.nodes import runtime
 from truck_blowout_sim.nodes.parameters import check_changes
+from truck_blowout_sim.nodes.pace_watch import PaceWatch
 from truck_blowout_sim.nodes.player_parameters import SPECS, remappings
 from truck_blowout_sim.nodes.player_services import serve
 from truck_blowout_sim.nodes.playlist import Due, Playlist
@@ -75,6 +76,7 @@ class Player:
         self.time: ClockTime | WallTime = (
             ClockTime(node, values["rate"]) if following else WallTime(node, values["rate"])
         )
+        self.pace = None if following else PaceWatch(node, values["rate"])
         self.publishers = self._make_publishers()
         self._stop: StopFlag | None = None
         self.simulator = SimulatorClient(node, values["simulator"], lambda: bool(self._stop))
@@ -149,6 +151,8 @@ class Player:
             self._deliver(COMMANDS & self.publishers.keys())
         if prepare:
             self.stage.resume(executor)
+        if self.pace:
+            self.pace.begin()
         if not self.paused:
             self.time.go()
 
@@ -235,6 +239,8 @@ class Player:
         blown = ", ".join(self.blown) or "no tire"
         self.log.info(f"{why}: {self.published} messages published, {blown} blown,"
                       f" worst lateness {self.time.worst_late_s * 1e3:.1f} ms")  # fmt: skip
+        if self.pace and self.pace.warning:
+            self.log.warning(self.pace.warning)
 
     def _change(self, changes: list[Parameter[Any]]) -> SetParametersResult:
         verdict = check_changes(SPECS, changes)

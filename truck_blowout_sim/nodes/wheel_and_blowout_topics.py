@@ -33,7 +33,7 @@ class RoadWheelTopic:
         self._wheel.share(self._subscription, self._take)
 
     def _take(self, message: Float64) -> None:
-        self._wheel.take(hand_wheel_rad(self._vehicle, message.data))
+        self._wheel.take(hand_wheel_rad(self._vehicle, message.data), via=ROAD_WHEEL)
 
 
 class BlowoutTopic:
