@@ -55,6 +55,15 @@ def test_a_trailer_without_instruments_cuts_the_corner_by_the_tractrix(vehicle: 
                                  abs=0.005)
 
 
+def test_a_trailer_without_instruments_is_as_high_as_its_tractor(vehicle: Vehicle) -> None:
+    """A satellite receiver gives the altitude of the tractor; the trailer hangs on it."""
+    level = motion_of(recording(tractor_vx_mps=SPEED), vehicle).units
+    high = motion_of(recording(tractor_vx_mps=SPEED, tractor_z_m=200.0), vehicle).units
+    assert high["tractor"].z_m == pytest.approx(200.0)
+    drop_m = level["tractor"].z_m[0] - level["trailer"].z_m[0]
+    assert high["tractor"].z_m - high["trailer"].z_m == pytest.approx(drop_m)
+
+
 def test_the_kingpin_holds_both_units_together(vehicle: Vehicle) -> None:
     motion = motion_of(recording(tractor_vx_mps=SPEED, tractor_yaw_rate_radps=RATE,
                                  articulation_rad=-0.3), vehicle)

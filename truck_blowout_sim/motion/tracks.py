@@ -53,7 +53,8 @@ def _leading(source: Source, vehicle: Vehicle, unit: str) -> UnitTrack:
     yaw = _heading(source, unit, x, y)
     if x is None or y is None:
         x, y = _dead_reckoned(source, unit, yaw, x, y)
-    return UnitTrack(x, y, *_attitude(source, vehicle, unit, yaw))
+    level = np.full(yaw.size, _sheet_height_m(vehicle, unit))
+    return UnitTrack(x, y, *_attitude(source, unit, yaw, level))
 
 
 def _heading(source: Source, unit: str, x: Floats | None, y: Floats | None) -> Floats:
@@ -107,12 +108,17 @@ def _dead_reckoned(source: Source, unit: str, yaw: Floats, x: Floats | None, y: 
     return (along if x is None else x), (across if y is None else y)
 
 
-def _attitude(source: Source, vehicle: Vehicle, unit: str, yaw: Floats
+def _sheet_height_m(vehicle: Vehicle, unit: str) -> float:
+    return vehicle.unit_specs[unit].base_link.z_m
+
+
+def _attitude(source: Source, unit: str, yaw: Floats, level: Floats
               ) -> tuple[Floats, Floats, Floats, Floats]:
-    """Height, yaw, roll, pitch: level and at the height of the sheet where not recorded."""
-    height, known = source.or_constant(f"{unit}_z_m", vehicle.unit_specs[unit].base_link.z_m)
-    if not known:
+    """Height, yaw, roll, pitch: upright and at a given height where not recorded."""
+    height = source.get(f"{unit}_z_m")
+    if height is None:
         source.assume(f"height of the {unit}: that of the vehicle file")
+        height = level
     angles = []
     for angle in ("roll", "pitch"):
         value = source.get(f"{unit}_{angle}_rad")
@@ -130,7 +136,9 @@ def _towed(source: Source, vehicle: Vehicle, ahead: UnitTrack, first: str, unit:
     kingpin_y = ahead.y_m + front * np.sin(ahead.yaw_rad)
     yaw = _towed_heading(source, vehicle, ahead, unit, kingpin_x, kingpin_y)
     x, y = kingpin_x - own * np.cos(yaw), kingpin_y - own * np.sin(yaw)
-    return UnitTrack(x, y, *_attitude(source, vehicle, unit, yaw))
+    # a receiver gives an altitude: what is towed stays on the road of what tows it
+    level = ahead.z_m + (_sheet_height_m(vehicle, unit) - _sheet_height_m(vehicle, first))
+    return UnitTrack(x, y, *_attitude(source, unit, yaw, level))
 
 
 def _towed_heading(source: Source, vehicle: Vehicle, ahead: UnitTrack, unit: str, x: Floats,
