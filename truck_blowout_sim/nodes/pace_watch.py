@@ -40,7 +40,8 @@ class PaceWatch:
         wall_s, simulated_s = (b - a for a, b in zip(self._first, self._last, strict=True))
         if wall_s < _ENOUGH_S or abs(simulated_s / wall_s / self._rate - 1.0) < _TOLERANCE:
             return ""
-        return (f"the simulator advanced {simulated_s:.2f} s while {wall_s * self._rate:.2f} s of the"
+        played_s = wall_s * self._rate
+        return (f"the simulator advanced {simulated_s:.2f} s while {played_s:.2f} s of the"
                 " recording were played by wall time, so commands came at the wrong instants:"
                 " play with --ros-args -p use_sim_time:=true")  # fmt: skip
 

@@ -19,8 +19,8 @@ from rclpy.parameter import Parameter
 from truck_blowout_sim import read_recording
 from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.nodes import runtime
-from truck_blowout_sim.nodes.parameters import check_changes
 from truck_blowout_sim.nodes.pace_watch import PaceWatch
+from truck_blowout_sim.nodes.parameters import check_changes
 from truck_blowout_sim.nodes.player_parameters import SPECS, remappings
 from truck_blowout_sim.nodes.player_services import serve
 from truck_blowout_sim.nodes.playlist import Due, Playlist
