@@ -87,10 +87,11 @@ def study_of(truck: Packed, few: Settings, drive_it: Drives) -> Studies:
 
     @cache
     def build(train: tuple[tuple[str, float], ...], holdout: tuple[tuple[str, float], ...] | None,
-              baseline: bool) -> Study:
+              baseline: tuple[tuple[str, float], ...] | None) -> Study:
         runs = [prepare_run(drive_it(dict(train), seed=1), "train", truck, few, step_s=STEP_S)]
-        if baseline:
-            runs.insert(0, prepare_run(drive_it(seed=5), "baseline", truck, few, step_s=STEP_S))
+        if baseline is not None:
+            runs.insert(0, prepare_run(drive_it(dict(baseline), seed=5), "baseline", truck, few,
+                                       step_s=STEP_S))
         held = () if holdout is None else (prepare_run(
             drive_it(dict(holdout), seed=3, steer=-0.9), "holdout", truck, few, step_s=STEP_S),)
         study = Study(tuple(runs), held, truck, few)
@@ -101,9 +102,11 @@ def study_of(truck: Packed, few: Settings, drive_it: Drives) -> Studies:
         return study
 
     def make(train: Changes | None = None, *, holdout: Changes | None = None,
-             baseline: bool = False) -> Study:
+             baseline: bool | Changes = False) -> Study:
+        usual: Changes = {} if isinstance(baseline, bool) else baseline
         one = build(tuple(sorted((train or {}).items())),
-                    None if holdout is None else tuple(sorted(holdout.items())), baseline)
+                    None if holdout is None else tuple(sorted(holdout.items())),
+                    None if baseline is False else tuple(sorted(usual.items())))
         return replace(one, models=list(one.models), holdout_models=list(one.holdout_models),
                        _projectors={})
 

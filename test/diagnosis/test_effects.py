@@ -143,3 +143,14 @@ def test_a_vehicle_without_trailer_has_no_fifth_wheel() -> None:
         vehicle = load_vehicle(name)
         effect = next(e for e in LIBRARY if e.name == "fifth_wheel_friction")
         assert len(effect.places(vehicle)) == (len(vehicle.units) == 2)
+
+
+def test_saturation_is_asked_of_all_axles_that_share_a_tire() -> None:
+    """A car on four tires of one type: what is wrong of the type is wrong of each."""
+    effect = next(e for e in LIBRARY if e.name == "tire_saturation" and not e.variant)
+    alike = pack(load_vehicle("bmw_320i"))
+    assert Place() in effect.places(alike.vehicle)
+    both = effect.values(alike, Place(), -0.25)
+    assert both == {f"axle.{axle}.peak_scale": 0.75 for axle in alike.vehicle.axles}
+    mixed = load_vehicle("international_9400i_trailmobile")
+    assert Place() not in effect.places(mixed)

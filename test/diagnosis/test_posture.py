@@ -11,7 +11,8 @@ from truck_blowout_sim.diagnosis.case.study import Study
 from truck_blowout_sim.diagnosis.effects import LIBRARY
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.fit.attribute import Ranked
-from truck_blowout_sim.diagnosis.fit.refit import models_at, refit
+from truck_blowout_sim.diagnosis.fit.models import models_at
+from truck_blowout_sim.diagnosis.fit.refit import refit
 from truck_blowout_sim.diagnosis.locate.posture import postures, turned_body
 from truck_blowout_sim.vehicle import Packed
 

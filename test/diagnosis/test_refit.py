@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 
 import pytest
 
@@ -100,3 +101,19 @@ def test_each_law_of_an_effect_has_a_column_of_its_own(study_of: Studies) -> Non
         own = alone[one.hypothesis.form]
         assert one.hypothesis.amount == pytest.approx(own.hypothesis.amount)
         assert one.promise == pytest.approx(own.promise)
+
+
+def test_a_tire_that_levels_off_early_is_seen_before_it_is_fitted(
+    study_of: Studies, truck: Packed
+) -> None:
+    """A peak that is a third lower acts near the limit only: the slope at nothing missing is small,
+    but ranking asks for large amounts, too."""
+    lower = {"axle.steer.peak_scale": 0.35 * truck["axle.steer.peak_scale"]}
+    study = study_of(lower)
+    effect = next(e for e in LIBRARY if e.name == "tire_saturation" and not e.variant)
+    hypothesis = Hypothesis(effect, effect.places(truck.vehicle)[0])
+    far, = rank_steady(study, [hypothesis]).ranked
+    near, = rank_steady(study, [replace(hypothesis, effect=replace(
+        effect, amount=replace(effect.amount, grid=())))]).ranked
+    assert far.promise > 1.5 * near.promise
+    assert far.hypothesis.amount < -0.3

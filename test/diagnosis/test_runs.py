@@ -76,8 +76,7 @@ def test_weights_grow_with_the_distance_from_rest_and_never_below_the_noise(
     k = run.channels.index("tractor_ay_mps2")
     rule = few.rule("tractor_ay_mps2")
     assert rule is not None
-    swing = np.abs(run.measured[:, k] - np.median(run.measured[:, k]))
-    model = np.sqrt((rule.floor**2 + (rule.relative * swing) ** 2)
+    model = np.sqrt((rule.floor**2 + (rule.relative * run.swing[:, k]) ** 2)
                     * few.correlation_s / few.bin_s)
     np.testing.assert_allclose(run.sigma[:, k], np.hypot(run.noise[:, k], model), rtol=1e-9)
 

@@ -61,5 +61,10 @@ def test_a_gust_pushes_at_the_side_areas_middle_while_it_blows(
     side = truck["unit.trailer.side_area_m2"]
     assert found[1] == pytest.approx(0.5 * 1.18 * side * np.hypot(20.0, 12.0) * 12.0)
     assert found[5] / found[1] == pytest.approx(truck["unit.trailer.side_x_m"])
+    ahead = gusty.with_values({"unit.trailer.gust_ahead_m": 1.5})
+    moved = wrench(ahead, state, work, at)
+    assert moved[:5] == pytest.approx(found[:5])
+    assert moved[5] - found[5] == pytest.approx(1.5 * found[1])
     state[0] = 3.3
     assert wrench(gusty, state, work, at)[1] == 0.0
+    np.testing.assert_array_equal(wrench(ahead, state, work, at), wrench(truck, state, work, at))

@@ -15,7 +15,7 @@ from truck_blowout_sim.diagnosis.case.calibration import calibrate
 from truck_blowout_sim.diagnosis.case.fingerprints import case_parts
 from truck_blowout_sim.diagnosis.case.resume import Keeps
 from truck_blowout_sim.diagnosis.case.runs import Run, prepare_run
-from truck_blowout_sim.diagnosis.case.study import Progress, Study, row_ranges
+from truck_blowout_sim.diagnosis.case.study import Progress, Study
 from truck_blowout_sim.diagnosis.case.threads import one_blas_thread
 from truck_blowout_sim.diagnosis.case.usable import check_each_once, determined
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
@@ -24,7 +24,12 @@ from truck_blowout_sim.diagnosis.locate.lagging import lagging_wheel
 from truck_blowout_sim.diagnosis.locate.periodic import find_beat
 from truck_blowout_sim.diagnosis.locate.posture import turned_body
 from truck_blowout_sim.diagnosis.locate.restless import restless
-from truck_blowout_sim.diagnosis.locate.wrench import Wrenches, missing_wrench
+from truck_blowout_sim.diagnosis.locate.wrench import (
+    Wrenches,
+    comparable_until_s,
+    missing_wrench,
+    worst_run,
+)
 from truck_blowout_sim.diagnosis.model.law import plainest_law
 from truck_blowout_sim.diagnosis.model.law_check import checked
 from truck_blowout_sim.diagnosis.model.vehicle import (
@@ -147,10 +152,11 @@ def _material(study: Study, found: Found, gate: GateResult, vehicle: str,
     named = [r.hypothesis for r in found.named]
     before = _wrenches(study, found.models_null, (), progress)
     after = _wrenches(study, study.models, named, progress) if named else before
+    judged = _comparable(study, after, named, progress)
     worst = max(after, key=lambda w: w.delta)
     law = plainest_law(worst, next(r for r in study.runs
                                    if r.recording.name == worst.history.recording))
-    material = Material(study, found, gate, before, after, law, _timings(study, found), vehicle,
+    material = Material(study, found, gate, before, judged, law, _timings(study, found), vehicle,
                         _separation(study, found, progress) if effort.next_run else None,
                         _arms(study, found, progress) if effort.profile else {},
                         find_beat(study, named), lagging_wheel(study, named),
@@ -165,9 +171,20 @@ def _wrenches(study: Study, models: Sequence[Floats], named: Sequence[Hypothesis
               progress: Progress | None) -> tuple[Wrenches, ...]:
     """Missing wrench on each body in the training run that is explained worst."""
     removed = study.projector(named).remove(study.residual(dict(enumerate(models))))
-    rows = row_ranges(study)
-    worst = max(study.train, key=lambda i: float(removed[rows[i]] @ removed[rows[i]]))
+    worst = worst_run(study, removed)
     return tuple(missing_wrench(study, worst, body, models, named, progress)
+                 for body in study.packed.vehicle.units)
+
+
+def _comparable(study: Study, found: tuple[Wrenches, ...], named: Sequence[Hypothesis],
+                progress: Progress | None) -> tuple[Wrenches, ...]:
+    """The same of what baseline runs tell of: a tire that only training lost is left out."""
+    removed = study.projector(named).remove(study.residual())
+    worst = worst_run(study, removed, comparable=True)
+    until_s = comparable_until_s(study, worst)
+    if worst == worst_run(study, removed) and not np.isfinite(until_s):
+        return found
+    return tuple(missing_wrench(study, worst, body, study.models, named, progress, until_s)
                  for body in study.packed.vehicle.units)
 
 

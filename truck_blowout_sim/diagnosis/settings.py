@@ -54,6 +54,7 @@ class Settings:
             a quick answer.
         episode_s: a part of a long run that differs from the model as a run of its own does.
         bin_s, skip_s, correlation_s: averaging time, start left out, duration of a difference.
+        swing_s: time over which the size of a motion is taken.
         false_alarms: share of cases with nothing missing in which anything may be stated.
         form_share: 1 sigma of what another form of law does to an amount, as a share of it.
         flat_braked: how much wider models differ once a flat tire was braked.
@@ -77,6 +78,7 @@ class Settings:
     skip_s: float
     episode_s: float
     correlation_s: float
+    swing_s: float
     false_alarms: float
     expected_level: float
     unknown_delta: float

@@ -24,10 +24,12 @@ Floats = NDArray[np.float64]
 @core
 def add_air(x: Floats, s: int, p: Floats, a: int, work: Floats, w: int) -> None:
     """Add drag and side force of the unit whose state, parameters, work start at s, a, w."""
-    gust = p[a + UNIT.gust_mps]
+    gust, side_x = p[a + UNIT.gust_mps], p[a + UNIT.side_x_m]
     if gust != 0.0:
         gust *= ramp(x[0], p[a + UNIT.gust_start_s], p[a + UNIT.gust_end_s],
                      p[a + UNIT.gust_ramp_s])
+        if gust != 0.0:
+            side_x += p[a + UNIT.gust_ahead_m]
     wind_x = p[WORLD_AT + WORLD.wind_x_mps]
     wind_y = p[WORLD_AT + WORLD.wind_y_mps] + gust
     cy, sy = work[w + UNIT_W.cos_yaw], work[w + UNIT_W.sin_yaw]
@@ -37,4 +39,4 @@ def add_air(x: Floats, s: int, p: Floats, a: int, work: Floats, w: int) -> None:
     area = p[a + UNIT.drag_area_m2] + p[a + UNIT.drag_area_extra_m2]
     add_force(work, w, (-pressure * area * vx, 0.0, 0.0), (0.0, 0.0, p[a + UNIT.drag_z_m]))
     add_force(work, w, (0.0, -pressure * p[a + UNIT.side_area_m2] * vy, 0.0),
-              (p[a + UNIT.side_x_m], 0.0, p[a + UNIT.side_z_m]))
+              (side_x, 0.0, p[a + UNIT.side_z_m]))

@@ -150,6 +150,7 @@ class UnitParams(NamedTuple):
     gust_start_s: int
     gust_end_s: int
     gust_ramp_s: int
+    gust_ahead_m: int  # how far the side force acts ahead of side_x_m while it blows
     payload_kg: int  # the part of mass that can shift
     payload_x_m: int
     payload_y_m: int

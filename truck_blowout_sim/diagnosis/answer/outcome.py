@@ -51,7 +51,8 @@ class Material:
     """Everything an answer is made of.
 
     Attributes:
-        wrenches: missing on each body before anything was named; ``unnamed``: after.
+        wrenches: missing on each body before anything was named; ``unnamed``: after, as far as
+            baseline runs tell of it.
         law: plainest law of what is left unnamed.
         timings: intervals of each timed effect's onset and duration, by key and run.
         vehicle: name of the model's vehicle.

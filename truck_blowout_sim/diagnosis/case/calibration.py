@@ -44,6 +44,7 @@ def calibrate(study: Study, rounds: int = 2, progress: Progress | None = None) -
     """
     warm_up(study)
     _drive_all(study)
+    _weigh_all(study)
     build_columns(study, progress)
     study.amounts = {number.name: 0.0 for number in study.settings.nuisances}
     if not study.baseline:
@@ -64,6 +65,13 @@ def _drive_all(study: Study) -> None:
     """Models of all runs, holdout too, of the truck at the reference."""
     study.update_models()
     study.holdout_models = study.simulate([(run, study.packed) for run in study.holdout])
+
+
+def _weigh_all(study: Study) -> None:
+    """Widths of all runs, from the motion of the reference."""
+    study.runs, study.holdout = (
+        tuple(run.weighed(model, study.settings) for run, model in zip(runs, models, strict=True))
+        for runs, models in ((study.runs, study.models), (study.holdout, study.holdout_models)))
 
 
 def _asked_for(study: Study, rounds: int) -> Floats:

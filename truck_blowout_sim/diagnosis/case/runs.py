@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from truck_blowout_sim.diagnosis.case.trust import BRAKES_ON_PA, wider
+from truck_blowout_sim.diagnosis.case.widths import swings, widths
 from truck_blowout_sim.diagnosis.result.evidence import Role
 from truck_blowout_sim.diagnosis.sensors import Noise, channel_noise
 from truck_blowout_sim.diagnosis.settings import Settings
@@ -43,6 +44,7 @@ class Run:
         edges_s: bin edges, n + 1.
         measured, sigma: [n, m] bin means and their standard errors; NaN where not measured.
         noise: standard error from the instrument alone.
+        swing: [n, m] size of each signal's motion; ``wider``: [n] factor on what models differ by.
         correction: [n, m] what the fine step changes in the reference truck's bin means; added to
             those of every truck, which are simulated on the coarse step.
         course, since_s: a driven truck from which those simulated differ only after an instant.
@@ -57,6 +59,8 @@ class Run:
     measured: Floats
     sigma: Floats
     noise: Floats
+    swing: Floats
+    wider: Floats
     fine: Drive
     correction: Floats
     course: Course | None = None
@@ -137,6 +141,12 @@ class Run:
         rows = np.round((self.edges_s - drive.initial.time_s) / period).astype(np.int64)
         return np.minimum(rows, n_rows)
 
+    def weighed(self, model: Floats, settings: Settings) -> Run:
+        """This run, its widths those of the motion that it and a model [n, m] both have."""
+        swing = np.minimum(swings(model, settings), swings(self.measured, settings))
+        sigma = widths(self.channels, self.noise, swing, self.wider, settings)
+        return replace(self, swing=swing, sigma=np.where(np.isfinite(self.sigma), sigma, np.nan))
+
     def residual(self, model: Floats) -> Floats:
         """[n * m] whitened measured - model, zero where not measured, bounded where it broke."""
         z = (self.measured - model) / self.sigma
@@ -172,10 +182,14 @@ def prepare_run(recording: Recording, role: Role, packed: Packed, settings: Sett
     if not channels:
         raise InputError("no channel that can be diagnosed", file=recording.name,
                          expected="a speed, a rate, an angle or an acceleration of the vehicle")
-    parts = [_channel_bins(recording, n, noise[n], edges, settings, factor) for n in channels]
-    measured, sigma, plain = (np.stack([p[k] for p in parts], axis=1) for k in range(3))
+    parts = [_channel_bins(recording, n, noise[n], edges, settings) for n in channels]
+    measured, plain = (np.stack([p[k] for p in parts], axis=1) for k in range(2))
+    swing = swings(measured, settings)
+    # a bin without samples must not count as one in which nothing changed
+    sigma = np.where(np.isfinite(measured), widths(channels, plain, swing, factor, settings),
+                     np.nan)
     return Run(recording, role, drive, channels, tuple(names.index(n) for n in channels), edges,
-               measured, sigma, plain, fine, np.zeros(measured.shape))
+               measured, sigma, plain, swing, factor, fine, np.zeros(measured.shape))
 
 
 def _redundant(name: str, drive: Drive) -> bool:
@@ -185,8 +199,8 @@ def _redundant(name: str, drive: Drive) -> bool:
 
 
 def _channel_bins(recording: Recording, name: str, noise: Noise, edges: Floats,
-                  settings: Settings, factor: Floats) -> tuple[Floats, Floats, Floats]:
-    """Bin means, their standard errors, and the part of these that is noise."""
+                  settings: Settings) -> tuple[Floats, Floats]:
+    """Bin means, NaN where there is no sample, and the standard errors of the instrument."""
     series, rule = recording[name], settings.rule(name)
     assert rule is not None
     place = np.searchsorted(edges, series.time_s + 1e-9, side="right") - 1
@@ -200,12 +214,7 @@ def _channel_bins(recording: Recording, name: str, noise: Noise, edges: Floats,
     independent = np.clip(noise.effective_rate_hz * settings.bin_s, 1.0, np.maximum(counts, 1.0))
     plain = np.maximum(single / np.sqrt(independent), noise.quantum / 6.0)
     # a gauge that reads nothing, or a computed series, seems noiseless: none is that good
-    plain = np.maximum(plain, _BEST_INSTRUMENT * rule.floor)
-    swing = np.abs(np.nan_to_num(mean) - np.nanmedian(mean))
-    model = np.hypot(rule.floor, rule.relative * swing)
-    widened = factor * model * np.sqrt(settings.correlation_s / settings.bin_s)
-    # a bin without samples must not count as one in which nothing changed
-    return mean, np.where(counts > 0, np.hypot(plain, widened), np.nan), plain
+    return mean, np.maximum(plain, _BEST_INSTRUMENT * rule.floor)
 
 
 def simulate_bins(jobs: Sequence[tuple[Run, Packed]], workers: int,

@@ -64,7 +64,7 @@ LIBRARY: tuple[Effect, ...] = (*(module.EFFECT for module in _MODULES),
                                driveline_drag.RETARDER, road_grade.FROM_AN_INSTANT,
                                road_bank.FROM_AN_INSTANT, payload_shift.FOREMOST,
                                payload_shift.REARMOST,
-                               steering_ratio.BENT)
+                               steering_ratio.BENT, crosswind.AHEAD, crosswind.BEHIND)
 """Every candidate, physics first."""
 
 __all__ = ["LIBRARY", "Amount", "Effect"]

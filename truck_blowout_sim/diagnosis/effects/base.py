@@ -17,7 +17,8 @@ from truck_blowout_sim.vehicle import Packed, Vehicle
 
 Values = Mapping[str, float]
 Timing = Literal["always", "step", "pulse", "ramp"]
-_WRONG_SHEET = 4.0  # times what trucks of a kind differ by, where a sheet is wrong
+WRONG_SHEET = 4.0  # times what trucks of a kind differ by, where a sheet is wrong
+WRONG_SHEETS = 0.1  # of its numbers
 
 
 @dataclass(frozen=True)
@@ -104,7 +105,7 @@ class Effect:
         """
         usual = 0.5 * self.amount.material * self.grows_with(packed)
         stated = (self.absorbs or self.of_file) and not self.met
-        return (usual, _WRONG_SHEET * usual) if stated else (usual,)
+        return (usual, WRONG_SHEET * usual) if stated else (usual,)
 
     @property
     def adds_up(self) -> bool:
@@ -132,6 +133,15 @@ def weight_n(packed: Packed) -> float:
     mass = [packed[f"unit.{name}.mass_kg"] for name in vehicle.units]
     mass += [packed[f"axle.{name}.mass_kg"] for name in vehicle.axles]
     return sum(mass) * packed["world.gravity_mps2"]
+
+
+def length_m(packed: Packed, unit: str) -> float:
+    """From the foremost axle, or the kingpin, of a unit to its last axle."""
+    spec = packed.vehicle.spec
+    at = [packed[f"axle.{axle}.x_m"] for axle in packed.vehicle.axles
+          if spec.axles[axle].unit == unit]
+    at.append(packed[f"unit.{unit}.origin_x_m"])
+    return max(at) - min(at)
 
 
 def whole_truck(vehicle: Vehicle) -> Sequence[Place]:
@@ -180,8 +190,10 @@ def each_circuit(vehicle: Vehicle) -> Sequence[Place]:
 
 
 def axles_at(vehicle: Vehicle, place: Place) -> tuple[str, ...]:
-    """Axles that a place names: one, or all that brake on the circuit of that name."""
-    if place.axle and place.axle in vehicle.spec.axles:
+    """Axles that a place names: one, all that brake on the circuit of that name, or all."""
+    if place.axle is None:
+        return tuple(vehicle.axles)
+    if place.axle in vehicle.spec.axles:
         return (place.axle,)
     return tuple(a for a in vehicle.axles if vehicle.spec.axles[a].circuit == place.axle)
 

@@ -12,6 +12,7 @@ from truck_blowout_sim.diagnosis.effects.base import (
     each_axle,
     each_circuit,
     scaled,
+    whole_truck,
 )
 from truck_blowout_sim.diagnosis.effects.tire_saturation_linear import is_linear
 from truck_blowout_sim.diagnosis.result.parts import Place
@@ -19,11 +20,16 @@ from truck_blowout_sim.vehicle import Packed, Vehicle
 
 
 def _formula_axles(vehicle: Vehicle) -> Sequence[Place]:
-    """Axles whose tires level off in the model already, alone and in groups of one tire type."""
+    """Axles whose tires level off in the model already: alone, in groups, and all together.
+
+    All where they run on tires of one type: what is wrong of a type is wrong of each.
+    """
     single = [p for p in each_axle(vehicle) if p.axle and not is_linear(vehicle, p.axle)]
     groups = [p for p in each_circuit(vehicle) if len(axles_at(vehicle, p)) > 1
               and not any(is_linear(vehicle, axle) for axle in axles_at(vehicle, p))]
-    return (*single, *groups)
+    alike = len(vehicle.axles) > 1 and len(single) == len(vehicle.axles) and (
+        len({vehicle.tire_files[tire] for tire in vehicle.tires}) == 1)
+    return (*single, *groups, *(whole_truck(vehicle) if alike else ()))
 
 
 def _less_peak(packed: Packed, place: Place, amount: float) -> Values:

@@ -13,6 +13,7 @@ from truck_blowout_sim.diagnosis.case.runs import Run
 from truck_blowout_sim.diagnosis.case.study import Progress, Study, row_ranges
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.fit.linear import Projector, Score, score
+from truck_blowout_sim.diagnosis.fit.models import models_at, with_effects
 from truck_blowout_sim.diagnosis.fit.scatter import Scatter, independent
 from truck_blowout_sim.diagnosis.fit.shown import Question, parts_of
 from truck_blowout_sim.vehicle import Packed
@@ -61,13 +62,6 @@ class Ranking:
     questions: tuple[tuple[tuple[str, str], Question], ...]
 
 
-def with_effects(packed: Packed, effects: Sequence[Hypothesis], run: str) -> Packed:
-    """The truck with several hypotheses in force."""
-    for effect in effects:
-        packed = effect.apply(packed, run)
-    return packed
-
-
 def _jobs(study: Study, hypothesis: Hypothesis, named: Sequence[Hypothesis]
           ) -> list[tuple[int, Packed]]:
     """Runs and trucks to simulate for a finite difference: what is named acts in training only.
@@ -98,13 +92,16 @@ def rank_steady(study: Study, candidates: Sequence[Hypothesis],
     for i in study.train:
         trained[rows[i]] = 1.0
     cleaned: dict[str, Floats] = {}  # by the number that is held
+    far = _far_columns(study, candidates, named, progress)
     for candidate, column in zip(candidates, columns, strict=True):
         amount, at = candidate.effect.amount, candidate.amount
         projector = study.projector([*named, candidate])
         held = study.meaning(candidate)
         removed = cleaned[held] if held in cleaned else projector.remove(residual)
         cleaned[held] = removed
-        found = score(projector, removed, column * trained, amount.low - at, amount.high - at)
+        found = max((score(projector, removed, one, amount.low - at, amount.high - at)
+                     for one in (column * trained, *far.get(candidate.form, ()))),
+                    key=lambda s: s.delta)
         fall = max(found.delta - (float(residual @ removed) - free), 0.0)
         ranked.append(Ranked(candidate.at(at + found.amount), fall, found.sigma, evidence=fall,
                              promise=found.delta))
@@ -122,6 +119,24 @@ def rank_steady(study: Study, candidates: Sequence[Hypothesis],
     return Ranking(tuple(sorted(ranked, key=lambda r: (-r.promise, r.hypothesis.key))), scatter,
                    independent(asked, usual) if columns else 0.0,
                    tuple((key, one) for key, one in questions if one))
+
+
+def _far_columns(study: Study, candidates: Sequence[Hypothesis], named: Sequence[Hypothesis],
+                 progress: Progress | None) -> dict[tuple[str, str, str], list[Floats]]:
+    """By law, the whitened change of training per unit of a large amount, at each of its grid.
+
+    What acts near a limit only, as a tire that levels off early, shows nothing for a small one.
+    """
+    starts = [c.at(a) for c in candidates for a in c.effect.amount.grid]
+    found: dict[tuple[str, str, str], list[Floats]] = {}
+    for k, (one, models) in enumerate(zip(starts, models_at(study, starts, named), strict=True)):
+        away = one.amount - one.effect.neutral(study.packed)
+        column = study.stack({i: study.runs[i].change(model, study.models[i]) / away
+                              for i, model in models.items()})
+        found.setdefault(one.form, []).append(column)
+        if progress:
+            progress("large amounts", (k + 1) / len(starts))
+    return found
 
 
 def _columns(study: Study, candidates: Sequence[Hypothesis], named: Sequence[Hypothesis],

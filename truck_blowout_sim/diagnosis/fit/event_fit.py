@@ -18,8 +18,9 @@ from numpy.typing import NDArray
 
 from truck_blowout_sim.diagnosis.case.study import Study
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
-from truck_blowout_sim.diagnosis.fit.attribute import Ranked, with_effects
-from truck_blowout_sim.diagnosis.fit.refit import chi2_of, models_at
+from truck_blowout_sim.diagnosis.fit.attribute import Ranked
+from truck_blowout_sim.diagnosis.fit.models import models_at, with_effects
+from truck_blowout_sim.diagnosis.fit.refit import chi2_of
 
 Floats = NDArray[np.float64]
 _STEP_S = 0.06  # finite difference of an instant

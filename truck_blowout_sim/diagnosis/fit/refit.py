@@ -13,8 +13,9 @@ from numpy.typing import NDArray
 
 from truck_blowout_sim.diagnosis.case.study import Study
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
-from truck_blowout_sim.diagnosis.fit.attribute import Ranked, with_effects
+from truck_blowout_sim.diagnosis.fit.attribute import Ranked
 from truck_blowout_sim.diagnosis.fit.linear import Projector, score
+from truck_blowout_sim.diagnosis.fit.models import models_at, with_effects
 
 Floats = NDArray[np.float64]
 _ROUNDS = 6
@@ -22,26 +23,6 @@ _ENOUGH = 0.02  # of a standard error: the amount has converged
 _SHEET = 2.0  # prior sigmas a truck of the kind may stray
 _SHEET_POINTS = 5  # amounts of it that are simulated
 _STEP_SHARE = 0.15  # of the amount, lower bound of the finite difference
-
-
-def models_at(study: Study, hypotheses: Sequence[Hypothesis], named: Sequence[Hypothesis]
-              ) -> list[dict[int, Floats]]:
-    """Training models under each hypothesis, on top of those already named."""
-    jobs = [study.job(study.runs[i], with_effects(
-        study.packed, named, study.runs[i].recording.name), h)
-        for h in hypotheses for i in study.train]
-    results = study.simulate(jobs)
-    n = len(study.train)
-    return [dict(zip(study.train, results[k * n:(k + 1) * n], strict=True))
-            for k in range(len(hypotheses))]
-
-
-def models_of(study: Study, cases: Sequence[Sequence[Hypothesis]]) -> list[dict[int, Floats]]:
-    """Training models of each set of hypotheses, all of a set in force from the start."""
-    results = iter(study.simulate([
-        (study.runs[i], with_effects(study.packed, case, study.runs[i].recording.name))
-        for case in cases for i in study.train]))
-    return [{i: next(results) for i in study.train} for _ in cases]
 
 
 def chi2_of(study: Study, projector: Projector, models: Mapping[int, Floats]) -> float:

@@ -19,10 +19,10 @@ from numpy.typing import NDArray
 from truck_blowout_sim.diagnosis.case.driven import driven
 from truck_blowout_sim.diagnosis.case.study import Study, row_ranges
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
-from truck_blowout_sim.diagnosis.fit.attribute import Ranked, with_effects
+from truck_blowout_sim.diagnosis.fit.attribute import Ranked
 from truck_blowout_sim.diagnosis.fit.instants import grid_of
 from truck_blowout_sim.diagnosis.fit.linear import Projector
-from truck_blowout_sim.diagnosis.fit.refit import models_at
+from truck_blowout_sim.diagnosis.fit.models import models_at, with_effects
 from truck_blowout_sim.diagnosis.fit.scatter import Chance
 from truck_blowout_sim.diagnosis.fit.shown import Part, Shown, parts_of
 
@@ -86,10 +86,10 @@ def supported(study: Study, one: Ranked, beside: Beside, chance: Chance) -> Rank
     shown = Shown.of(projector, removed, [*parts, *more], h.effect.strays(study.packed),
                      (min(away, 0.0), max(away, 0.0)), left)
     if shown is None:
-        return replace(one, support=-_search_cost(study, h))
+        return replace(one, support=0.0)
     change = away * fitted[:study.columns.shape[0]]
     scatter = chance.beside(h.key, change, study.columns.T @ change, left)
-    return replace(one, support=scatter.support(shown) - _search_cost(study, h))
+    return replace(one, support=scatter.support(shown, _choices(study, h)))
 
 
 def _with_unseen(study: Study, seen: Projector, residual: Floats, h: Hypothesis, beside: Beside,
@@ -113,8 +113,8 @@ def _unseen(study: Study, effects: Sequence[Hypothesis]) -> list[Floats]:
                            for run in study.holdout])
 
 
-def _search_cost(study: Study, hypothesis: Hypothesis) -> float:
-    """Support that choosing the best of so many instants brings where nothing happens."""
+def _choices(study: Study, hypothesis: Hypothesis) -> float:
+    """Of how many combinations of instants the best was taken."""
     tried = [grid_of(run, hypothesis.effect).size for run in study.runs
              if run.recording.name in hypothesis.times]
-    return float(sum(2.0 * hypothesis.effect.edges * np.log(max(n, 1)) for n in tried))
+    return float(np.prod([float(max(n, 1)) ** hypothesis.effect.edges for n in tried]))

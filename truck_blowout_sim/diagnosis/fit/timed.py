@@ -16,10 +16,11 @@ from scipy.linalg import cho_solve
 from truck_blowout_sim.diagnosis.case.study import Study, row_ranges
 from truck_blowout_sim.diagnosis.effects import Effect
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
-from truck_blowout_sim.diagnosis.fit.attribute import Ranked, with_effects
+from truck_blowout_sim.diagnosis.fit.attribute import Ranked
 from truck_blowout_sim.diagnosis.fit.instants import bins_between, grid_of, spacing_s
 from truck_blowout_sim.diagnosis.fit.linear import Projector, score
-from truck_blowout_sim.diagnosis.fit.refit import chi2_of, models_at
+from truck_blowout_sim.diagnosis.fit.models import models_at, with_effects
+from truck_blowout_sim.diagnosis.fit.refit import chi2_of
 from truck_blowout_sim.diagnosis.fit.seconds import responses, windows_of
 from truck_blowout_sim.diagnosis.result.parts import Place
 

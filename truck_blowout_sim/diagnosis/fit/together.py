@@ -20,7 +20,8 @@ from truck_blowout_sim.diagnosis.case.study import Study
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.fit.attribute import Ranked
 from truck_blowout_sim.diagnosis.fit.linear import joint_score
-from truck_blowout_sim.diagnosis.fit.refit import chi2_of, difference_step, models_of
+from truck_blowout_sim.diagnosis.fit.models import models_of
+from truck_blowout_sim.diagnosis.fit.refit import chi2_of, difference_step
 
 Floats = NDArray[np.float64]
 _ROUNDS = 4

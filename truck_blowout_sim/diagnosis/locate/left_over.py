@@ -3,7 +3,7 @@
 Two good models of one truck differ more or less, depending on the truck and on how it is driven, so
 no level of what is left says that something is missing. But baseline runs show what this model
 leaves of this truck. The mean squares that each run keeps are compared as logarithms by Student's
-test; runs are few, so their scatter has a prior of its own.
+test, all of training and its worst run; runs are few, so their scatter has a prior of its own.
 
 References: Student 1908; Gelman et al. 2013, ch. 3 (a scaled inverse chi-square prior).
 Known limits: says nothing without baseline runs; a manoeuvre much harder than the baseline's leaves
@@ -61,15 +61,29 @@ def most_by_chance(train: Sequence[float], baseline: Sequence[float], rate: floa
 
 
 def chance_of_more(study: Study, squares: Sequence[float]) -> float:
-    """Chance that training keeps so much more than baseline where nothing is missing.
+    """Chance that training, or one run of it, keeps so much more where nothing is missing.
 
     1 without baseline runs.
     """
     if not study.baseline:
         return 1.0
-    train = [squares[i] for i in study.train]
-    mean, spread, degrees = _test(train, [squares[i] for i in study.baseline])
-    return float(student.sf((np.mean(np.log(train)) - mean) / spread, degrees))
+    train, baseline = ([squares[i] for i in which] for which in (study.train, study.baseline))
+    mean, spread, degrees = _test(train, baseline)
+    all_of_it = float(student.sf((np.mean(np.log(train)) - mean) / spread, degrees))
+    return min(2.0 * min(all_of_it, _chance_of_one(train, baseline)), 1.0)
+
+
+def _chance_of_one(train: Sequence[float], baseline: Sequence[float]) -> float:
+    """Chance that the worst of the training runs keeps so much more, as far as the others scatter.
+
+    A load that sways may do so in one run only.
+    """
+    logs, still = np.sort(np.log(train)), np.log(baseline)
+    others = logs[:-1]
+    degrees = max(others.size - 1, 0) + still.size - 1 + _RUNS
+    squares = sum(float(np.sum((one - one.mean()) ** 2)) for one in (others, still) if one.size)
+    spread = np.sqrt((squares + _RUNS * _SCATTER**2) / degrees * (1.0 + 1.0 / still.size))
+    return float(logs.size * student.sf((logs[-1] - still.mean()) / spread, degrees))
 
 
 def keeps_more(study: Study, squares: Sequence[float]) -> bool:

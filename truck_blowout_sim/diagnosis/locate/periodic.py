@@ -24,7 +24,7 @@ from scipy.ndimage import median_filter
 from truck_blowout_sim.diagnosis.case.runs import Run
 from truck_blowout_sim.diagnosis.case.study import Study
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
-from truck_blowout_sim.diagnosis.fit.attribute import with_effects
+from truck_blowout_sim.diagnosis.fit.models import with_effects
 from truck_blowout_sim.diagnosis.locate.beat import HARMONICS, Beat
 from truck_blowout_sim.diagnosis.result.evidence import BeatScores
 from truck_blowout_sim.diagnosis.sensors import believable, channel_noise

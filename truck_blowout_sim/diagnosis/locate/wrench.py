@@ -20,12 +20,13 @@ from scipy.linalg import cho_factor, cho_solve
 
 from truck_blowout_sim.diagnosis.case.study import Progress, Study, row_ranges
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
-from truck_blowout_sim.diagnosis.fit.attribute import with_effects
+from truck_blowout_sim.diagnosis.fit.models import with_effects
 from truck_blowout_sim.diagnosis.result.evidence import ForceHistory
 
 Floats = NDArray[np.float64]
 WINDOW_S = 1.0
 _MOST_WINDOWS = 30
+_SHORTEST_S = 0.1  # so that there is a window, even if nothing in it counts
 _UNITS = {"fx_n": 2000.0, "fy_n": 2000.0, "mz_nm": 8000.0}  # step of the finite difference
 _PRIOR = {"fx_n": 5000.0, "fy_n": 5000.0, "mz_nm": 20000.0}
 
@@ -48,16 +49,41 @@ class Wrenches:
     x_sigma_m: float
 
 
+def comparable_until_s(study: Study, i: int) -> float:
+    """Up to when baseline runs tell how well the model describes a training run.
+
+    Good models of one truck differ most in what a lost tire does: runs on sound tires say nothing
+    of it. Where no baseline run is, or one lost a tire too, the whole run counts.
+    """
+    if not study.baseline or any(study.runs[k].has_blowout for k in study.baseline):
+        return float("inf")
+    return min((event.time_s for event in study.runs[i].recording.blowouts), default=float("inf"))
+
+
+def worst_run(study: Study, removed: Floats, *, comparable: bool = False) -> int:
+    """The training run that is explained worst; ``comparable``: of what baseline runs tell of."""
+    rows = row_ranges(study)
+
+    def left(i: int) -> float:
+        run = study.runs[i]
+        seen = run.edges_s[1:] <= (comparable_until_s(study, i) if comparable else np.inf)
+        return float(np.sum(np.square(removed[rows[i]].reshape(run.measured.shape)[seen])))
+
+    return max(study.train, key=left)
+
+
 def missing_wrench(study: Study, i: int, body: str, models: Sequence[Floats],
-                   named: Sequence[Hypothesis] = (), progress: Progress | None = None) -> Wrenches:
+                   named: Sequence[Hypothesis] = (), progress: Progress | None = None,
+                   until_s: float = np.inf) -> Wrenches:
     """The wrench on ``body`` that explains what is left in run ``i`` once ``named`` is in force.
 
-    ``models``: those of all runs with ``named`` in force.
+    ``models``: those of all runs with ``named`` in force; ``until_s``: later bins do not count.
     """
     projector = study.projector(named)
     run, name = study.runs[i], f"unit.{body}."
     window = max(WINDOW_S, run.length_s / _MOST_WINDOWS)
-    starts = np.arange(run.edges_s[0], run.edges_s[-1] - 0.5 * window, window)
+    starts = np.arange(run.edges_s[0], max(min(run.edges_s[-1], until_s) - 0.5 * window,
+                                           run.edges_s[0] + _SHORTEST_S), window)
     truck = with_effects(study.packed, named, run.recording.name)
     jobs = [(study.late(run, truck, float(start)), truck.unchecked({
         name + f"probe_{kind}": step, name + "probe_start_s": float(start),
@@ -71,6 +97,7 @@ def missing_wrench(study: Study, i: int, body: str, models: Sequence[Floats],
     columns = np.stack([run.change(r, base) * s for r, s in zip(results, scale, strict=True)],
                        axis=1)
     rows = row_ranges(study)[i]
+    columns *= np.repeat(run.edges_s[1:] <= until_s, len(run.channels))[:, None]
     removed = projector.remove(study.residual(dict(enumerate(models))))[rows]
     reach = projector.reach(columns, rows)
     information = columns.T @ columns - reach.T @ cho_solve(projector.factor, reach)

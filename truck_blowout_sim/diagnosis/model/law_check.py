@@ -10,7 +10,7 @@ from dataclasses import replace
 
 from truck_blowout_sim.diagnosis.case.study import Study
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
-from truck_blowout_sim.diagnosis.fit.attribute import with_effects
+from truck_blowout_sim.diagnosis.fit.models import with_effects
 from truck_blowout_sim.diagnosis.model.law import CONSTANT, Law
 from truck_blowout_sim.diagnosis.prove.holdout import predict
 

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from truck_blowout_sim.diagnosis.case.study import Study
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.fit.attribute import Ranked
-from truck_blowout_sim.diagnosis.fit.refit import models_of
+from truck_blowout_sim.diagnosis.fit.models import models_of
 from truck_blowout_sim.diagnosis.fit.scatter import Chance
 from truck_blowout_sim.diagnosis.name.trial import Fate, Trial
 from truck_blowout_sim.diagnosis.prove.holdout import Prediction, predict
@@ -57,8 +57,13 @@ class Found:
 
     @property
     def p_value(self) -> float:
-        """Chance that a search where nothing is missing is led so far; 1 where none was made."""
-        best = max((trial.ranked.support for trial in self.tried), default=0.0)
+        """Chance that a search where nothing is missing is led so far; 1 where none was made.
+
+        Of what could be named: steady causes once they are fitted, and events that add up.
+        """
+        best = max((trial.ranked.support for trial in self.tried
+                    if trial.ranked.refitted or trial.ranked.hypothesis.effect.adds_up),
+                   default=0.0)
         return 1.0 if self.chance is None else self.chance.p_value(best)
 
 

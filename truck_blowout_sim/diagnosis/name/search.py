@@ -6,6 +6,7 @@ What a hypothesis must pass is in `judging.py`, what holds only together in `pai
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -67,6 +68,21 @@ def search(study: Study, progress: Progress | None = None, most: int = _MOST_EFF
     return found
 
 
+@dataclass(frozen=True, eq=False)
+class _Believed:
+    """A hypothesis that passed every test.
+
+    Attributes:
+        worth: what it explains, and how much better the holdout is predicted.
+        models: of training with it in force; ``after``: the predictions.
+    """
+
+    ranked: Ranked
+    worth: float
+    models: list[Floats]
+    after: tuple[Prediction, ...]
+
+
 def _accept(study: Study, found: Found, this: Round, named: Sequence[Hypothesis]
             ) -> tuple[Ranked | None, list[Ranked]]:
     """Take the best hypothesis that passes every test; record why others fell.
@@ -79,31 +95,57 @@ def _accept(study: Study, found: Found, this: Round, named: Sequence[Hypothesis]
     disbelieved: list[Ranked] = []
     strongest = max((r.evidence for r in found.named), default=0.0)
     excess = excess_of(study, found)
-    passing: list[tuple[Ranked, float, list[Floats], tuple[Prediction, ...]]] = []
+    passing: list[_Believed] = []
     for one in this.ranked:
         # what explains most of the rest is no leftover of a stronger effect's inexactness
         fate = weakness(one, this.chance, strongest if one.delta < _MOST * excess else 0.0)
-        most = max((worth(p[0]) for p in passing), default=0.0)
-        if fate is None and passing and worth(one) < most - slack(passing[0][0]):
+        most = max((worth(p.ranked) for p in passing), default=0.0)
+        if fate is None and passing and worth(one) < most - slack(passing[0].ranked):
             fate = Fate("explains", worth(one), most)
         elif fate is None:
-            models, after = predict_with(study, [*named, one.hypothesis])
-            gain = sum(p.chi2 for p in found.after) - sum(p.chi2 for p in after)
-            better = predicts_better(study, found.after, after)
-            if study.holdout and better <= 0.0 and can_judge(study, one.hypothesis):
+            believed, better = _believed(study, found, named, one)
+            if believed is None:
                 fate = Fate("holdout", better)
                 disbelieved.append(one)
             else:
-                passing.append((one, worth(one) + gain, models, after))
-                fate = Fate("predicts", worth(one) + gain)
+                passing.append(believed)
+                fate = Fate("predicts", believed.worth)
         note(found, one, fate)
     if not passing:
         return None, disbelieved
-    best, _, study.models, found.after = max(passing, key=lambda p: p[1])
-    found.named.append(best)
-    found.chi2_after -= best.delta
-    note(found, best, Fate("accepted", best.support, this.chance.asked))
-    return best, disbelieved
+    passing += _explaining_more(study, found, this, named, passing)
+    best = max(passing, key=lambda p: p.worth)
+    study.models, found.after = best.models, best.after
+    found.named.append(best.ranked)
+    found.chi2_after -= best.ranked.delta
+    note(found, best.ranked, Fate("accepted", best.ranked.support, this.chance.asked))
+    return best.ranked, disbelieved
+
+
+def _explaining_more(study: Study, found: Found, this: Round, named: Sequence[Hypothesis],
+                     passing: Sequence[_Believed]) -> list[_Believed]:
+    """Steady causes that explain more than all that passed, beyond chance as single questions.
+
+    That something is missing is shown by then; an event that chose its instants shall not be named
+    only because a cause that is always there was asked among many.
+    """
+    most = max(worth(p.ranked) for p in passing)
+    alone = replace(this.chance, independent=1.0)
+    more = [one for one in this.ranked if worth(one) > most and not one.hypothesis.times
+            and weakness(one, alone, 0.0) is None]
+    tried = [_believed(study, found, named, one)[0] for one in more]
+    return [one for one in tried if one is not None]
+
+
+def _believed(study: Study, found: Found, named: Sequence[Hypothesis], one: Ranked
+              ) -> tuple[_Believed | None, float]:
+    """With what it predicts, and by how much better; None where unseen runs speak against it."""
+    models, after = predict_with(study, [*named, one.hypothesis])
+    better = predicts_better(study, found.after, after)
+    if study.holdout and better <= 0.0 and can_judge(study, one.hypothesis):
+        return None, better
+    gain = sum(p.chi2 for p in found.after) - sum(p.chi2 for p in after)
+    return _Believed(one, worth(one) + gain, models, after), better
 
 
 def _take(study: Study, found: Found, pair: Pair, chance: Chance) -> int:

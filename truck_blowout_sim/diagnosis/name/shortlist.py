@@ -7,13 +7,15 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
 
 import numpy as np
+from scipy.special import logsumexp
 
 from truck_blowout_sim.diagnosis.case.study import Progress, Study
 from truck_blowout_sim.diagnosis.effects import Effect, secondary_blowout
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.fit.attribute import Ranked, rank_steady
 from truck_blowout_sim.diagnosis.fit.event_fit import fit_event
-from truck_blowout_sim.diagnosis.fit.refit import chi2_of, models_at, refit
+from truck_blowout_sim.diagnosis.fit.models import models_at
+from truck_blowout_sim.diagnosis.fit.refit import chi2_of, refit
 from truck_blowout_sim.diagnosis.fit.scatter import Chance
 from truck_blowout_sim.diagnosis.fit.support import Beside, supported
 from truck_blowout_sim.diagnosis.fit.timed import refine_times, scan
@@ -53,7 +55,8 @@ def shortlist(study: Study, named: Sequence[Hypothesis], progress: Progress | No
     chance = Chance(ranking.scatter, ranking.independent, study.settings.alarms_by_name,
                     ranking.questions)
     places = [(e, p) for e, p in places if _called_for(e, ranked, chance)]
-    chance = replace(chance, independent=ranking.independent + len(places))
+    events = {(effect.name, str(place)) for effect, place in places}
+    chance = replace(chance, independent=ranking.independent + len(events))
     promising = _promising(ranked, chance, study.refits[0])
     forms = {one.hypothesis.form for one in promising}
     done = [*_refitted(study, promising, chi2, beside, chance, progress),
@@ -120,13 +123,8 @@ def _events(study: Study, beside: Beside, chi2: float, chance: Chance,
     excess = chi2 - study.settings.expected_level * study.columns.shape[0]
     found = [supported(study, _failed(study, named, chi2, tire, times), beside, chance)
              for tire, times in failed_tires(study, study.train).items()]
-    projector = study.projector(named)
-    scanned = []
-    for k, (effect, place) in enumerate(places):
-        scanned.append(scan(study, projector, effect, place, named))
-        if progress:
-            progress("events", (k + 1) / len(places))
-    scanned.sort(key=lambda r: (r.support < chance.asked, -r.delta))
+    scanned = sorted(_scanned(study, named, places, progress),
+                     key=lambda r: (r.support < chance.asked, -r.delta))
     large = _large([*steady, *scanned], chance)
     worth = max(chance.asked, _HALF * max((r.delta for r in steady if r.refitted), default=0.0))
     keys: set[tuple[str, str]] = set()
@@ -148,6 +146,28 @@ def _events(study: Study, beside: Beside, chi2: float, chance: Chance,
             cost = _TIMED_COST * len(one.hypothesis.times) + _TIMED_SHARE * max(one.delta, 0.0)
         found.append(replace(one, delta=one.delta - cost, evidence=one.evidence - cost))
     return found
+
+
+def _scanned(study: Study, named: Sequence[Hypothesis], places: Sequence[tuple[Effect, Place]],
+             progress: Progress | None) -> list[Ranked]:
+    """Each event at its best instants; another form of it only where the plain one is supported.
+
+    Forms of one event, as the places where a wind may take hold, share their support: its mean
+    odds. Which of them it is, the sum of squares says.
+    """
+    projector = study.projector(named)
+    forms: dict[tuple[str, str], list[Ranked]] = {}
+    for k, (effect, place) in enumerate(sorted(places, key=lambda one: one[0].variant)):
+        of_event = forms.setdefault((effect.name, str(place)), [])
+        if not of_event or not effect.adds_up or of_event[0].support > 0.0:
+            of_event.append(scan(study, projector, effect, place, named))
+        if progress:
+            progress("events", (k + 1) / len(places))
+    for key, found in forms.items():
+        if found[0].hypothesis.effect.adds_up:
+            mean = 2.0 * logsumexp([0.5 * r.support for r in found]) - 2.0 * np.log(len(found))
+            forms[key] = [replace(r, support=float(mean)) for r in found]
+    return [one for found in forms.values() for one in found]
 
 
 def _large(ranked: Sequence[Ranked], chance: Chance) -> bool:

@@ -16,9 +16,9 @@ from scipy.linalg import cholesky
 from truck_blowout_sim.diagnosis.case.runs import Run
 from truck_blowout_sim.diagnosis.case.study import FURTHEST, Study
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
-from truck_blowout_sim.diagnosis.fit.attribute import with_effects
 from truck_blowout_sim.diagnosis.fit.instants import bins_between, delayed, grid_of
 from truck_blowout_sim.diagnosis.fit.linear import Projector
+from truck_blowout_sim.diagnosis.fit.models import with_effects
 
 Floats = NDArray[np.float64]
 _REFINE_S = (0.4, 0.2, 0.1)

@@ -68,18 +68,8 @@ def _prepared(study: Study, words: str, drive: Drive, blowouts: tuple[Blowout, .
     edges: Floats = start_s + rules.skip_s + rules.bin_s * np.arange(n + 1, dtype=np.float64)
     none = np.zeros((n, len(like.channels)))
     run = Run(Recording(words, {}, blowouts), "holdout", drive, like.channels, like.columns, edges,
-              none, none, none, drive, none)
+              none, none, none, none, np.ones(n), drive, none)
     base = run.bins_of(out)
     noise = np.broadcast_to(np.nanmedian(like.noise, axis=0), base.shape)
-    return replace(run, measured=base, noise=noise, sigma=np.hypot(noise, _between(study, base)))
+    return replace(run, measured=base, noise=noise).weighed(base, rules)
 
-
-def _between(study: Study, base: Floats) -> Floats:
-    """What two good models of one truck differ by in each bin."""
-    like, rules = study.runs[study.train[0]], study.settings
-    known = [rules.rule(channel) for channel in like.channels]
-    floor = np.array([rule.floor if rule else 0.0 for rule in known])
-    relative = np.array([rule.relative if rule else 0.0 for rule in known])
-    swing = np.abs(base - np.median(base, axis=0))
-    return np.asarray(np.hypot(floor, relative * swing) * np.sqrt(
-        rules.correlation_s / rules.bin_s))

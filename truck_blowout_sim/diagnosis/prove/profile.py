@@ -23,8 +23,9 @@ from numpy.typing import NDArray
 from truck_blowout_sim.diagnosis.case.study import Study, row_ranges
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.fit.attribute import Ranked
+from truck_blowout_sim.diagnosis.fit.models import models_at
 from truck_blowout_sim.diagnosis.fit.quantiles import NINETY
-from truck_blowout_sim.diagnosis.fit.refit import chi2_of, models_at
+from truck_blowout_sim.diagnosis.fit.refit import chi2_of
 
 Floats = NDArray[np.float64]
 _RISE = NINETY**2

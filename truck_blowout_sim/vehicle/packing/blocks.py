@@ -38,6 +38,7 @@ NEUTRAL: dict[type[Any], dict[str, float]] = {
         "gust_start_s": inf,
         "gust_end_s": inf,
         "gust_ramp_s": 0.5,
+        "gust_ahead_m": 0.0,
         "shift_x_m": 0.0,
         "shift_y_m": 0.0,
         "shift_start_s": inf,

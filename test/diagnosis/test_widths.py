@@ -1,0 +1,53 @@
+"""How far good models may differ: by the model's own motion, not by what the vehicle does."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+
+from truck_blowout_sim.diagnosis.case.study import Study
+from truck_blowout_sim.diagnosis.case.widths import swings, widths
+from truck_blowout_sim.diagnosis.settings import Settings
+
+CHANNELS = ("tractor_yaw_rate_radps", "tractor_ay_mps2")
+
+
+def test_the_swing_of_a_weave_is_its_rms_at_all_times(few: Settings) -> None:
+    """Where the signal passes zero, too: there a late model is off most."""
+    time_s = np.arange(0.0, 20.0, few.bin_s)
+    weave = 0.1 * np.sin(2.0 * np.pi * time_s / few.swing_s)
+    found = swings(np.stack([weave, 0.0 * weave], axis=1), few)
+    inside = slice(round(few.swing_s / few.bin_s), -round(few.swing_s / few.bin_s))
+    assert found[inside, 0] == pytest.approx(0.1 / np.sqrt(2.0), rel=0.05)
+    assert (found[:, 1] == 0.0).all()
+
+
+def test_what_is_not_finite_does_not_swing(few: Settings) -> None:
+    signals = np.ones((60, 2))
+    signals[10, 0], signals[:, 1] = np.inf, np.nan
+    assert (swings(signals, few) == 0.0).all()
+
+
+def test_a_flat_tire_that_was_braked_widens_what_models_differ_by_and_not_the_noise(
+    few: Settings
+) -> None:
+    noise, swing, ones = np.full((5, 2), 1e-6), np.full((5, 2), 0.1), np.ones(5)
+    plain, wide = (widths(CHANNELS, noise, swing, by * ones, few) for by in (1.0, 4.0))
+    np.testing.assert_allclose(wide, 4.0 * plain, rtol=1e-3)
+    loud = widths(CHANNELS, np.full((5, 2), 100.0), swing, 4.0 * ones, few)
+    np.testing.assert_allclose(loud, 100.0, rtol=1e-3)
+
+
+def test_what_is_missing_does_not_excuse_itself(study_of: Callable[..., Study]) -> None:
+    """A motion that the model lacks widens no bin; one that the model has widens its own."""
+    study = study_of()
+    run, still = study.runs[0], np.zeros(study.runs[0].measured.shape)
+    k = run.channels.index("tractor_yaw_rate_radps")
+    moved = still.copy()
+    moved[30:45, k] = 0.2
+    calm, kicked = (run.weighed(model, study.settings).sigma[:, k] for model in (still, moved))
+    assert np.ptp(calm) == pytest.approx(0.0, abs=1e-3 * calm.mean())
+    assert (kicked[30:45] > 3.0 * calm[30:45]).all()
+    np.testing.assert_allclose(kicked[70:], calm[70:])
