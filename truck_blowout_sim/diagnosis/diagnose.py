@@ -24,12 +24,7 @@ from truck_blowout_sim.diagnosis.locate.lagging import lagging_wheel
 from truck_blowout_sim.diagnosis.locate.periodic import find_beat
 from truck_blowout_sim.diagnosis.locate.posture import turned_body
 from truck_blowout_sim.diagnosis.locate.restless import restless
-from truck_blowout_sim.diagnosis.locate.wrench import (
-    Wrenches,
-    comparable_until_s,
-    missing_wrench,
-    worst_run,
-)
+from truck_blowout_sim.diagnosis.locate.wrench import Left, Wrenches, missing_wrench
 from truck_blowout_sim.diagnosis.model.law import plainest_law
 from truck_blowout_sim.diagnosis.model.law_check import checked
 from truck_blowout_sim.diagnosis.model.vehicle import (
@@ -170,21 +165,19 @@ def _material(study: Study, found: Found, gate: GateResult, vehicle: str,
 def _wrenches(study: Study, models: Sequence[Floats], named: Sequence[Hypothesis],
               progress: Progress | None) -> tuple[Wrenches, ...]:
     """Missing wrench on each body in the training run that is explained worst."""
-    removed = study.projector(named).remove(study.residual(dict(enumerate(models))))
-    worst = worst_run(study, removed)
-    return tuple(missing_wrench(study, worst, body, models, named, progress)
+    left = Left.of(study, models, named)
+    return tuple(missing_wrench(study, left.worst(study), body, models, named, progress, left)
                  for body in study.packed.vehicle.units)
 
 
 def _comparable(study: Study, found: tuple[Wrenches, ...], named: Sequence[Hypothesis],
                 progress: Progress | None) -> tuple[Wrenches, ...]:
     """The same of what baseline runs tell of: a tire that only training lost is left out."""
-    removed = study.projector(named).remove(study.residual())
-    worst = worst_run(study, removed, comparable=True)
-    until_s = comparable_until_s(study, worst)
-    if worst == worst_run(study, removed) and not np.isfinite(until_s):
+    left = Left.of(study, study.models, named, comparable=True)
+    if left.seen.all():
         return found
-    return tuple(missing_wrench(study, worst, body, study.models, named, progress, until_s)
+    return tuple(missing_wrench(study, left.worst(study), body, study.models, named, progress,
+                                left)
                  for body in study.packed.vehicle.units)
 
 

@@ -20,13 +20,13 @@ from scipy.linalg import cho_factor, cho_solve
 
 from truck_blowout_sim.diagnosis.case.study import Progress, Study, row_ranges
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
+from truck_blowout_sim.diagnosis.fit.linear import Projector
 from truck_blowout_sim.diagnosis.fit.models import with_effects
 from truck_blowout_sim.diagnosis.result.evidence import ForceHistory
 
 Floats = NDArray[np.float64]
 WINDOW_S = 1.0
 _MOST_WINDOWS = 30
-_SHORTEST_S = 0.1  # so that there is a window, even if nothing in it counts
 _UNITS = {"fx_n": 2000.0, "fy_n": 2000.0, "mz_nm": 8000.0}  # step of the finite difference
 _PRIOR = {"fx_n": 5000.0, "fy_n": 5000.0, "mz_nm": 20000.0}
 
@@ -60,30 +60,57 @@ def comparable_until_s(study: Study, i: int) -> float:
     return min((event.time_s for event in study.runs[i].recording.blowouts), default=float("inf"))
 
 
-def worst_run(study: Study, removed: Floats, *, comparable: bool = False) -> int:
-    """The training run that is explained worst; ``comparable``: of what baseline runs tell of."""
-    rows = row_ranges(study)
+@dataclass(frozen=True, eq=False)
+class Left:
+    """What nothing explains, of all rows or of those that baseline runs tell of.
 
-    def left(i: int) -> float:
-        run = study.runs[i]
-        seen = run.edges_s[1:] <= (comparable_until_s(study, i) if comparable else np.inf)
-        return float(np.sum(np.square(removed[rows[i]].reshape(run.measured.shape)[seen])))
+    Attributes:
+        projector: of the nuisances; ``removed``: [rows] what it leaves of the residual.
+        seen: [rows] 1 where a row counts, else 0.
+    """
 
-    return max(study.train, key=left)
+    projector: Projector
+    removed: Floats
+    seen: Floats
+
+    @staticmethod
+    def of(study: Study, models: Sequence[Floats], named: Sequence[Hypothesis] = (), *,
+           comparable: bool = False) -> Left:
+        """With ``named`` in force in the ``models`` of all runs.
+
+        ``comparable``: later rows of a run do not count, and do not fit the nuisances either.
+        """
+        residual, projector = study.residual(dict(enumerate(models))), study.projector(named)
+        seen: Floats = np.ones(residual.size)
+        if comparable:
+            seen = np.concatenate([
+                np.repeat(run.edges_s[1:] <= comparable_until_s(study, i), len(run.channels))
+                for i, run in enumerate(study.runs)]).astype(np.float64)
+        if not seen.all():
+            projector = Projector.of(study.columns * seen[:, None], projector.kept.tolist())
+        return Left(projector, projector.remove(residual * seen), seen)
+
+    def worst(self, study: Study) -> int:
+        """The training run that is explained worst."""
+        rows = row_ranges(study)
+        return max(study.train, key=lambda i: float(self.removed[rows[i]] @ self.removed[rows[i]]))
 
 
 def missing_wrench(study: Study, i: int, body: str, models: Sequence[Floats],
                    named: Sequence[Hypothesis] = (), progress: Progress | None = None,
-                   until_s: float = np.inf) -> Wrenches:
+                   left: Left | None = None) -> Wrenches:
     """The wrench on ``body`` that explains what is left in run ``i`` once ``named`` is in force.
 
-    ``models``: those of all runs with ``named`` in force; ``until_s``: later bins do not count.
+    ``models``: those of all runs with ``named`` in force; ``left``: what they leave, if only a
+    part of the rows shall count.
     """
-    projector = study.projector(named)
+    left = left or Left.of(study, models, named)
     run, name = study.runs[i], f"unit.{body}."
     window = max(WINDOW_S, run.length_s / _MOST_WINDOWS)
-    starts = np.arange(run.edges_s[0], max(min(run.edges_s[-1], until_s) - 0.5 * window,
-                                           run.edges_s[0] + _SHORTEST_S), window)
+    rows = row_ranges(study)[i]
+    seen = left.seen[rows].reshape(run.measured.shape)[:, 0]
+    last_s = run.edges_s[1:][seen > 0.0].max(initial=run.edges_s[0] + window)
+    starts = np.arange(run.edges_s[0], last_s - 0.5 * window, window)
     truck = with_effects(study.packed, named, run.recording.name)
     jobs = [(study.late(run, truck, float(start)), truck.unchecked({
         name + f"probe_{kind}": step, name + "probe_start_s": float(start),
@@ -96,12 +123,10 @@ def missing_wrench(study: Study, i: int, body: str, models: Sequence[Floats],
     scale = [_PRIOR[kind] / _UNITS[kind] for kind in _UNITS for _ in starts]
     columns = np.stack([run.change(r, base) * s for r, s in zip(results, scale, strict=True)],
                        axis=1)
-    rows = row_ranges(study)[i]
-    columns *= np.repeat(run.edges_s[1:] <= until_s, len(run.channels))[:, None]
-    removed = projector.remove(study.residual(dict(enumerate(models))))[rows]
-    reach = projector.reach(columns, rows)
-    information = columns.T @ columns - reach.T @ cho_solve(projector.factor, reach)
-    gradient = columns.T @ removed
+    columns *= left.seen[rows][:, None]
+    reach = left.projector.reach(columns, rows)
+    information = columns.T @ columns - reach.T @ left.projector.solve(reach)
+    gradient = columns.T @ left.removed[rows]
     factor = cho_factor(information + np.eye(columns.shape[1]))
     amounts = cho_solve(factor, gradient)
     covariance = cho_solve(factor, np.eye(columns.shape[1]))
