@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from truck_blowout_sim.diagnosis.case.study import Study
-from truck_blowout_sim.diagnosis.locate.wrench import Left, comparable_until_s, missing_wrench
-from truck_blowout_sim.recordings import Blowout
+from truck_blowout_sim.diagnosis.locate.wrench import missing_wrench
 
 Studies = Callable[..., Study]
 
@@ -49,37 +47,3 @@ def test_where_nothing_is_missing_no_line_of_action_is_claimed(study_of: Studies
     z = np.abs(found.history.fy_n) / found.history.fy_sigma_n
     assert z.max() < 4.0
     assert found.x_m == np.inf or found.x_sigma_m > 0.0
-
-
-def lost_at(study: Study, time_s: float, run: int) -> Study:
-    """The same case, one run of it with a tire lost on command."""
-    runs = list(study.runs)
-    recording = replace(runs[run].recording, blowouts=(Blowout(time_s, ("steer_left",)),))
-    runs[run] = replace(runs[run], recording=recording)
-    return replace(study, runs=tuple(runs))
-
-
-def test_a_tire_that_only_training_lost_is_nothing_that_baseline_runs_tell_of(
-    study_of: Studies
-) -> None:
-    sound = study_of(baseline=True)
-    (train,), (baseline,) = sound.train, sound.baseline
-    assert comparable_until_s(sound, train) == np.inf
-    lost = lost_at(sound, 2.0, train)
-    assert comparable_until_s(lost, train) == 2.0
-    assert comparable_until_s(lost_at(lost, 3.0, baseline), train) == np.inf
-    assert comparable_until_s(lost_at(study_of(), 2.0, 0), 0) == np.inf
-
-
-def test_what_a_lost_tire_does_is_not_judged(study_of: Studies) -> None:
-    """A push from 2.4 to 4.4 s explains nothing of a run that counts up to 2 s only."""
-    pushed = study_of(push("trailer", 6000.0, 3.0), baseline=True)
-    (train,) = pushed.train
-    lost = lost_at(pushed, 2.0, train)
-    found = {}
-    for study in (pushed, lost):
-        left = Left.of(study, study.models, comparable=True)
-        assert left.worst(study) == train
-        found[study is lost] = missing_wrench(study, train, "trailer", study.models, left=left)
-    assert found[False].delta > 2.0 * found[False].degrees
-    assert found[True].delta < 2.0 * found[True].degrees < 2.0 * found[False].degrees

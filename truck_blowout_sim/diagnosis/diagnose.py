@@ -20,11 +20,12 @@ from truck_blowout_sim.diagnosis.case.threads import one_blas_thread
 from truck_blowout_sim.diagnosis.case.usable import check_each_once, determined
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.effort import USUAL, Effort
+from truck_blowout_sim.diagnosis.locate.comparable import Left
 from truck_blowout_sim.diagnosis.locate.lagging import lagging_wheel
 from truck_blowout_sim.diagnosis.locate.periodic import find_beat
 from truck_blowout_sim.diagnosis.locate.posture import turned_body
 from truck_blowout_sim.diagnosis.locate.restless import restless
-from truck_blowout_sim.diagnosis.locate.wrench import Left, Wrenches, missing_wrench
+from truck_blowout_sim.diagnosis.locate.wrench import Wrenches, missing_wrench
 from truck_blowout_sim.diagnosis.model.law import plainest_law
 from truck_blowout_sim.diagnosis.model.law_check import checked
 from truck_blowout_sim.diagnosis.model.vehicle import (

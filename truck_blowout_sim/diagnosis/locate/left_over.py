@@ -20,6 +20,7 @@ from scipy.stats import t as student
 
 from truck_blowout_sim.diagnosis.case.study import Study, row_ranges
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
+from truck_blowout_sim.diagnosis.locate.comparable import Left
 
 _SCATTER = 0.4  # of the logarithm: what a model leaves differs by half from manoeuvre to manoeuvre
 _RUNS = 6.0  # as many runs is that prior worth: cases seldom have more
@@ -27,13 +28,16 @@ _LEAST = 1e-6
 
 
 def mean_squares(study: Study, named: Sequence[Hypothesis] = ()) -> tuple[float, ...]:
-    """Squares a row that each run of the case keeps, in units of the widths."""
-    residual = study.residual()
-    removed = study.projector(named).remove(residual)
+    """Squares a row that each run of the case keeps, in units of the widths.
+
+    Of a run in which only training lost a tire, the rows up to then.
+    """
+    residual, left = study.residual(), Left.of(study, study.models, named, comparable=True)
     found = []
-    for run, rows in zip(study.runs, row_ranges(study), strict=True):
-        seen = max(int(np.isfinite(run.measured).sum()), 1)
-        found.append(max(float(residual[rows] @ removed[rows]) / seen, _LEAST))
+    for i, (run, rows) in enumerate(zip(study.runs, row_ranges(study), strict=True)):
+        seen = max(int(np.isfinite(run.measured[left.rows_of(study, i)]).sum()), 1)
+        kept = (left.seen[rows] * residual[rows]) @ left.removed[rows]
+        found.append(max(float(kept) / seen, _LEAST))
     return tuple(found)
 
 

@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 
 from truck_blowout_sim.diagnosis.case.study import Study, row_ranges
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
+from truck_blowout_sim.diagnosis.locate.comparable import Left
 from truck_blowout_sim.diagnosis.locate.left_over import most_by_chance
 
 Floats = NDArray[np.float64]
@@ -73,7 +74,7 @@ def restless(study: Study, named: Sequence[Hypothesis]) -> Restless | None:
     """
     if not study.baseline:
         return None
-    clean = study.projector(named).remove(study.residual())
+    clean = Left.of(study, study.models, named, comparable=True)
     channels = [c for c in dict.fromkeys(c for i in study.train for c in study.runs[i].channels)
                 if c.endswith(tuple(end for end, _ in _NAMES))]
     found = [one for name in channels
@@ -81,7 +82,7 @@ def restless(study: Study, named: Sequence[Hypothesis]) -> Restless | None:
     return max(found, key=lambda one: one.evidence, default=None)
 
 
-def _judge(study: Study, clean: Floats, channel: str, asked: int) -> Restless | None:
+def _judge(study: Study, clean: Left, channel: str, asked: int) -> Restless | None:
     """A channel, if more of it is left than baseline runs allow one of ``asked`` channels."""
     parts, base = ([_left(study, clean, channel, i) for i in which
                     if channel in study.runs[i].channels]
@@ -100,12 +101,13 @@ def _judge(study: Study, clean: Floats, channel: str, asked: int) -> Restless | 
                     float(left @ left - left.size * usual**2))
 
 
-def _left(study: Study, clean: Floats, channel: str, i: int) -> tuple[Floats, Floats]:
+def _left(study: Study, clean: Left, channel: str, i: int) -> tuple[Floats, Floats]:
     """What is left of a channel in one run, in units of its width, and these widths."""
     run = study.runs[i]
     k = run.channels.index(channel)
-    seen = np.isfinite(run.measured[:, k])
-    return clean[row_ranges(study)[i]].reshape(run.measured.shape)[seen, k], run.sigma[seen, k]
+    seen = np.isfinite(run.measured[:, k]) & clean.rows_of(study, i)
+    return (clean.removed[row_ranges(study)[i]].reshape(run.measured.shape)[seen, k],
+            run.sigma[seen, k])
 
 
 def _mean_square(values: Floats) -> float:

@@ -20,8 +20,8 @@ from scipy.linalg import cho_factor, cho_solve
 
 from truck_blowout_sim.diagnosis.case.study import Progress, Study, row_ranges
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
-from truck_blowout_sim.diagnosis.fit.linear import Projector
 from truck_blowout_sim.diagnosis.fit.models import with_effects
+from truck_blowout_sim.diagnosis.locate.comparable import Left
 from truck_blowout_sim.diagnosis.result.evidence import ForceHistory
 
 Floats = NDArray[np.float64]
@@ -47,53 +47,6 @@ class Wrenches:
     degrees: int
     x_m: float
     x_sigma_m: float
-
-
-def comparable_until_s(study: Study, i: int) -> float:
-    """Up to when baseline runs tell how well the model describes a training run.
-
-    Good models of one truck differ most in what a lost tire does: runs on sound tires say nothing
-    of it. Where no baseline run is, or one lost a tire too, the whole run counts.
-    """
-    if not study.baseline or any(study.runs[k].has_blowout for k in study.baseline):
-        return float("inf")
-    return min((event.time_s for event in study.runs[i].recording.blowouts), default=float("inf"))
-
-
-@dataclass(frozen=True, eq=False)
-class Left:
-    """What nothing explains, of all rows or of those that baseline runs tell of.
-
-    Attributes:
-        projector: of the nuisances; ``removed``: [rows] what it leaves of the residual.
-        seen: [rows] 1 where a row counts, else 0.
-    """
-
-    projector: Projector
-    removed: Floats
-    seen: Floats
-
-    @staticmethod
-    def of(study: Study, models: Sequence[Floats], named: Sequence[Hypothesis] = (), *,
-           comparable: bool = False) -> Left:
-        """With ``named`` in force in the ``models`` of all runs.
-
-        ``comparable``: later rows of a run do not count, and do not fit the nuisances either.
-        """
-        residual, projector = study.residual(dict(enumerate(models))), study.projector(named)
-        seen: Floats = np.ones(residual.size)
-        if comparable:
-            seen = np.concatenate([
-                np.repeat(run.edges_s[1:] <= comparable_until_s(study, i), len(run.channels))
-                for i, run in enumerate(study.runs)]).astype(np.float64)
-        if not seen.all():
-            projector = Projector.of(study.columns * seen[:, None], projector.kept.tolist())
-        return Left(projector, projector.remove(residual * seen), seen)
-
-    def worst(self, study: Study) -> int:
-        """The training run that is explained worst."""
-        rows = row_ranges(study)
-        return max(study.train, key=lambda i: float(self.removed[rows[i]] @ self.removed[rows[i]]))
 
 
 def missing_wrench(study: Study, i: int, body: str, models: Sequence[Floats],
