@@ -39,7 +39,7 @@ def ask_about(problems: Sequence[str], yes: bool) -> None:
     """
     if not problems or yes:
         return
-    words = f"no truck does this: {'; '.join(problems)}"
+    words = f"no vehicle of this kind does this: {'; '.join(problems)}"
     if not sys.stdin.isatty() or not typer.confirm(f"{words}. Simulate it all the same?",
                                                    err=True):
         raise InputError(words, expected="plausible input, or --yes to simulate it all the same")

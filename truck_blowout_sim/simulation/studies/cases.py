@@ -119,7 +119,7 @@ class Study:
             packed, scenario, drive = self._prepared(values)
             found = () if self.insist else implausible(packed, drive)
             if found:
-                raise InputError(f"no truck does this: {'; '.join(found)}")
+                raise InputError(f"no vehicle of this kind does this: {'; '.join(found)}")
             ran = execute(packed, drive, start=self._start(packed, drive))
             if ran.ending is not None and not ran.ending.rolled_over:
                 raise diverged(packed, drive, ran.ending, scenario.name)
