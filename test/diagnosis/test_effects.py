@@ -6,6 +6,7 @@ import string
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 
 from truck_blowout_sim.diagnosis.answer.words import fill
 from truck_blowout_sim.diagnosis.effects import LIBRARY, Effect
@@ -14,6 +15,8 @@ from truck_blowout_sim.diagnosis.result.parts import Place
 from truck_blowout_sim.diagnosis.settings import load_settings
 from truck_blowout_sim.resources import config_names
 from truck_blowout_sim.vehicle import Packed, load_vehicle, pack
+
+Floats = NDArray[np.float64]
 
 PHYSICS = {
     "blown_tire_drag", "blown_tire_cornering", "slow_deflation", "secondary_blowout",
@@ -154,3 +157,35 @@ def test_saturation_is_asked_of_all_axles_that_share_a_tire() -> None:
     assert both == {f"axle.{axle}.peak_scale": 0.75 for axle in alike.vehicle.axles}
     mixed = load_vehicle("international_9400i_trailmobile")
     assert Place() not in effect.places(mixed)
+
+
+def _magic_formula(slip: Floats, peak: float) -> Floats:
+    """Side force of unit cornering stiffness, in the form of the shipped truck tires."""
+    shape, curvature = 1.45, 0.2
+    x = slip / (shape * peak)
+    return peak * np.sin(shape * np.arctan(x - curvature * (x - np.arctan(x))))
+
+
+def _brush(slip: Floats) -> Floats:
+    """The same stiffness, peak 1, of a brush tire (Pacejka 2012, eq. 3.8)."""
+    third = np.minimum(slip / 3.0, 1.0)
+    return 3.0 * third - 3.0 * third**2 + third**3
+
+
+@pytest.mark.parametrize("largest_slip", [0.35, 0.5, 0.8, 1.2])
+def test_a_tire_of_another_form_looks_like_one_of_a_lower_peak(largest_slip: float) -> None:
+    """As the effect assumes: by 0.7 of what the runs leave to the limit of grip."""
+    slip = np.linspace(0.0, largest_slip, 60)
+    peaks = np.linspace(0.3, 1.2, 901)
+    misfit = [float(np.sum((_magic_formula(slip, peak) - _brush(slip)) ** 2)) for peak in peaks]
+    seems_lower = 1.0 - peaks[int(np.argmin(misfit))]
+    used = float(_brush(slip)[-1])
+    effect = next(e for e in LIBRARY if e.name == "tire_saturation" and not e.variant)
+    assert seems_lower == pytest.approx(2.0 * effect.far_from_limit * (1.0 - used), abs=0.06)
+
+
+def test_what_acts_near_the_limit_strays_more_far_from_it(truck: Packed) -> None:
+    effect = next(e for e in LIBRARY if e.name == "tire_saturation" and not e.variant)
+    sizes = [effect.strays(truck, used)[0] for used in (1.0, 0.9, 0.5, 0.2)]
+    assert sizes == sorted(sizes)
+    assert sizes[0] == pytest.approx(0.5 * effect.amount.material)

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from truck_blowout_sim.diagnosis.case.runs import Run, simulate_bins
-from truck_blowout_sim.diagnosis.case.trust import calm, demand
+from truck_blowout_sim.diagnosis.case.trust import calm, demand, grip_used
 from truck_blowout_sim.diagnosis.effects import Effect
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.effort import USUAL
@@ -91,6 +91,11 @@ class Study:
         """Share of what a force that nothing explains must buy in runs so straight."""
         return calm([self.runs[i].recording for i in self.train], self.packed.vehicle.units[0],
                     self.settings)
+
+    @cached_property
+    def grip_used(self) -> float:
+        """Share of the tires' side grip that training asks for, 0 to 1."""
+        return grip_used(self)
 
     @property
     def baseline(self) -> tuple[int, ...]:

@@ -12,6 +12,7 @@ Validated with: test/diagnosis/test_trust.py.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,6 +22,9 @@ from truck_blowout_sim.diagnosis.settings import Settings
 from truck_blowout_sim.recordings import INPUT_NAMES, Recording
 from truck_blowout_sim.simulation.drive import Drive
 from truck_blowout_sim.vehicle import Packed
+
+if TYPE_CHECKING:
+    from truck_blowout_sim.diagnosis.case.study import Study
 
 Floats = NDArray[np.float64]
 BRAKES_ON_PA = 20_000.0
@@ -79,3 +83,28 @@ def _hardest_mps2(recording: Recording, unit: str) -> float:
     rate, speed = (recording[name] for name in names)
     lateral = np.abs(rate.value * np.interp(rate.time_s, speed.time_s, speed.value))
     return float(uniform_filter1d(lateral, max(round(_LASTS_S / rate.period_s), 1)).max())
+
+
+def grip_used(study: Study) -> float:
+    """Share of the tires' side grip that training asks for, by recording or model, 0 to 1.
+
+    The harder of both: tires that let go early keep the vehicle from turning hard.
+    """
+    unit = study.packed.vehicle.units[0]
+    names = (f"{unit}_yaw_rate_radps", f"{unit}_vx_mps")
+    hardest = 0.0
+    for i in study.train:
+        run = study.runs[i]
+        if names[0] not in run.channels or names[1] not in run.recording:
+            continue
+        speed = run.recording[names[1]]
+        middles = 0.5 * (run.edges_s[1:] + run.edges_s[:-1])
+        rates = [values[:, run.channels.index(names[0])]
+                 for values in (run.measured, study.models[i])]
+        lateral = np.abs(rates) * np.interp(middles, speed.time_s, speed.value)
+        lasting = uniform_filter1d(np.nan_to_num(lateral), max(round(
+            _LASTS_S / study.settings.bin_s), 1), axis=1)
+        hardest = max(hardest, float(lasting.max(initial=0.0)))
+    peaks = [study.packed[f"tire.{tire}.peak_y"] for tire in study.packed.vehicle.tires]
+    grip = float(np.mean(peaks)) * study.packed["world.friction_scale"]
+    return min(hardest / max(grip * study.packed["world.gravity_mps2"], 1e-9), 1.0)

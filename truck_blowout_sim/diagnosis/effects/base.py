@@ -74,6 +74,8 @@ class Effect:
         absorbs: calibration number that means the same as this amount; ``{hub}`` and ``{role}``
             (of the axle) are filled in.
         of_file: scales a number of the vehicle's file that no calibration number stands for.
+        far_from_limit: by so much models of equal slope and peak seem to differ in the amount, 1
+            sigma, in runs far from the limit of grip; the less, the nearer.
     """
 
     name: str
@@ -90,6 +92,7 @@ class Effect:
     kind: Kind = "physics"
     absorbs: str = ""
     of_file: bool = False
+    far_from_limit: float = 0.0
     onset_form_s: float = 0.0
     met: bool = False
     variant: bool = False
@@ -97,13 +100,16 @@ class Effect:
     grows_with: Callable[[Packed], float] = lambda packed: 1.0
     neutral: Callable[[Packed], float] = lambda packed: 0.0
 
-    def strays(self, packed: Packed) -> tuple[float, ...]:
+    def strays(self, packed: Packed, grip_used: float = 1.0) -> tuple[float, ...]:
         """1 sigma by which trucks of one kind differ in the amount, and roads, winds and loads.
 
         A number of the vehicle's file may be wrong: then four times as much. What the sheet still
         calibrates beside the effect has that chance already.
+
+        ``grip_used``: share of the tires' side grip that the runs ask for.
         """
-        usual = 0.5 * self.amount.material * self.grows_with(packed)
+        usual = float(np.hypot(0.5 * self.amount.material * self.grows_with(packed),
+                               self.far_from_limit * (1.0 - grip_used)))
         stated = (self.absorbs or self.of_file) and not self.met
         return (usual, WRONG_SHEET * usual) if stated else (usual,)
 

@@ -108,7 +108,8 @@ def rank_steady(study: Study, candidates: Sequence[Hypothesis],
         question = Question.of(projector, removed, [
             part for i, at_i in enumerate(rows) for part in parts_of(
                 study.runs[i], at_i.start, column[at_i], i in study.train, episode_s, manner[i])],
-            candidate.effect.strays(study.packed), (amount.low - at, amount.high - at))
+            candidate.effect.strays(study.packed, study.grip_used),
+            (amount.low - at, amount.high - at))
         questions.append((candidate.key, question))
         shown.append(question.shown(removed - found.amount * projector.remove(column * trained))
                      if question else None)

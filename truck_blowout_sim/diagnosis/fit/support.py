@@ -83,7 +83,8 @@ def supported(study: Study, one: Ranked, beside: Beside, chance: Chance) -> Rank
                              *(part.column for part in more)])
     removed = projector.remove(residual)
     left = removed - away * projector.remove(fitted)
-    shown = Shown.of(projector, removed, [*parts, *more], h.effect.strays(study.packed),
+    shown = Shown.of(projector, removed, [*parts, *more],
+                     h.effect.strays(study.packed, study.grip_used),
                      (min(away, 0.0), max(away, 0.0)), left)
     if shown is None:
         return replace(one, support=0.0)
