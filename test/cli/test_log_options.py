@@ -101,6 +101,32 @@ def test_compare_maps_the_runs_that_the_mapping_fits(log: Path, tmp_path: Path,
     assert "does not fit" in capsys.readouterr().out
 
 
+def test_inspect_counts_the_numbers_of_topics_that_only_show_the_truck(
+    log: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    bag = str(tmp_path / "bag")
+    assert main(["import", str(log), "-m", str(log.parent / "map.yaml"), "-o", bag]) == 0
+    capsys.readouterr()
+    assert main(["inspect", bag]) == 0
+    shown = capsys.readouterr().out
+    assert "numbers, none of them a channel" in shown
+    assert "transforms[" not in shown
+    assert "odometry:twist.twist.linear.x" in shown
+    assert main(["inspect", bag, "--json"]) == 0
+    assert "/tf:transforms[0].transform.translation.x" in capsys.readouterr().out
+
+
+def test_a_mapping_that_fits_none_of_several_is_an_error(
+    log: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Though each of them can be read under its own names."""
+    for words in (["plot", SHIPPED, SHIPPED], ["calibrate", SHIPPED, "--holdout", SHIPPED],
+                  ["diagnose", SHIPPED, "--holdout", SHIPPED]):  # fmt: skip
+        words += ["-o", str(tmp_path / "out.yaml")]
+        assert main([*words, "-m", str(log.parent / "map.yaml")]) == 2
+        assert "no column 'Wheel'" in capsys.readouterr().err.splitlines()[-1]
+
+
 def test_a_mapping_that_fits_no_run_is_an_error(log: Path) -> None:
     with pytest.raises(InputError, match="no column 'Wheel'"):
         options(log).read_all([SHIPPED])

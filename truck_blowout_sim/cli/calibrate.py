@@ -65,6 +65,7 @@ def command(
     loaded = load_vehicle(vehicle)
     among = len(recordings) + len(holdout)
     runs, unseen = (logs.read_all(names, loaded, among) for names in (recordings, holdout))
+    logs.require_fit([*runs, *unseen])
     say_notes(*runs, *unseen)
     check_brakes(loaded, *runs, *unseen)
     ask_about(implausible_inputs([*runs, *unseen], loaded, impose_speed=impose_speed), yes)

@@ -123,8 +123,10 @@ def _read(logs: LogOptions, vehicle: Vehicle, recordings: Sequence[Path], *other
     """The runs of each group; ``--blow`` and ``--also`` speak of the first one."""
     among = len(recordings) + sum(map(len, others))
     rest = logs.without_blowouts()
-    return [logs.read_all(recordings, vehicle, among),
-            *(rest.read_all(group, vehicle, among) for group in others)]  # fmt: skip
+    groups = [logs.read_all(recordings, vehicle, among),
+              *(rest.read_all(group, vehicle, among) for group in others)]  # fmt: skip
+    logs.require_fit([run for group in groups for run in group])
+    return groups
 
 
 def _claim(output: Path, corrected: Path | None, inputs: Sequence[Path], force: bool) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses
 import math
 import sys
+from collections import Counter
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -18,6 +19,7 @@ from truck_blowout_sim.recordings import Recording
 from truck_blowout_sim.recordings.shipped import find_recording
 
 _EPOCH_S = 1e8  # times since 1970 are above
+_MOST_UNUSED = 40  # numbers of a topic without a channel that are listed
 
 if TYPE_CHECKING:
     from truck_blowout_sim.recordings.mapping.inventory import Inventory, Line
@@ -112,12 +114,28 @@ def _print(found: Inventory) -> None:
                   soft_wrap=True)  # fmt: skip
     for at_s, tires in found.blowouts:
         console.print(f"blowout of {tires} at {at_s:g} s", markup=False, highlight=False)
-    console.print(_table(found.lines))
+    lines, hidden = _of_interest(found.lines)
+    console.print(_table(lines))
+    for topic, count in hidden.items():
+        console.print(f"{topic}: {count} numbers, none of them a channel; --json lists them",
+                      markup=False, highlight=False)  # fmt: skip
     for note in found.notes:
         console.print(f"note: {note}", style="dim", markup=False, highlight=False, soft_wrap=True)
     if found.unused:
         console.print(f"{len(found.unused)} of {len(found.lines)} columns become nothing",
                       highlight=False)  # fmt: skip
+
+
+def _of_interest(lines: tuple[Line, ...]) -> tuple[tuple[Line, ...], dict[str, int]]:
+    """Lines to print, and topics of many numbers of which none is a channel, as /tf."""
+    count, used = Counter(map(_topic, lines)), {_topic(line) for line in lines if line.channel}
+    hidden = {topic: n for topic, n in count.items()
+              if topic and n > _MOST_UNUSED and topic not in used}  # fmt: skip
+    return tuple(line for line in lines if _topic(line) not in hidden), hidden
+
+
+def _topic(line: Line) -> str:
+    return line.name.partition(":")[0] if line.name.startswith("/") else ""
 
 
 def _table(lines: tuple[Line, ...]) -> Table:

@@ -118,7 +118,23 @@ class LogOptions:
         if len(names) == 1:
             read = self.read if among == 1 else self._read_where_it_fits
             return [read(names[0], vehicle)]
-        return _apart([self._read_one_of_several(name, vehicle) for name in names], names)
+        reads = _apart([self._read_one_of_several(name, vehicle) for name in names], names)
+        if among == 1:
+            self.require_fit(reads)
+        return reads
+
+    def require_fit(self, recordings: Sequence[Recording]) -> None:
+        """Refuse a mapping that fits none of all the recordings that a verb reads.
+
+        Raises:
+            InputError: with what is wrong in it.
+        """
+        said = [note for read in recordings for note in read.notes if _UNFIT in note]
+        if said and len(said) == len(recordings):
+            raise InputError(
+                said[0].partition(_UNFIT)[2], file=self.mapping,
+                expected="a mapping that fits at least one of the recordings",
+            )  # fmt: skip
 
     def _read_one_of_several(self, name: str | PathLike[str], vehicle: Vehicle | None) -> Recording:
         return self._marked(replace(self, blow=())._read_where_it_fits(name, vehicle), vehicle)
@@ -129,7 +145,7 @@ class LogOptions:
         """With the mapping, or else without it under its own names."""
         try:
             return self.read(name, vehicle)
-        except InputError:
+        except InputError as error:
             if self.mapping is None:
                 raise
             try:
@@ -137,7 +153,8 @@ class LogOptions:
             except InputError:
                 pass
             else:
-                note = f"read under its own names: {self.mapping} does not fit"
+                what = f"{error.where}: {error.problem}" if error.where else error.problem
+                note = f"{read.name}: read under its own names, {_UNFIT}{what}"
                 return replace(read, notes=(*read.notes, note))
             raise
 
@@ -146,6 +163,8 @@ class LogOptions:
             return recording
         return with_blowouts(recording, parse_blowouts(self.blow), **_parts_of(vehicle))
 
+
+_UNFIT = "as the mapping does not fit: "
 
 AS_IT_IS = LogOptions()
 """Nothing was said: the default of a verb's ``logs``."""
