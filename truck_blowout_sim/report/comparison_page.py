@@ -51,7 +51,7 @@ def comparison_page(comparison: Comparison, pictures: tuple[Picture, ...] | None
         "vehicle": comparison.vehicle.name,
         "vehicle_title": comparison.vehicle.title,
         "verdict": headline,
-        "more": more,
+        "more": more[:1].upper() + more[1:],
         "rebuilt": recording.metadata.get("origin", "") if comparison.marks else "",
         "interval": f"{start:.2f} s to {end:.2f} s",
         "blowouts": _blowouts(comparison),

@@ -53,12 +53,9 @@ def overlay_picture(
     panels = figure.subplots(rows, _COLUMNS, squeeze=False).ravel()
     for axes, overlay in zip(panels, overlays, strict=False):
         _overlay(axes, overlay, labels)
-        for recording, time_s, tires in blowouts:
+        for recording, time_s, _ in blowouts:
             if recording == overlay.recording:
                 axes.axvline(time_s, color=EVENT, linewidth=1.0, linestyle=":")
-                axes.annotate(f"{tires} blows", (time_s, 1.0), xycoords=("data", "axes fraction"),
-                              xytext=(0, 2), textcoords="offset points", ha="center", va="bottom",
-                              fontsize=7, color=EVENT, annotation_clip=False)
     for axes in panels[len(overlays) :]:
         axes.remove()
     figure.supxlabel("time (s)", fontsize=9)
@@ -67,10 +64,11 @@ def overlay_picture(
     first = overlays[0]
     role = {"train": "fitted to this run", "holdout": "never fitted to this run",
             "baseline": "without the effect"}[first.role]  # fmt: skip
-    return Picture(
-        name, f"{first.recording} ({first.role})", f"The diagnosed model was {role}."
-        if first.role != "baseline" else f"A run {role}.", figure,
-    )  # fmt: skip
+    said = "A run" if first.role == "baseline" else "The diagnosed model was"
+    burst = ", ".join(f"{tires} blows at {time_s:.2f} s" for recording, time_s, tires in blowouts
+                      if recording == first.recording)  # fmt: skip
+    caption = f"{said} {role}." + (f" Dotted line: {burst}." if burst else "")
+    return Picture(name, f"{first.recording} ({first.role})", caption, figure)
 
 
 def _overlay(axes: Axes, overlay: Overlay, labels: Mapping[str, str]) -> None:
