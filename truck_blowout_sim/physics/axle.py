@@ -26,20 +26,27 @@ from truck_blowout_sim.physics.jit import core
 from truck_blowout_sim.physics.layout import (
     AXLE,
     AXLE_S,
-    AXLE_SIZE,
-    GLOBAL_S,
     HUB,
     HUB_S,
-    HUB_SIZE,
     TIRE_S,
     TOPOLOGY,
-    TOPOLOGY_AXLE_SIZE,
-    TOPOLOGY_SIZE,
     UNIT,
-    UNIT_AT,
     UNIT_S,
-    UNIT_SIZE,
     UNIT_W,
+)
+from truck_blowout_sim.physics.places import (
+    axle_params,
+    axle_state,
+    circuit_of,
+    hub_at_side,
+    hub_of,
+    hub_params,
+    hub_state,
+    partner_of,
+    tire_state,
+    unit_of,
+    unit_params,
+    unit_state,
 )
 from truck_blowout_sim.physics.rotation import angle_rates, to_map
 
@@ -106,9 +113,7 @@ def place_axle(x: Floats, p: Floats, topo: Integers, i: int, first: int, work: F
 
     ``first`` is the number of its first tire; returns the number of the next axle's.
     """
-    us = len(GLOBAL_S) + topo[TOPOLOGY_SIZE + i * TOPOLOGY_AXLE_SIZE] * len(UNIT_S)
-    a = topo[TOPOLOGY.axle_at] + i * AXLE_SIZE
-    s = topo[TOPOLOGY.state_axle_at] + i * len(AXLE_S)
+    us, a, s = unit_state(unit_of(topo, i)), axle_params(topo, i), axle_state(topo, i)
     left, right = travels(x, us, work, w, p, a, s)
     steer = axle_steer_rad(p, a, left, right)
     if p[a + AXLE.lateral_compliance_radpn] != 0.0:
@@ -125,12 +130,12 @@ def place_axle(x: Floats, p: Floats, topo: Integers, i: int, first: int, work: F
               + x[s + AXLE_S.roll_rate_radps] * (x[us + UNIT_S.z_m] + at[2]), yaw_rate)
     place = (x[us + UNIT_S.x_m] + at[0], x[us + UNIT_S.y_m] + at[1], cy, sy)
     for k in range(2):
-        h = topo[TOPOLOGY.hub_at] + (2 * i + k) * HUB_SIZE
-        hs = topo[TOPOLOGY.state_hub_at] + (2 * i + k) * len(HUB_S)
+        h = hub_params(topo, hub_at_side(i, k))
+        hs = hub_state(topo, hub_at_side(i, k))
         angle = steer + p[h + HUB.toe_rad]
         if i == topo[TOPOLOGY.steered_axle]:
             angle += steering.wheel_angle_rad(x, p, 1.0 - 2.0 * k, p[a + AXLE.half_track_m])
-        count = tires_of_hub(topo, first, 2 * i + k)
+        count = tires_of_hub(topo, first, hub_at_side(i, k))
         wheel.place_tires(x, hs, p, h, a, s, topo, first, count, angle, place, motion, lanes, dt)
         first += count
     return first
@@ -139,9 +144,8 @@ def place_axle(x: Floats, p: Floats, topo: Integers, i: int, first: int, work: F
 @core
 def tires_of_hub(topo: Integers, first: int, hub: int) -> int:
     """How many tires from number ``first`` on stand on a hub; tires are numbered hub by hub."""
-    tires_at = TOPOLOGY_SIZE + topo[TOPOLOGY.n_axles] * TOPOLOGY_AXLE_SIZE
     count = 0
-    while first + count < topo[TOPOLOGY.n_tires] and topo[tires_at + first + count] == hub:
+    while first + count < topo[TOPOLOGY.n_tires] and hub_of(topo, first + count) == hub:
         count += 1
     return count
 
@@ -173,10 +177,8 @@ def move_axle(x: Floats, p: Floats, topo: Integers, i: int, first: int, work: Fl
     Returns the number of the next axle's first tire, and the kingpin moment [N m] of a steered
     axle, else 0.
     """
-    head = TOPOLOGY_SIZE + i * TOPOLOGY_AXLE_SIZE
-    us = len(GLOBAL_S) + topo[head] * len(UNIT_S)
-    a = topo[TOPOLOGY.axle_at] + i * AXLE_SIZE
-    s = topo[TOPOLOGY.state_axle_at] + i * len(AXLE_S)
+    unit = unit_of(topo, i)
+    us, a, s = unit_state(unit), axle_params(topo, i), axle_state(topo, i)
     end = 0 if p[a + AXLE.x_m] > 0.0 else 1
     high = _roll_centre_z(x, us, p, a, work, w)
     first, force, kingpin = _collect(x, p, topo, i, first, a, s, high, kingpin_axis, drive_n, lanes,
@@ -184,10 +186,9 @@ def move_axle(x: Floats, p: Floats, topo: Integers, i: int, first: int, work: Fl
     left, right = travels(x, us, work, w, p, a, s)
     arm = p[a + AXLE.half_spacing_m]
     lean = 0.5 * (left - right) / arm
-    partner = topo[head + 2]
+    partner = partner_of(topo, i)
     if partner >= 0:
-        pa = topo[TOPOLOGY.axle_at] + partner * AXLE_SIZE
-        ps = topo[TOPOLOGY.state_axle_at] + partner * len(AXLE_S)
+        pa, ps = axle_params(topo, partner), axle_state(topo, partner)
         twist = x[us + UNIT_S.twist_front_rad + end]
         left = suspension.equalised_m(
             p, a, left, suspension.travel_m(x, us, work, w, p, pa, ps, 1.0, twist))
@@ -200,7 +201,7 @@ def move_axle(x: Floats, p: Floats, topo: Integers, i: int, first: int, work: Fl
     x[s + AXLE_S.spring_left_n], x[s + AXLE_S.spring_right_n] = f_left, f_right
     roll_nm = arm * (f_left - f_right) + p[a + AXLE.aux_roll_nmprad] * lean
     spring = 2.0 * p[a + AXLE.spring_npm] * arm * arm + p[a + AXLE.aux_roll_nmprad]
-    over = p[a + AXLE.roll_centre_z_m] - p[UNIT_AT + topo[head] * UNIT_SIZE + UNIT.torsion_z_m]
+    over = p[a + AXLE.roll_centre_z_m] - p[unit_params(unit) + UNIT.torsion_z_m]
     work[w + UNIT_W.front_nm + end] += roll_nm - over * force[1]
     work[w + UNIT_W.front_nmprad + end] += spring
     _load_body(work, w, p, a, force, f_left + f_right, roll_nm)
@@ -221,9 +222,9 @@ def _axle_lateral(x: Floats, topo: Integers, i: int) -> float:
     """Lateral tire force [N] of the axle in the step before."""
     total = 0.0
     for k in range(topo[TOPOLOGY.n_tires]):
-        hub = topo[TOPOLOGY_SIZE + topo[TOPOLOGY.n_axles] * TOPOLOGY_AXLE_SIZE + k]
+        hub = hub_of(topo, k)
         if hub // 2 == i:
-            total += x[topo[TOPOLOGY.state_tire_at] + k * len(TIRE_S) + TIRE_S.fy_n]
+            total += x[tire_state(topo, k) + TIRE_S.fy_n]
     return total
 
 
@@ -243,17 +244,17 @@ def _collect(x: Floats, p: Floats, topo: Integers, i: int, first: int, a: int, s
     Returns the next axle's first tire, fx … mz in heading axes, and the kingpin moment.
     """
     fx, fy, fz, mx, my, mz, kingpin = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
-    circuit = topo[TOPOLOGY_SIZE + i * TOPOLOGY_AXLE_SIZE + 1]
+    circuit = circuit_of(topo, i)
     for k in range(2):
-        h = topo[TOPOLOGY.hub_at] + (2 * i + k) * HUB_SIZE
-        hs = topo[TOPOLOGY.state_hub_at] + (2 * i + k) * len(HUB_S)
+        h = hub_params(topo, hub_at_side(i, k))
+        hs = hub_state(topo, hub_at_side(i, k))
         spin = x[hs + HUB_S.spin_radps]
-        count = tires_of_hub(topo, first, 2 * i + k)
+        count = tires_of_hub(topo, first, hub_at_side(i, k))
         out = wheel.collect_tires(x, hs, p, h, topo, first, count, circuit, drive_n, lanes, dt)
         fx, fy, fz = fx + out[0], fy + out[1], fz + out[2]
         mx, my, mz = mx + out[3] + up * out[1], my + out[4] - up * out[0], mz + out[5]
         if i == topo[TOPOLOGY.steered_axle]:
-            ts = topo[TOPOLOGY.state_tire_at] + first * len(TIRE_S)
+            ts = tire_state(topo, first)
             gyro = -p[h + HUB.spin_inertia_kgm2] * spin * x[s + AXLE_S.roll_rate_radps]
             kingpin += steering.kingpin_moment_nm(
                 p, kingpin_axis, 1.0 - 2.0 * k, x[s + AXLE_S.roll_rad], x[hs + HUB_S.steer_rad],

@@ -23,6 +23,7 @@ from truck_blowout_sim.physics.layout import (
     N_CIRCUITS,
     TOPOLOGY,
 )
+from truck_blowout_sim.physics.places import brake_line
 from truck_blowout_sim.physics.scalar import clip
 
 Floats = NDArray[np.float64]
@@ -38,8 +39,8 @@ def write_lines(x: Floats, topo: Integers, inputs: Floats) -> None:
         position = 0
     x[GLOBAL_S.line_position] = position
     for c in range(N_CIRCUITS):
-        x[topo[TOPOLOGY.state_line_at] + c * n + position] = max(
-            inputs[INPUT.brake_pressure_steer_pa + c], 0.0)
+        pressed = max(inputs[INPUT.brake_pressure_steer_pa + c], 0.0)
+        x[brake_line(topo, c) + position] = pressed
 
 
 @core
@@ -53,7 +54,7 @@ def delayed_pa(x: Floats, p: Floats, topo: Integers, circuit: int, dt: float) ->
         back += n
     i = int(back)
     j = i + 1 if i + 1 < n else 0
-    line = topo[TOPOLOGY.state_line_at] + circuit * n
+    line = brake_line(topo, circuit)
     return x[line + i] + (back - i) * (x[line + j] - x[line + i])
 
 

@@ -21,20 +21,23 @@ from truck_blowout_sim.physics.jit import core, entry
 from truck_blowout_sim.physics.layout import (
     AXLE,
     AXLE_S,
-    AXLE_SIZE,
     GLOBAL_S,
     HUB,
     HUB_S,
-    HUB_SIZE,
-    STATE_UNIT_AT,
     TOPOLOGY,
-    TOPOLOGY_AXLE_SIZE,
-    TOPOLOGY_SIZE,
     UNIT,
-    UNIT_AT,
     UNIT_S,
-    UNIT_SIZE,
-    UNIT_WORK_SIZE,
+)
+from truck_blowout_sim.physics.places import (
+    axle_params,
+    axle_state,
+    hub_params,
+    hub_state,
+    partner_of,
+    unit_of,
+    unit_params,
+    unit_state,
+    unit_work,
 )
 from truck_blowout_sim.physics.rotation import fill_rotation, to_map
 
@@ -48,14 +51,14 @@ def energy_j(x: Floats, p: Floats, topo: Integers, work: Floats) -> float:
     g = road.gravity(p, x[GLOBAL_S.time_s])
     total = 0.0
     for u in range(topo[TOPOLOGY.n_units]):
-        s, a = STATE_UNIT_AT + u * len(UNIT_S), UNIT_AT + u * UNIT_SIZE
-        fill_rotation(x, s, work, u * UNIT_WORK_SIZE)
+        s, a = unit_state(u), unit_params(u)
+        fill_rotation(x, s, work, unit_work(u))
         total += _unit_energy(x, s, p, a, g)
     for i in range(topo[TOPOLOGY.n_axles]):
         total += _axle_energy(x, p, topo, i, work, g)
     for h in range(topo[TOPOLOGY.n_hubs]):
-        spin = x[topo[TOPOLOGY.state_hub_at] + h * len(HUB_S) + HUB_S.spin_radps]
-        total += 0.5 * p[topo[TOPOLOGY.hub_at] + h * HUB_SIZE + HUB.spin_inertia_kgm2] * spin * spin
+        spin = x[hub_state(topo, h) + HUB_S.spin_radps]
+        total += 0.5 * p[hub_params(topo, h) + HUB.spin_inertia_kgm2] * spin * spin
     return total
 
 
@@ -77,9 +80,9 @@ def _unit_energy(x: Floats, s: int, p: Floats, a: int, g: tuple[float, float, fl
 def _axle_energy(x: Floats, p: Floats, topo: Integers, i: int, work: Floats,
                  g: tuple[float, float, float]) -> float:
     """A solid axle with its springs."""
-    head = TOPOLOGY_SIZE + i * TOPOLOGY_AXLE_SIZE
-    us, w = STATE_UNIT_AT + topo[head] * len(UNIT_S), topo[head] * UNIT_WORK_SIZE
-    a, s = topo[TOPOLOGY.axle_at] + i * AXLE_SIZE, topo[TOPOLOGY.state_axle_at] + i * len(AXLE_S)
+    unit = unit_of(topo, i)
+    us, w = unit_state(unit), unit_work(unit)
+    a, s = axle_params(topo, i), axle_state(topo, i)
     ex, ey, ez = heading_axes(work, w)
     rx, rz = p[a + AXLE.x_m], p[a + AXLE.roll_centre_z_m]
     v = point_velocity(x, us, rx, 0.0, rz)
@@ -105,17 +108,16 @@ def _axle_energy(x: Floats, p: Floats, topo: Integers, i: int, work: Floats,
 def _travels(x: Floats, p: Floats, topo: Integers, i: int, work: Floats
              ) -> tuple[float, float, float]:
     """Spring compressions left and right after the equaliser [m], and body lean [rad]."""
-    head = TOPOLOGY_SIZE + i * TOPOLOGY_AXLE_SIZE
-    us, w = STATE_UNIT_AT + topo[head] * len(UNIT_S), topo[head] * UNIT_WORK_SIZE
-    a, s = topo[TOPOLOGY.axle_at] + i * AXLE_SIZE, topo[TOPOLOGY.state_axle_at] + i * len(AXLE_S)
+    unit = unit_of(topo, i)
+    us, w = unit_state(unit), unit_work(unit)
+    a, s = axle_params(topo, i), axle_state(topo, i)
     twist = x[us + UNIT_S.twist_front_rad + (0 if p[a + AXLE.x_m] > 0.0 else 1)]
     left = suspension.travel_m(x, us, work, w, p, a, s, 1.0, twist)
     right = suspension.travel_m(x, us, work, w, p, a, s, -1.0, twist)
     lean = 0.5 * (left - right) / p[a + AXLE.half_spacing_m]
-    partner = topo[head + 2]
+    partner = partner_of(topo, i)
     if partner >= 0:
-        pa = topo[TOPOLOGY.axle_at] + partner * AXLE_SIZE
-        ps = topo[TOPOLOGY.state_axle_at] + partner * len(AXLE_S)
+        pa, ps = axle_params(topo, partner), axle_state(topo, partner)
         left = suspension.equalised_m(
             p, a, left, suspension.travel_m(x, us, work, w, p, pa, ps, 1.0, twist))
         right = suspension.equalised_m(

@@ -24,11 +24,10 @@ from truck_blowout_sim.physics.layout import (
     TIRE_S,
     TOPOLOGY,
     UNIT,
-    UNIT_AT,
     UNIT_S,
-    UNIT_SIZE,
     UNIT_W,
 )
+from truck_blowout_sim.physics.places import hub_state, tire_state, unit_params, unit_state
 from truck_blowout_sim.physics.rotation import fill_rotation, to_body, to_map
 
 Floats = NDArray[np.float64]
@@ -59,8 +58,7 @@ def observe(x: Floats, p: Floats, topo: Integers, work: Floats, out: Floats) -> 
     """Fill ``out`` in the order of :func:`output_names`; ``work`` is scratch."""
     n_units = topo[TOPOLOGY.n_units]
     for u in range(n_units):
-        _observe_unit(x, STATE_UNIT_AT + u * len(UNIT_S), p, UNIT_AT + u * UNIT_SIZE, work, out,
-                      u * len(UNIT_OUTPUTS))
+        _observe_unit(x, unit_state(u), p, unit_params(u), work, out, u * len(UNIT_OUTPUTS))
     k = n_units * len(UNIT_OUTPUTS)
     out[k] = 0.0
     if n_units == 2:
@@ -68,12 +66,12 @@ def observe(x: Floats, p: Floats, topo: Integers, work: Floats, out: Floats) -> 
                   - x[STATE_UNIT_AT + UNIT_S.yaw_rad])
     k += 1
     for h in range(topo[TOPOLOGY.n_hubs]):
-        s = topo[TOPOLOGY.state_hub_at] + h * len(HUB_S)
+        s = hub_state(topo, h)
         out[k], out[k + 1] = x[s + HUB_S.spin_radps], x[s + HUB_S.angle_rad]
         out[k + 2], out[k + 3] = x[s + HUB_S.chamber_pa], x[s + HUB_S.steer_rad]
         k += len(HUB_OUTPUTS)
     for t in range(topo[TOPOLOGY.n_tires]):
-        s = topo[TOPOLOGY.state_tire_at] + t * len(TIRE_S)
+        s = tire_state(topo, t)
         out[k] = x[s + TIRE_S.pressure_pa]
         out[k + 1], out[k + 2] = x[s + TIRE_S.fx_n], x[s + TIRE_S.fy_n]
         out[k + 3], out[k + 4] = x[s + TIRE_S.fz_n], x[s + TIRE_S.loaded_radius_m]

@@ -24,27 +24,32 @@ from truck_blowout_sim.physics.jit import core, entry
 from truck_blowout_sim.physics.layout import (
     AXLE,
     AXLE_S,
-    AXLE_SIZE,
     GLOBAL_S,
     HUB,
     HUB_S,
-    HUB_SIZE,
-    STATE_UNIT_AT,
     TIRE,
     TIRE_S,
     TOPOLOGY,
-    TOPOLOGY_AXLE_SIZE,
-    TOPOLOGY_SIZE,
     UNIT,
-    UNIT_AT,
     UNIT_S,
-    UNIT_SIZE,
     UNIT_W,
-    UNIT_WORK_SIZE,
+)
+from truck_blowout_sim.physics.places import (
+    axle_params,
+    axle_state,
+    hub_at_side,
+    hub_of,
+    hub_params,
+    hub_state,
+    tire_params,
+    tire_state,
+    unit_of,
+    unit_params,
+    unit_state,
+    unit_work,
 )
 from truck_blowout_sim.physics.rotation import fill_rotation, to_body, to_map
 from truck_blowout_sim.physics.tires import blowout
-from truck_blowout_sim.physics.tires.lanes import tire_offset
 
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
@@ -81,7 +86,7 @@ def powers_w(before: Floats, after: Floats, p: Floats, topo: Integers, dt: float
         out[k] = 0.0
     n = topo[TOPOLOGY.n_units]
     for u in range(n):
-        s, a, w = STATE_UNIT_AT + u * len(UNIT_S), UNIT_AT + u * UNIT_SIZE, u * UNIT_WORK_SIZE
+        s, a, w = unit_state(u), unit_params(u), unit_work(u)
         fill_rotation(middle, s, work, w)
         for k in range(UNIT_W.fx_n, UNIT_W.matrix):
             work[w + k] = 0.0
@@ -99,8 +104,8 @@ def powers_w(before: Floats, after: Floats, p: Floats, topo: Integers, dt: float
 @core
 def _coupling_power(x: Floats, after: Floats, p: Floats, work: Floats) -> float:
     """Power of the fifth wheel's force and moments on both units."""
-    s0, s1 = STATE_UNIT_AT, STATE_UNIT_AT + len(UNIT_S)
-    a0, a1, w1 = UNIT_AT, UNIT_AT + UNIT_SIZE, UNIT_WORK_SIZE
+    s0, s1 = unit_state(0), unit_state(1)
+    a0, a1, w1 = unit_params(0), unit_params(1), unit_work(1)
     f = (after[GLOBAL_S.coupling_fx_n], after[GLOBAL_S.coupling_fy_n],
          after[GLOBAL_S.coupling_fz_n])
     v0 = point_velocity(x, s0, p[a0 + UNIT.hitch_x_m], p[a0 + UNIT.hitch_y_m],
@@ -126,9 +131,9 @@ def _coupling_power(x: Floats, after: Floats, p: Floats, work: Floats) -> float:
 def _suspension_powers(before: Floats, after: Floats, x: Floats, p: Floats, topo: Integers, i: int,
                        dt: float, work: Floats, out: Floats) -> None:
     """Dampers and dry friction of one axle, and what its springs push into the twisting frame."""
-    head = TOPOLOGY_SIZE + i * TOPOLOGY_AXLE_SIZE
-    us, w = STATE_UNIT_AT + topo[head] * len(UNIT_S), topo[head] * UNIT_WORK_SIZE
-    a, s = topo[TOPOLOGY.axle_at] + i * AXLE_SIZE, topo[TOPOLOGY.state_axle_at] + i * len(AXLE_S)
+    unit = unit_of(topo, i)
+    us, w = unit_state(unit), unit_work(unit)
+    a, s = axle_params(topo, i), axle_state(topo, i)
     for k in range(2):
         side = 1.0 - 2.0 * k
         rate = suspension.travel_rate_mps(x, us, work, w, p, a, s, side)
@@ -149,11 +154,11 @@ def _suspension_powers(before: Floats, after: Floats, x: Floats, p: Floats, topo
 def _hub_powers(x: Floats, after: Floats, p: Floats, topo: Integers, i: int, side: int,
                 work: Floats, out: Floats) -> None:
     """Tires, engine and brake of one hub, with their reaction on the axle."""
-    head = TOPOLOGY_SIZE + i * TOPOLOGY_AXLE_SIZE
-    us, w = STATE_UNIT_AT + topo[head] * len(UNIT_S), topo[head] * UNIT_WORK_SIZE
-    a, s = topo[TOPOLOGY.axle_at] + i * AXLE_SIZE, topo[TOPOLOGY.state_axle_at] + i * len(AXLE_S)
-    hub = 2 * i + side
-    h, hs = topo[TOPOLOGY.hub_at] + hub * HUB_SIZE, topo[TOPOLOGY.state_hub_at] + hub * len(HUB_S)
+    unit = unit_of(topo, i)
+    us, w = unit_state(unit), unit_work(unit)
+    a, s = axle_params(topo, i), axle_state(topo, i)
+    hub = hub_at_side(i, side)
+    h, hs = hub_params(topo, hub), hub_state(topo, hub)
     _, ey, ez = heading_axes(work, w)
     pitch, yaw = 0.0, 0.0
     for k in range(3):
@@ -164,10 +169,9 @@ def _hub_powers(x: Floats, after: Floats, p: Floats, topo: Integers, i: int, sid
     cd, sd = math.cos(after[hs + HUB_S.steer_rad]), math.sin(after[hs + HUB_S.steer_rad])
     radius = 0.0
     for t in range(topo[TOPOLOGY.n_tires]):
-        if topo[TOPOLOGY_SIZE + topo[TOPOLOGY.n_axles] * TOPOLOGY_AXLE_SIZE + t] != hub:
+        if hub_of(topo, t) != hub:
             continue
-        ts = topo[TOPOLOGY.state_tire_at] + t * len(TIRE_S)
-        tp = topo[TOPOLOGY.tire_at] + tire_offset(t)
+        ts, tp = tire_state(topo, t), tire_params(topo, t)
         arm = p[h + HUB.y_m] + p[tp + TIRE.y_m]
         radius = _rolling_radius(x, after, ts, p, tp, topo[TOPOLOGY.table_at])
         vx, vy = motion[0] - yaw * arm, motion[1]

@@ -27,19 +27,27 @@ from truck_blowout_sim.physics.layout import (
     DRIVE,
     DRIVE_AT,
     GLOBAL_S,
-    HUB_S,
     INPUT,
     N_INPUTS,
     STATE_UNIT_AT,
     TIRE_S,
     TOPOLOGY,
-    TOPOLOGY_AXLE_SIZE,
-    TOPOLOGY_SIZE,
     UNIT,
     UNIT_AT,
     UNIT_S,
-    UNIT_SIZE,
     UNIT_WORK_SIZE,
+)
+from truck_blowout_sim.physics.places import (
+    axle_state,
+    circuit_of,
+    hub_at_side,
+    hub_of,
+    hub_state,
+    tire_state,
+    unit_of,
+    unit_params,
+    unit_state,
+    unit_work,
 )
 from truck_blowout_sim.physics.probe import add_probe
 from truck_blowout_sim.physics.rotation import angle_rates, fill_rotation, to_body, to_map
@@ -48,7 +56,6 @@ from truck_blowout_sim.physics.tires.tire import tire_pass
 
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
-N_UNIT_STATE = len(UNIT_S)
 SLIPS_AT = 2 * UNIT_WORK_SIZE  # room for 64 hubs
 
 
@@ -62,14 +69,14 @@ def step(x: Floats, p: Floats, topo: Integers, inputs: Floats, dt: float, work: 
             x[GLOBAL_S.nonfinite] = 1.0
     g = road.gravity(p, x[GLOBAL_S.time_s])
     for u in range(n_units):
-        s, a, w = STATE_UNIT_AT + u * N_UNIT_STATE, UNIT_AT + u * UNIT_SIZE, u * UNIT_WORK_SIZE
+        s, a, w = unit_state(u), unit_params(u), unit_work(u)
         fill_rotation(x, s, work, w)
         start_unit(x, s, p, a, work, w, to_body(work, w, g[0], g[1], g[2]))
         add_air(x, s, p, a, work, w)
         add_probe(x, s, p, a, work, w)
     if n_units == 2:
-        add_coupling(x, STATE_UNIT_AT, STATE_UNIT_AT + N_UNIT_STATE, p, UNIT_AT,
-                     UNIT_AT + UNIT_SIZE, work, 0, UNIT_WORK_SIZE, dt)
+        add_coupling(x, unit_state(0), unit_state(1), p, unit_params(0), unit_params(1), work,
+                     unit_work(0), unit_work(1), dt)
     advance_brakes(x, p, topo, inputs, dt, work)
     speed = x[STATE_UNIT_AT + UNIT_S.u_mps]
     drive = driveline.net_force_n(p, x[0], inputs[INPUT.throttle], speed)
@@ -79,15 +86,14 @@ def step(x: Floats, p: Floats, topo: Integers, inputs: Floats, dt: float, work: 
         add_force(work, 0, (push, 0.0, 0.0), (0.0, 0.0, -p[UNIT_AT + UNIT.cg_height_m]))
     kingpin = advance_axles(x, p, topo, work, g, drive, dt)
     for u in range(n_units):
-        twist_frame(x, STATE_UNIT_AT + u * N_UNIT_STATE, p, UNIT_AT + u * UNIT_SIZE, work,
-                    u * UNIT_WORK_SIZE, dt)
-        solve_unit(x, STATE_UNIT_AT + u * N_UNIT_STATE, work, u * UNIT_WORK_SIZE)
+        twist_frame(x, unit_state(u), p, unit_params(u), work, unit_work(u), dt)
+        solve_unit(x, unit_state(u), work, unit_work(u))
     if topo[TOPOLOGY.steered_axle] >= 0:
         steering.advance_steering(x, p, inputs[INPUT.steering_wheel_angle_rad], kingpin, dt)
     for u in range(n_units):
-        move_unit(x, STATE_UNIT_AT + u * N_UNIT_STATE, work, u * UNIT_WORK_SIZE, dt)
+        move_unit(x, unit_state(u), work, unit_work(u), dt)
     for i in range(topo[TOPOLOGY.n_axles]):
-        s = topo[TOPOLOGY.state_axle_at] + i * len(AXLE_S)
+        s = axle_state(topo, i)
         x[s + AXLE_S.z_m] += dt * x[s + AXLE_S.vz_mps]
         x[s + AXLE_S.roll_rad] += dt * x[s + AXLE_S.roll_rate_radps]
     x[GLOBAL_S.time_s] += dt
@@ -100,13 +106,13 @@ def advance_axles(x: Floats, p: Floats, topo: Integers, work: Floats,
     lanes = stack_floats(N_LANES)
     first = 0
     for i in range(topo[TOPOLOGY.n_axles]):
-        w = topo[TOPOLOGY_SIZE + i * TOPOLOGY_AXLE_SIZE] * UNIT_WORK_SIZE
+        w = unit_work(unit_of(topo, i))
         first = place_axle(x, p, topo, i, first, work, w, lanes, dt)
     tire_pass(p, topo[TOPOLOGY.tire_at], topo[TOPOLOGY.table_at], lanes, first, dt)
     axis = steering.kingpin_axis(p)
     first, kingpin = 0, 0.0
     for i in range(topo[TOPOLOGY.n_axles]):
-        w = topo[TOPOLOGY_SIZE + i * TOPOLOGY_AXLE_SIZE] * UNIT_WORK_SIZE
+        w = unit_work(unit_of(topo, i))
         first, moment = move_axle(x, p, topo, i, first, work, w, gravity, axis, drive_n, lanes, dt)
         kingpin += moment
     return kingpin
@@ -144,10 +150,10 @@ def advance_brakes(x: Floats, p: Floats, topo: Integers, inputs: Floats, dt: flo
     if p[ABS_AT + ABS.mode] > 0.0:
         fill_slips(x, topo, work)
     for i in range(topo[TOPOLOGY.n_axles]):
-        circuit = topo[TOPOLOGY_SIZE + i * TOPOLOGY_AXLE_SIZE + 1]
+        circuit = circuit_of(topo, i)
         control = brakes.delayed_pa(x, p, topo, circuit, dt)
         for k in range(2):
-            s = topo[TOPOLOGY.state_hub_at] + (2 * i + k) * len(HUB_S)
+            s = hub_state(topo, hub_at_side(i, k))
             if p[ABS_AT + ABS.mode] > 0.0:
                 abs_logic.decide(x, s, p, sensed_slip(p, topo, i, k, circuit, work),
                                  x[STATE_UNIT_AT + UNIT_S.u_mps], dt)
@@ -157,13 +163,12 @@ def advance_brakes(x: Floats, p: Floats, topo: Integers, inputs: Floats, dt: flo
 @core
 def fill_slips(x: Floats, topo: Integers, work: Floats) -> None:
     """Brake slip of every hub, behind the units' working memory: that of its first loaded tire."""
-    tires_at = TOPOLOGY_SIZE + topo[TOPOLOGY.n_axles] * TOPOLOGY_AXLE_SIZE
     for h in range(topo[TOPOLOGY.n_hubs]):
         work[SLIPS_AT + h] = 0.0
     for k in range(topo[TOPOLOGY.n_tires] - 1, -1, -1):
-        s = topo[TOPOLOGY.state_tire_at] + k * len(TIRE_S)
+        s = tire_state(topo, k)
         if x[s + TIRE_S.fz_n] > 0.0:
-            work[SLIPS_AT + topo[tires_at + k]] = -x[s + TIRE_S.slip]
+            work[SLIPS_AT + hub_of(topo, k)] = -x[s + TIRE_S.slip]
 
 
 @core
@@ -171,16 +176,16 @@ def sensed_slip(p: Floats, topo: Integers, axle: int, side: int, circuit: int, w
                 ) -> float:
     """Brake slip this hub's controller sees: its own, its side's, or its axle group's worst."""
     if p[ABS_AT + ABS.mode] == 1.0 or circuit == 0:
-        return work[SLIPS_AT + 2 * axle + side]
+        return work[SLIPS_AT + hub_at_side(axle, side)]
     sensed = axle
     for i in range(topo[TOPOLOGY.n_axles]):
-        if topo[TOPOLOGY_SIZE + i * TOPOLOGY_AXLE_SIZE + 1] == circuit:
+        if circuit_of(topo, i) == circuit:
             sensed = i
             if circuit == 1:
                 break
     if circuit == 1:
-        return work[SLIPS_AT + 2 * sensed + side]
-    return max(work[SLIPS_AT + 2 * sensed], work[SLIPS_AT + 2 * sensed + 1])
+        return work[SLIPS_AT + hub_at_side(sensed, side)]
+    return max(work[SLIPS_AT + hub_at_side(sensed, 0)], work[SLIPS_AT + hub_at_side(sensed, 1)])
 
 
 @core

@@ -26,8 +26,9 @@ from truck_blowout_sim.physics.layout import (
     TIRE_S,
     TOPOLOGY,
 )
+from truck_blowout_sim.physics.places import tire_params, tire_state
 from truck_blowout_sim.physics.tires import blowout, gas
-from truck_blowout_sim.physics.tires.lanes import LANE, lane_offset, tire_offset
+from truck_blowout_sim.physics.tires.lanes import LANE, lane_offset
 from truck_blowout_sim.physics.trig import turned
 
 Floats = NDArray[np.float64]
@@ -52,8 +53,8 @@ def place_tires(x: Floats, s: int, p: Floats, h: int, a: int, axle_s: int, topo:
     sin_camber = turned(p[h + HUB.camber_rad] - x[axle_s + AXLE_S.roll_rad])[1]
     x[s + HUB_S.steer_rad] = steer_rad
     for k in range(first, first + count):
-        ts = topo[TOPOLOGY.state_tire_at] + k * len(TIRE_S)
-        t, w = topo[TOPOLOGY.tire_at] + tire_offset(k), lane_offset(k)
+        ts = tire_state(topo, k)
+        t, w = tire_params(topo, k), lane_offset(k)
         arm = p[h + HUB.y_m] + p[t + TIRE.y_m]
         vx, vy = motion[0] - motion[2] * arm, motion[1]
         at_x, at_y = place[0] - place[3] * arm, place[1] + place[2] * arm
@@ -109,7 +110,7 @@ def collect_tires(x: Floats, s: int, p: Floats, h: int, topo: Integers, first: i
     fx_sum, fy_sum, fz_sum, mx, my, mz_sum = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
     torque, radius, above = 0.0, 0.0, 0.0
     for k in range(first, first + count):
-        ts, w = topo[TOPOLOGY.state_tire_at] + k * len(TIRE_S), lane_offset(k)
+        ts, w = tire_state(topo, k), lane_offset(k)
         fx, fy, fz = lanes[w + LANE.fx_n], lanes[w + LANE.fy_n], lanes[w + LANE.fz_n]
         mz, rolling = lanes[w + LANE.mz_nm], lanes[w + LANE.rolling_nm]
         arm, above = lanes[w + LANE.arm_m], lanes[w + LANE.above_m]

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from truck_blowout_sim.physics.jit import core
 from truck_blowout_sim.physics.layout import GLOBAL_S, STATE_UNIT_AT, UNIT_S
+from truck_blowout_sim.physics.places import unit_state
 from truck_blowout_sim.vehicle import Packed
 
 Floats = NDArray[np.float64]
@@ -76,7 +77,7 @@ def ended(x: Floats, rolls: Floats) -> int:
     if x[GLOBAL_S.nonfinite] > 0.0:
         return NOT_FINITE
     for u in range(rolls.size):
-        s = STATE_UNIT_AT + u * len(UNIT_S)
+        s = unit_state(u)
         if abs(x[s + UNIT_S.roll_rad]) > rolls[u]:
             return ROLLED_OVER + u
         speed = max(abs(x[s + UNIT_S.u_mps]), abs(x[s + UNIT_S.v_mps]), abs(x[s + UNIT_S.w_mps]))
@@ -102,14 +103,14 @@ def ending_of(x: Floats, packed: Packed, rolls: Floats, time_s: float, start_s: 
     code = ended(x, rolls)
     if code == GOING:
         return None
-    bodies = x[STATE_UNIT_AT:_slot(rolls.size)]
+    bodies = x[STATE_UNIT_AT:unit_state(rolls.size)]
     if time_s <= start_s and (code >= ROLLED_OVER or not np.isfinite(bodies).all()):
         return Ending(OUT_OF_RANGE, time_s, "", "the truck found no equilibrium to start from")
     if code == NOT_FINITE:
         return Ending(NOT_FINITE, time_s, "", "the state was no longer finite")
     if code >= ROLLED_OVER:
         unit = packed.names.units[code - ROLLED_OVER]
-        roll = math.degrees(x[_slot(code - ROLLED_OVER) + UNIT_S.roll_rad])
+        roll = math.degrees(x[unit_state(code - ROLLED_OVER) + UNIT_S.roll_rad])
         side = "right" if roll > 0.0 else "left"
         return Ending(ROLLED_OVER, time_s, unit, f"the {unit} rolled over to the {side}")
     return _out_of_range(x, packed, time_s)
@@ -119,7 +120,7 @@ def _out_of_range(x: Floats, packed: Packed, time_s: float) -> Ending:
     """Names the quantity that is farthest out."""
     found = []
     for u, unit in enumerate(packed.names.units):
-        s = _slot(u)
+        s = unit_state(u)
         speed = np.abs(x[s + UNIT_S.u_mps:s + UNIT_S.w_mps + 1]).max()
         turn = np.abs(x[s + UNIT_S.p_radps:s + UNIT_S.r_radps + 1]).max()
         pitch = abs(x[s + UNIT_S.pitch_rad])
@@ -132,7 +133,3 @@ def _out_of_range(x: Floats, packed: Packed, time_s: float) -> Ending:
         ]
     _, unit, words = max(found)
     return Ending(OUT_OF_RANGE, time_s, unit, words)
-
-
-def _slot(unit: int) -> int:
-    return STATE_UNIT_AT + unit * len(UNIT_S)

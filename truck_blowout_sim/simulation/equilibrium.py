@@ -17,11 +17,8 @@ from truck_blowout_sim.physics.jit import core
 from truck_blowout_sim.physics.layout import (
     AXLE,
     AXLE_S,
-    AXLE_SIZE,
     GLOBAL_S,
-    HUB_S,
     N_WORK,
-    STATE_UNIT_AT,
     TIRE,
     TIRE_S,
     TOPOLOGY,
@@ -30,9 +27,19 @@ from truck_blowout_sim.physics.layout import (
     UNIT_S,
     UNIT_SIZE,
 )
+from truck_blowout_sim.physics.places import (
+    axle_params,
+    axle_state,
+    brake_line,
+    hub_of,
+    hub_state,
+    tire_params,
+    tire_state,
+    unit_params,
+    unit_state,
+)
 from truck_blowout_sim.physics.steering import commanded_rad
 from truck_blowout_sim.physics.step import step
-from truck_blowout_sim.physics.tires.lanes import tire_offset
 from truck_blowout_sim.simulation.inputs import STANDSTILL, Inputs
 from truck_blowout_sim.vehicle import Packed
 
@@ -87,22 +94,21 @@ def _design_state(packed: Packed, initial: InitialState) -> Floats:
     topo, p = packed.topology, packed.params
     x = np.zeros(topo[TOPOLOGY.n_state])
     for u in range(topo[TOPOLOGY.n_units]):
-        s, a = STATE_UNIT_AT + u * len(UNIT_S), UNIT_AT + u * UNIT_SIZE
+        s, a = unit_state(u), unit_params(u)
         x[s + UNIT_S.z_m] = p[a + UNIT.cg_height_m]
         x[s + UNIT_S.x_m] = 0.0 if u == 0 else (
             p[UNIT_AT + UNIT.hitch_x_m] - p[a + UNIT.hitch_x_m])
         x[s + UNIT_S.u_mps] = initial.speed_mps
     for i in range(topo[TOPOLOGY.n_axles]):
-        s = topo[TOPOLOGY.state_axle_at] + i * len(AXLE_S)
-        x[s + AXLE_S.z_m] = p[topo[TOPOLOGY.axle_at] + i * AXLE_SIZE + AXLE.center_height_m]
+        s = axle_state(topo, i)
+        x[s + AXLE_S.z_m] = p[axle_params(topo, i) + AXLE.center_height_m]
     for t in range(topo[TOPOLOGY.n_tires]):
-        s = topo[TOPOLOGY.state_tire_at] + t * len(TIRE_S)
-        a = topo[TOPOLOGY.tire_at] + tire_offset(t)
+        s, a = tire_state(topo, t), tire_params(topo, t)
         x[s + TIRE_S.pressure_pa] = p[a + TIRE.pressure_pa]
         x[s + TIRE_S.blown_time_s] = np.inf
-        hub = topo[topo.size - topo[TOPOLOGY.n_tires] + t]
+        hub = hub_of(topo, t)
         radius = p[a + TIRE.unloaded_radius_m] - 0.01
-        x[topo[TOPOLOGY.state_hub_at] + hub * len(HUB_S)] = initial.speed_mps / radius
+        x[hub_state(topo, hub)] = initial.speed_mps / radius
     command = commanded_rad(p, initial.inputs.steering_wheel_angle_rad)
     x[GLOBAL_S.steer_rad] = x[GLOBAL_S.steer_command_rad] = command
     return x
@@ -113,7 +119,7 @@ def _held_motion(packed: Packed, initial: InitialState) -> Floats:
     p, n = packed.params, packed.topology[TOPOLOGY.n_units]
     held = np.zeros((n, 4))
     for u in range(n):
-        a = UNIT_AT + u * UNIT_SIZE
+        a = unit_params(u)
         lateral = initial.lateral_speed_mps
         if u == 1:
             lateral = _trailer_lateral(packed, initial)
@@ -136,7 +142,7 @@ def _fill_brakes(x: Floats, topo: Integers, inputs: Floats) -> None:
     """Delay lines and chambers as if the control pressures had been there for long."""
     n = topo[TOPOLOGY.line_length]
     for c in range(3):
-        at = topo[TOPOLOGY.state_line_at] + c * n
+        at = brake_line(topo, c)
         x[at:at + n] = inputs[2 + c]
     # chambers follow within the settling
 
@@ -155,7 +161,7 @@ def settle(x: Floats, p: Floats, topo: Integers, inputs: Floats, dt: float, n_st
         for u in range(topo[TOPOLOGY.n_units]):
             _hold_unit(x, p, u, held, keep)
         for i in range(topo[TOPOLOGY.n_axles]):
-            s = topo[TOPOLOGY.state_axle_at] + i * len(AXLE_S)
+            s = axle_state(topo, i)
             x[s + AXLE_S.vz_mps] *= keep
             x[s + AXLE_S.roll_rate_radps] *= keep
             x[s + AXLE_S.friction_left_n] = 0.0
@@ -165,7 +171,7 @@ def settle(x: Floats, p: Floats, topo: Integers, inputs: Floats, dt: float, n_st
 @core
 def _hold_unit(x: Floats, p: Floats, u: int, held: Floats, keep: float) -> None:
     """Prescribe travel of one unit and keep the kingpin over the fifth wheel."""
-    s, a = STATE_UNIT_AT + u * len(UNIT_S), UNIT_AT + u * UNIT_SIZE
+    s, a = unit_state(u), unit_params(u)
     x[s + UNIT_S.u_mps] = held[u, 0]
     x[s + UNIT_S.v_mps] = held[u, 1]
     x[s + UNIT_S.r_radps] = held[u, 2]
@@ -186,7 +192,7 @@ def _place(x: Floats, packed: Packed, initial: InitialState) -> None:
     p, c, s = packed.params, math.cos(initial.yaw_rad), math.sin(initial.yaw_rad)
     bx, by = p[UNIT_AT + UNIT.base_x_m], p[UNIT_AT + UNIT.base_y_m]
     for u in range(packed.topology[TOPOLOGY.n_units]):
-        at = STATE_UNIT_AT + u * len(UNIT_S)
+        at = unit_state(u)
         dx, dy = x[at + UNIT_S.x_m] - bx, x[at + UNIT_S.y_m] - by
         x[at + UNIT_S.x_m] = initial.x_m + c * dx - s * dy
         x[at + UNIT_S.y_m] = initial.y_m + s * dx + c * dy
