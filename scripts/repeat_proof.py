@@ -21,7 +21,7 @@ from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.proof.published import Repeat, cases_in, repeats
 
 ROOT = Path(__file__).resolve().parents[1]
-WORLDS = ("w1", "w2", "w3")
+WORLDS = ("w1", "w2", "w3", "w4")
 
 
 def published(world: str) -> Path:

@@ -71,6 +71,8 @@ def draw_power_by_world(figures: Mapping[str, Figures]) -> Picture:
     place = np.arange(len(BINS), dtype=np.float64)
     for k, (world, bins) in enumerate(power(figures).items()):
         there = [(j, p) for j, (_, p) in enumerate(bins) if p.trials]
+        if not there:
+            continue
         at = place[[j for j, _ in there]] + 0.08 * (k - 0.5 * (len(figures) - 1))
         values = np.array([p.hits / p.trials for _, p in there])
         ends = np.array([p.interval for _, p in there]).reshape(-1, 2)
@@ -79,7 +81,7 @@ def draw_power_by_world(figures: Mapping[str, Figures]) -> Picture:
                       label=f"{world.upper()} ({sum(p.trials for _, p in there)} effects)")
     axes.set_xticks(place, [_words(k) for k in range(len(BINS))])
     axes.set_ylim(-0.03, 1.03)
-    axes.legend(loc="upper left")
+    axes.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=len(figures))
     return Picture("power", "Power", "Bars: 95 % Wilson intervals.", figure)
 
 
