@@ -90,12 +90,9 @@ def command(
     Example: truck-blowout diagnose stop.csv --baseline calm.csv --holdout burst.csv -o diagnosis
     """
     from truck_blowout_sim.diagnosis import diagnose, effort, keeping
-    from truck_blowout_sim.diagnosis.settings import load_settings
-    from truck_blowout_sim.vehicle import load_vehicle, pack
 
     _claim(output, corrected, logs.inputs(*recordings, *baseline, *holdout), force)
-    loaded = load_vehicle(vehicle)
-    load_settings(pack(loaded), settings)  # a typo is told before anything else is said
+    loaded = _vehicle(vehicle, settings)
     train, base, hold = _read(logs, loaded, recordings, baseline, holdout)
     _check(loaded, [*train, *base, *hold], impose_speed, yes)
     if not as_json:
@@ -116,6 +113,16 @@ def command(
         say(True, dict(answer.as_json()), ())
     else:
         _print(Console(), answer, output)
+
+
+def _vehicle(name: str, settings: str) -> Vehicle:
+    """The vehicle; a typo in its name or in the settings is told before anything else is said."""
+    from truck_blowout_sim.diagnosis.settings import load_settings
+    from truck_blowout_sim.vehicle import load_vehicle, pack
+
+    loaded = load_vehicle(name)
+    load_settings(pack(loaded), settings)
+    return loaded
 
 
 def _read(logs: LogOptions, vehicle: Vehicle, recordings: Sequence[Path], *others: Sequence[Path]
