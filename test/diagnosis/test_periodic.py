@@ -96,6 +96,14 @@ def test_what_beats_in_the_baseline_too_is_not_missing_physics() -> None:
     assert clearest([train, turns(3, baseline=True)], 1.0 / PER_M, True, LEAST) is not None
 
 
+def test_a_tone_that_meets_the_pace_of_the_wheels_in_one_run_is_no_beat() -> None:
+    ride = Ride(1)
+    hum = 0.3 * np.sin(2.0 * np.pi * ride.way / TURN_M)
+    met = turn_lines(ride.signals(tractor_az_mps2=hum), ride.recording, PER_M)
+    assert clearest([met], 1.0 / PER_M, True, LEAST) is not None
+    assert clearest([met, turns(2), turns(3)], 1.0 / PER_M, True, LEAST) is None
+
+
 def test_a_steady_tone_is_found_with_its_amplitude() -> None:
     beat = clearest([tones(1, surge=0.03), tones(2, surge=0.03)], 1.0 / PACES_HZ, False, LEAST)
     assert beat is not None

@@ -9,7 +9,13 @@ import numpy as np
 import pytest
 from scipy.signal import lfilter
 
-from truck_blowout_sim.diagnosis.case.restlessness import long_run_variance, widen, widths
+from truck_blowout_sim.diagnosis.case.color import autocovariance
+from truck_blowout_sim.diagnosis.case.restlessness import (
+    colors,
+    long_run_variance,
+    resting_level,
+    whiten,
+)
 from truck_blowout_sim.diagnosis.case.study import Study
 
 Studies = Callable[..., Study]
@@ -20,7 +26,7 @@ CHANNEL = "tractor_yaw_rate_radps"
 def test_the_long_run_variance_is_that_of_the_sum(decay: float) -> None:
     rng = np.random.default_rng(0)
     made = [lfilter([1.0], [1.0, -decay], rng.standard_normal(2000))[200:] for _ in range(40)]
-    found = np.mean([long_run_variance(one, 40) for one in made])
+    found = np.mean([long_run_variance(autocovariance(one, 40) / one.size) for one in made])
     assert found == pytest.approx(1.0 / (1.0 - decay) ** 2, rel=0.2)
 
 
@@ -35,25 +41,43 @@ def restless(study: Study, i: int, by: float) -> Study:
     return replace(study, runs=runs)
 
 
+def width(study: Study, channel: str = CHANNEL) -> float:
+    """Long-run width of a channel over its first guess."""
+    color = colors(study)[channel]
+    return float(color.surprise[0, -1] / (1.0 - color.foretold[0, -1].sum()))
+
+
 def test_a_restless_channel_is_widened_in_every_run_with_its_columns(study_of: Studies) -> None:
     calm = study_of(holdout={}, baseline=True)
     study = restless(calm, calm.baseline[0], 4.0)
-    factor = widths(study)[CHANNEL]
+    factor = width(study)
     assert factor > 2.0
     k = study.runs[0].channels.index(CHANNEL)
-    before, columns = [run.sigma for run in (*study.runs, *study.holdout)], study.columns.copy()
-    widen(study)
-    for run, sigma in zip((*study.runs, *study.holdout), before, strict=True):
-        np.testing.assert_allclose(run.sigma[:, k], factor * sigma[:, k])
+    columns, residual = study.columns.copy(), study.residual()
+    whiten(study)
     rows = np.arange(study.runs[0].measured.size).reshape(study.runs[0].measured.shape)[:, k]
     np.testing.assert_allclose(factor * study.columns[rows], columns[rows])
+    np.testing.assert_allclose(factor * study.residual()[rows], residual[rows])
+    model = study.holdout_models[0]
+    np.testing.assert_allclose(study.holdout[0].plain(study.holdout[0].residual(model)),
+                               np.nan_to_num(study.holdout[0].measured - model), atol=1e-12)
 
 
 @pytest.mark.parametrize("baseline", [True, False])
 def test_a_calm_truck_keeps_the_guess(study_of: Studies, baseline: bool) -> None:
-    assert max(widths(study_of(baseline=baseline)).values()) < 1.1
+    study = study_of(baseline=baseline)
+    assert max(width(study, name) for name in colors(study)) < 1.15
+    assert min(width(study, name) for name in colors(study)) > 0.999
+    assert 0.0 < resting_level(study) <= 1.0
 
 
-def test_training_runs_are_asked_where_no_baseline_is(study_of: Studies) -> None:
+def test_without_baseline_runs_training_is_asked_and_its_color_taken_out(
+        study_of: Studies) -> None:
     swinging = restless(study_of(), 0, 4.0)
-    assert widths(swinging)[CHANNEL] > 2.0
+    k = swinging.runs[0].channels.index(CHANNEL)
+    shape = swinging.runs[0].measured.shape
+    before = swinging.residual().reshape(shape)[:, k]
+    whiten(swinging)
+    after = swinging.residual().reshape(shape)[:, k]
+    assert swinging.runs[0].color.lags > 0
+    assert np.mean(np.square(after)) < 0.3 * np.mean(np.square(before))

@@ -34,6 +34,7 @@ from truck_blowout_sim.diagnosis.model.vehicle import (
     driven_fit,
 )
 from truck_blowout_sim.diagnosis.name.candidates import known_names
+from truck_blowout_sim.diagnosis.name.driving import take_back
 from truck_blowout_sim.diagnosis.name.judging import Found, not_taken_back
 from truck_blowout_sim.diagnosis.name.search import search
 from truck_blowout_sim.diagnosis.prove.intervals import Timing, time_intervals
@@ -97,7 +98,9 @@ def diagnose(recordings: Sequence[Recording], *, baseline: Sequence[Recording] =
     def searched(gate: GateResult) -> tuple[Study, Found]:
         study = case.study(gate)
         calibrate(study, progress=progress)
-        return study, search(study, progress, effort.most_effects)
+        found = search(study, progress, effort.most_effects)
+        take_back(study, found, packed)
+        return study, found
 
     study, found = searched(gate)
     believed = not_taken_back(gate, found)
@@ -213,9 +216,8 @@ def _diagnosed(material: Material, given: Packed) -> tuple[DiagnosedTruck, Diagn
     """The calibrated truck without what was named, and with it."""
     study, found = material.study, material.found
     law = material.law.values if unexplained(material) and material.law.helps else None
-    without = study.residual(dict(enumerate(found.models_null)))
-    return (diagnosed_truck(study, given, without, ()),
-            diagnosed_truck(study, given, study.residual(),
+    return (diagnosed_truck(study, given, found.models_null, ()),
+            diagnosed_truck(study, given, study.models,
                             [r.hypothesis for r in found.named], law))
 
 

@@ -21,7 +21,7 @@ from truck_blowout_sim.diagnosis.result import (
 )
 
 Floats = NDArray[np.float64]
-Left = Sequence[tuple[Run, Floats]]  # run and its [n, m] residual in units of ``run.sigma``
+Left = Sequence[tuple[Run, Floats]]  # run and its whitened residual [n, m]
 _MAP_BINS = 5
 _MOST_OVERLAYS = 8
 
@@ -52,7 +52,7 @@ def pooled(left: Left) -> Mapping[str, float]:
     """Rms of each channel over all runs, in units of instrument noise."""
     sums: dict[str, list[Floats]] = {}
     for run, z in left:
-        noise = z * run.sigma / run.noise
+        noise = run.plain(z) / run.noise
         for k, name in enumerate(run.channels):
             seen = np.isfinite(run.measured[:, k])
             if seen.any():
@@ -92,6 +92,7 @@ def overlays(study: Study, found: Found) -> tuple[Overlay, ...]:
     for role in ("train", "holdout"):
         pairs = zip(left_before(study, found, role), left_after(study, found, role), strict=True)
         for (run, first), (_, last) in pairs:
+            first, last = run.plain(first), run.plain(last)
             for name in (n for n in names if n in run.channels):
                 k = run.channels.index(name)
                 y = run.measured[:, k]
@@ -99,8 +100,8 @@ def overlays(study: Study, found: Found) -> tuple[Overlay, ...]:
                 result.append(Overlay(
                     run.recording.name, run.role, name,
                     (0.5 * (run.edges_s[1:] + run.edges_s[:-1]))[seen], y[seen],
-                    (y - first[:, k] * run.sigma[:, k])[seen],
-                    (y - last[:, k] * run.sigma[:, k])[seen], float(np.median(run.noise[:, k]))))
+                    (y - first[:, k])[seen], (y - last[:, k])[seen],
+                    float(np.median(run.noise[:, k]))))
     return tuple(result)
 
 

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from truck_blowout_sim.diagnosis.case.nuisance import Nuisance
-from truck_blowout_sim.diagnosis.case.restlessness import widen
+from truck_blowout_sim.diagnosis.case.restlessness import resting_level, whiten
 from truck_blowout_sim.diagnosis.case.runs import Run
 from truck_blowout_sim.diagnosis.case.study import (
     FURTHEST,
@@ -48,7 +48,8 @@ def calibrate(study: Study, rounds: int = 2, progress: Progress | None = None) -
     build_columns(study, progress)
     study.amounts = {number.name: 0.0 for number in study.settings.nuisances}
     if not study.baseline:
-        widen(study)
+        whiten(study)
+        study.level = resting_level(study)
         return
     rows, n_sheet = row_ranges(study), len(study.settings.nuisances)
     kept = _moved(study, _asked_for(study, rounds), progress)
@@ -58,7 +59,8 @@ def calibrate(study: Study, rounds: int = 2, progress: Progress | None = None) -
     study.holdout = tuple(run.shifted(part[:, :n_sheet] @ kept)
                           for run, part in zip(study.holdout, study.holdout_columns, strict=True))
     _drive_all(study)
-    widen(study)
+    whiten(study)
+    study.level = resting_level(study)
 
 
 def _drive_all(study: Study) -> None:

@@ -3,11 +3,15 @@
 The stated difference between good models is a first guess. What the fit leaves of a channel in the
 baseline runs, where nothing is missing, shows how far this model differs from this truck, and how
 long such a difference lasts: the long-run variance of the whitened residual, 1 where the guess is
-right. A channel that is more restless than the guess is widened by its root, in every run. Without
-baseline runs the training runs are asked.
+right. A channel that is more restless than the guess is widened by its root, in every run. Its
+color is not taken over: a model errs by the maneuver, and training drives others.
+
+Without baseline runs only the training runs tell. There an effect must stand out of what the
+channel does at all times: its color is taken out of every run (`color.py`), and one that is calmer
+in the long run than the guess keeps its color and is raised to the guess.
 
 References: Newey and West 1987 (long-run variance with a Bartlett window); Friston et al. 2002
-(estimated variance components in brain imaging).
+(estimated variance components in brain imaging); Worsley et al. 2002 (autoregressions there).
 Known limits: without baseline runs an effect at work is restless, too, and hides in part; a channel
 that is calmer than the guess is not narrowed.
 Validated with: test/diagnosis/test_restlessness.py (noise of known colour; no false widening).
@@ -21,61 +25,90 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from truck_blowout_sim.diagnosis.case.color import Color, autocovariance
+from truck_blowout_sim.diagnosis.case.runs import Run
 from truck_blowout_sim.diagnosis.case.study import Study, row_ranges
 
 Floats = NDArray[np.float64]
-_WINDOW_S = 1.0
+_LASTS_S = 1.0  # as far back as a bin is foretold from
+_GUESS = 0.02  # weight of the guess beside what a run shows
 _FEWEST_WINDOWS = 4  # as many are needed to tell a variance at all
 
 
-def long_run_variance(series: Floats, lags: int) -> float:
-    """Variance of the sum of a zero-mean series, a sample: Bartlett weights up to ``lags``."""
-    n = series.size
-    total = float(series @ series)
-    for lag in range(1, min(lags, n - 1) + 1):
-        total += 2.0 * (1.0 - lag / (lags + 1.0)) * float(series[lag:] @ series[:-lag])
-    return max(total / n, 0.0)
+def long_run_variance(covariance: Floats) -> float:
+    """Variance of the sum of a series, a sample, from its autocovariance; Bartlett weights."""
+    lags = covariance.size - 1
+    weights = 1.0 - np.arange(1, lags + 1) / (lags + 1.0)
+    return max(float(covariance[0] + 2.0 * weights @ covariance[1:]), 0.0)
 
 
-def widths(study: Study) -> Mapping[str, float]:
-    """Factor on the width of each channel that the baseline runs ask for, 1 or more.
+def colors(study: Study) -> Mapping[str, Color]:
+    """Of each channel: white and wide enough beside baseline runs, else as training leaves it."""
+    return {name: _wide_enough(one) if study.baseline else _no_calmer_than_guessed(one)
+            for name, one in _autocovariances(study).items()}
 
-    Training runs are asked where there are none: an effect at work is restless, too, and hides in
-    part, but noise with a color of its own is no longer taken for one.
-    """
-    residual = study.residual()
-    projector = study.projector()
+
+def _autocovariances(study: Study) -> Mapping[str, Floats]:
+    """[lags + 1] of what is left of each channel in the runs that tell, in widths."""
+    residual, projector = study.residual(), study.projector()
     left = residual - projector.explained(projector.amounts(residual))
-    lags = round(_WINDOW_S / study.settings.bin_s)
-    sums: dict[str, list[tuple[float, int]]] = {}
+    lags, rows = round(_LASTS_S / study.settings.bin_s), row_ranges(study)
+    sums, counts = dict[str, Floats](), dict[str, int]()
     for i in study.baseline or study.train:
-        run, rows = study.runs[i], row_ranges(study)[i]
-        cube = left[rows].reshape(run.measured.shape)
+        run = study.runs[i]
+        z = run.color.colored(left[rows[i]].reshape(run.measured.shape))
         for k, name in enumerate(run.channels):
             seen = np.isfinite(run.measured[:, k])
             if seen.sum() >= _FEWEST_WINDOWS * lags:
-                part = cube[seen, k]
-                sums.setdefault(name, []).append((long_run_variance(part, lags), part.size))
-    return {name: max(float(np.sqrt(np.average([v for v, _ in parts],
-                                               weights=[n for _, n in parts]))), 1.0)
-            for name, parts in sums.items()}
+                sums[name] = sums.get(name, 0.0) + autocovariance(z[seen, k], lags)
+                counts[name] = counts.get(name, 0) + int(seen.sum())
+    return {name: sums[name] / counts[name] for name in sums}
 
 
-def widen(study: Study) -> None:
-    """Widen every channel that the runs show to be more restless than was guessed."""
-    factors = widths(study)
-    if all(factor == 1.0 for factor in factors.values()):
-        return
-    scales = [np.array([factors.get(name, 1.0) for name in run.channels])
-              for run in (*study.runs, *study.holdout)]
-    runs = [replace(run, sigma=run.sigma * scale)
-            for run, scale in zip((*study.runs, *study.holdout), scales, strict=True)]
+def _wide_enough(covariance: Floats) -> Color:
+    """White, of the long-run variance, 1 at least."""
+    return Color.of(np.array([[max(long_run_variance(covariance), 1.0)]]))
+
+
+def _no_calmer_than_guessed(covariance: Floats) -> Color:
+    """The color, raised until its long-run variance is the guess's where it is less.
+
+    A little of the guess, white, keeps the whole from foretelling what only these runs did.
+    """
+    mixed = (covariance + _GUESS * np.eye(1, covariance.size)[0]) / (1.0 + _GUESS)
+    color = Color.of(mixed[None])
+    calm = float(color.surprise[0, -1] / (1.0 - color.foretold[0, -1].sum()))
+    return Color.of(mixed[None] / min(calm, 1.0)**2)
+
+
+def resting_level(study: Study) -> float:
+    """Mean square that the fit leaves a whitened row of the runs that show the colors, 1 at most.
+
+    Less than 1 where channels are calmer than the guess.
+    """
+    residual, projector, rows = study.residual(), study.projector(), row_ranges(study)
+    left = residual - projector.explained(projector.amounts(residual))
+    shown = np.concatenate([left[rows[i]] for i in study.baseline or study.train])
+    return min(float(np.mean(np.square(shown))), 1.0)
+
+
+def whiten(study: Study) -> None:
+    """Widen every channel, or take its color out, in every run."""
+    found = colors(study)
+    everything = (*study.runs, *study.holdout)
+    lags = max((color.lags for color in found.values()), default=0)
+    runs = [replace(run, color=Color.joined([found.get(name) for name in run.channels], lags))
+            for run in everything]
+    columns = [_recolored(old, new, part) for old, new, part in zip(
+        everything, runs, [*(study.columns[rows] for rows in row_ranges(study)),
+                           *study.holdout_columns], strict=True)]
     n = len(study.runs)
-    rows = np.concatenate([np.tile(scale, run.measured.shape[0])
-                           for run, scale in zip(runs[:n], scales[:n], strict=True)])
-    study.columns = study.columns / rows[:, None]
-    study.holdout_columns = [
-        columns / np.tile(scale, run.measured.shape[0])[:, None] for columns, run, scale in zip(
-            study.holdout_columns, runs[n:], scales[n:], strict=True)]
+    study.columns, study.holdout_columns = np.concatenate(columns[:n]), columns[n:]
     study.runs, study.holdout = tuple(runs[:n]), tuple(runs[n:])
     study.forget()
+
+
+def _recolored(old: Run, new: Run, columns: Floats) -> Floats:
+    """Columns [n * m, k] of a run whose color is another now."""
+    cube = columns.reshape(*old.measured.shape, columns.shape[1])
+    return new.color.whitened(old.color.colored(cube)).reshape(columns.shape)

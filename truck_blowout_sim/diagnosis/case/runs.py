@@ -14,6 +14,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from truck_blowout_sim.diagnosis.case.color import Color
 from truck_blowout_sim.diagnosis.case.trust import BRAKES_ON_PA, wider
 from truck_blowout_sim.diagnosis.case.widths import swings, widths
 from truck_blowout_sim.diagnosis.result.evidence import Role
@@ -47,6 +48,7 @@ class Run:
         swing: [n, m] size of each signal's motion; ``wider``: [n] factor on what models differ by.
         correction: [n, m] what the fine step changes in the reference truck's bin means; added to
             those of every truck, which are simulated on the coarse step.
+        color: of the residual in units of ``sigma``; what is whitened has it taken out.
         course, since_s: a driven truck from which those simulated differ only after an instant.
     """
 
@@ -63,6 +65,7 @@ class Run:
     wider: Floats
     fine: Drive
     correction: Floats
+    color: Color
     course: Course | None = None
     since_s: float = 0.0
 
@@ -123,8 +126,11 @@ class Run:
 
     def shifted(self, whitened: Floats) -> Run:
         """This run, its model lowered by a whitened vector [n * m]."""
-        lower = np.nan_to_num(whitened.reshape(self.sigma.shape) * self.sigma)
-        return replace(self, correction=self.correction - lower)
+        return replace(self, correction=self.correction - self.plain(whitened))
+
+    def plain(self, whitened: Floats) -> Floats:
+        """[n, m] a whitened vector [n * m] in the channels' units, zero where not measured."""
+        return np.nan_to_num(self.color.colored(whitened.reshape(self.sigma.shape)) * self.sigma)
 
     def bins_of(self, out: Floats, drive: Drive | None = None) -> Floats:
         """[n, m] bin means of a model output [rows, outputs] of ``drive``, else of the own."""
@@ -151,12 +157,13 @@ class Run:
         """[n * m] whitened measured - model, zero where not measured, bounded where it broke."""
         z = (self.measured - model) / self.sigma
         broken = ~np.isfinite(model) & np.isfinite(self.measured)
-        return np.clip(np.where(broken, _LOST, np.nan_to_num(z, nan=0.0)), -_LOST, _LOST).ravel()
+        bounded = np.clip(np.where(broken, _LOST, np.nan_to_num(z, nan=0.0)), -_LOST, _LOST)
+        return self.color.whitened(bounded).ravel()
 
     def change(self, now: Floats, base: Floats) -> Floats:
         """[n * m] whitened now - base, zero where not measured."""
         z = np.nan_to_num((now - base) / self.sigma, nan=0.0, posinf=0.0, neginf=0.0)
-        return np.clip(z, -_LOST, _LOST).ravel()
+        return self.color.whitened(np.clip(z, -_LOST, _LOST)).ravel()
 
 
 def prepare_run(recording: Recording, role: Role, packed: Packed, settings: Settings, *,
@@ -189,7 +196,8 @@ def prepare_run(recording: Recording, role: Role, packed: Packed, settings: Sett
     sigma = np.where(np.isfinite(measured), widths(channels, plain, swing, factor, settings),
                      np.nan)
     return Run(recording, role, drive, channels, tuple(names.index(n) for n in channels), edges,
-               measured, sigma, plain, swing, factor, fine, np.zeros(measured.shape))
+               measured, sigma, plain, swing, factor, fine, np.zeros(measured.shape),
+               Color.white(len(channels)))
 
 
 def _redundant(name: str, drive: Drive) -> bool:

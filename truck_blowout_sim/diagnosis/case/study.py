@@ -45,6 +45,7 @@ class Study:
         holdout_models, holdout_columns: the same, run by run, for holdout.
         names: of the nuisances, in the order of the columns.
         amounts: of each sheet nuisance at the reference, in prior sigmas from the sheet.
+        level: mean square of a row where nothing is missing.
         known: sheet nuisances that the baseline runs determine: what differs from them in training
             is an effect, and both can be fitted together.
         quiet: by law of a candidate, what it would change in the baseline runs for each unit of
@@ -65,6 +66,7 @@ class Study:
     holdout_columns: list[Floats] = field(default_factory=list)
     names: tuple[str, ...] = ()
     amounts: dict[str, float] = field(default_factory=dict)
+    level: float = 1.0
     known: frozenset[str] = frozenset()
     quiet: dict[tuple[str, str, str], dict[int, Floats]] = field(default_factory=dict)
     seconds: dict[tuple[Effect, str], dict[int, list[tuple[float, Floats]]]] = field(
@@ -243,8 +245,8 @@ def instrument_columns(study: Study, run: Run) -> list[Floats]:
             rule = study.settings.rule(channel)
             assert rule is not None
             value = rule.bias if kind == "bias" else rule.gain * run.measured[:, k]
-            column[:, k] = np.nan_to_num(value / run.sigma[:, k], nan=0.0)
-        columns.append(column.ravel())
+            column[:, k] = value
+        columns.append(run.change(column, np.zeros(column.shape)))
     return columns
 
 

@@ -99,9 +99,10 @@ def rank_steady(study: Study, candidates: Sequence[Hypothesis],
         held = study.meaning(candidate)
         removed = cleaned[held] if held in cleaned else projector.remove(residual)
         cleaned[held] = removed
-        found = max((score(projector, removed, one, amount.low - at, amount.high - at)
-                     for one in (column * trained, *far.get(candidate.form, ()))),
-                    key=lambda s: s.delta)
+        found, explains = max(
+            ((score(projector, removed, one, amount.low - at, amount.high - at), one)
+             for one in (column * trained, *far.get(candidate.form, ()))),
+            key=lambda s: s[0].delta)
         fall = max(found.delta - (float(residual @ removed) - free), 0.0)
         ranked.append(Ranked(candidate.at(at + found.amount), fall, found.sigma, evidence=fall,
                              promise=found.delta))
@@ -111,7 +112,7 @@ def rank_steady(study: Study, candidates: Sequence[Hypothesis],
             candidate.effect.strays(study.packed, study.grip_used),
             (amount.low - at, amount.high - at))
         questions.append((candidate.key, question))
-        shown.append(question.shown(removed - found.amount * projector.remove(column * trained))
+        shown.append(question.shown(removed - found.amount * projector.remove(explains))
                      if question else None)
     scatter = Scatter.of([one for one in shown if one])
     ranked = [replace(r, support=scatter.support(one)) if one else r
@@ -128,15 +129,17 @@ def _far_columns(study: Study, candidates: Sequence[Hypothesis], named: Sequence
 
     What acts near a limit only, as a tire that levels off early, shows nothing for a small one.
     """
-    starts = [c.at(a) for c in candidates for a in c.effect.amount.grid]
+    curved = [c for c in candidates if c.effect.amount.grid]
     found: dict[tuple[str, str, str], list[Floats]] = {}
-    for k, (one, models) in enumerate(zip(starts, models_at(study, starts, named), strict=True)):
-        away = one.amount - one.effect.neutral(study.packed)
-        column = study.stack({i: study.runs[i].change(model, study.models[i]) / away
-                              for i, model in models.items()})
-        found.setdefault(one.form, []).append(column)
+    for k, candidate in enumerate(curved):
+        starts = [candidate.at(a) for a in candidate.effect.amount.grid]
+        for one, models in zip(starts, models_at(study, starts, named), strict=True):
+            away = one.amount - one.effect.neutral(study.packed)
+            column = study.stack({i: study.runs[i].change(model, study.models[i]) / away
+                                  for i, model in models.items()})
+            found.setdefault(one.form, []).append(column)
         if progress:
-            progress("large amounts", (k + 1) / len(starts))
+            progress("large amounts", (k + 1) / len(curved))
     return found
 
 
@@ -172,6 +175,6 @@ def score_channel(study: Study, projector: Projector, removed: Floats, channel: 
         column = np.zeros(run.measured.shape)
         if channel in run.channels:
             k = run.channels.index(channel)
-            column[:, k] = np.nan_to_num(change(run, run.measured[:, k]) / run.sigma[:, k])
-        parts[i] = column.ravel()
+            column[:, k] = change(run, run.measured[:, k])
+        parts[i] = run.change(column, np.zeros(column.shape))
     return score(projector, removed, study.stack(parts))

@@ -48,6 +48,7 @@ _PARTS = 3
 _PADDED = 4
 _NEIGHBORS = 30  # resolution cells to either side that make the background
 _MEDIAN_OF_EXPONENTIAL = float(np.log(2.0))
+_BY_ITSELF = 2.0  # standard errors in each run: an engine's tone meets a wheel's pace in one only
 _ALWAYS = 0.3  # of the training runs' lines: from here on the baseline has them too
 
 
@@ -175,16 +176,18 @@ def _spectrum(x: Floats, y: Floats, noise: float) -> tuple[Floats, Floats, Float
 
 
 def clearest(lines: Sequence[Lines], every: Floats, turning: bool, least: float) -> Beat | None:
-    """The highest score among the frequencies tried, if at least so high and new in training."""
+    """The highest score among those tried, if so high, in every training run, and new there."""
     train = [part for part in lines if part.channels and not part.baseline]
     if not train:
         return None
     ratios = np.concatenate([part.ratios for part in train])
-    score = (ratios.sum(axis=0) - len(ratios)) / np.sqrt(len(ratios))
+    score = _scores(ratios)
     k = int(np.argmax(score))
     excess = float(ratios[:, k].mean()) - 1.0
     if score[k] < least or any(part.ratios[:, k].mean() - 1.0 > _ALWAYS * excess
                                for part in lines if part.channels and part.baseline):
+        return None
+    if min(_scores(part.ratios)[k] for part in train) < min(_BY_ITSELF, least):
         return None
     channel, amplitude = _shaken_most(train, k, turning)
     r = np.maximum(ratios[:, k], 1.0)
@@ -192,6 +195,11 @@ def clearest(lines: Sequence[Lines], every: Floats, turning: bool, least: float)
                 float(2.0 * np.sum(r - 1.0 - np.log(r))), channel.split("_", 1)[0], channel,
                 amplitude, float(np.mean([part.speed_mps for part in train])),
                 BeatScores(turning, every, score, least))
+
+
+def _scores(ratios: Floats) -> Floats:
+    """Standard errors by which the lines [terms, tries] stand above what chance gives."""
+    return np.asarray((ratios.sum(axis=0) - len(ratios)) / np.sqrt(len(ratios)))
 
 
 def _shaken_most(lines: Sequence[Lines], k: int, turning: bool) -> tuple[str, float]:

@@ -95,19 +95,19 @@ def _judge(study: Study, clean: Left, channel: str, asked: int) -> Restless | No
     typical = float(np.exp(0.5 * np.mean(np.log(train))))
     if typical <= usual:
         return None
-    left, width = (np.concatenate(one) for one in zip(*parts, strict=True))
-    size = float(np.sqrt(_mean_square(left * width)))
+    left, plain = (np.concatenate(one) for one in zip(*parts, strict=True))
+    size = float(np.sqrt(_mean_square(plain)))
     return Restless(channel.split("_", 1)[0], channel, size, size * usual / typical,
                     float(left @ left - left.size * usual**2))
 
 
 def _left(study: Study, clean: Left, channel: str, i: int) -> tuple[Floats, Floats]:
-    """What is left of a channel in one run, in units of its width, and these widths."""
+    """What is left of a channel in one run, whitened, and in the channel's unit."""
     run = study.runs[i]
     k = run.channels.index(channel)
     seen = np.isfinite(run.measured[:, k]) & clean.rows_of(study, i)
-    return (clean.removed[row_ranges(study)[i]].reshape(run.measured.shape)[seen, k],
-            run.sigma[seen, k])
+    removed = clean.removed[row_ranges(study)[i]]
+    return removed.reshape(run.measured.shape)[seen, k], run.plain(removed)[seen, k]
 
 
 def _mean_square(values: Floats) -> float:

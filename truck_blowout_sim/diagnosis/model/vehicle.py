@@ -1,10 +1,14 @@
 """The diagnosed vehicle: the truck that was judged, each value with its own source.
 
 Numbers of the sheet stand where the prediction of unseen runs puts them: none farther than trucks
-of one kind stray, the others as these then ask. What belongs to the place of the test (slope,
-crossfall, grip, wind) is not written unless it is what was named.
+of one kind stray, the others as these then ask. The columns that ask are linear, so the truck is
+driven over the fitted runs again and again: what they then ask for counts. What belongs to the
+place of the test (slope, crossfall, grip, wind) is not written unless it is what was named.
 
-Validated with: test/diagnosis/test_diagnose_cli.py.
+References: Gauss-Newton with a Jacobian that is kept and shortened steps (Kelley 1995, section
+5.4.1; Nocedal and Wright 2006, section 10.3).
+Known limits: the columns stay those of the reference.
+Validated with: test/diagnosis/test_diagnose_cli.py, test/diagnosis/test_driving.py.
 """
 
 from __future__ import annotations
@@ -18,6 +22,8 @@ from numpy.typing import NDArray
 from truck_blowout_sim.comparison import compare
 from truck_blowout_sim.diagnosis.case.study import FURTHEST, Study
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
+from truck_blowout_sim.diagnosis.fit.linear import Projector
+from truck_blowout_sim.diagnosis.fit.models import with_effects
 from truck_blowout_sim.diagnosis.result import Fit
 from truck_blowout_sim.diagnosis.sensors import channel_noise
 from truck_blowout_sim.recordings import Recording
@@ -26,6 +32,9 @@ from truck_blowout_sim.vehicle import Packed
 Floats = NDArray[np.float64]
 _PLACE = "world."
 _NO_CHANGE = 1e-9
+_ROUNDS = 4
+_SHARES = (1.0, 0.5)  # of the way that the columns ask for, the first that helps
+_ENOUGH = 1.0  # fall of the sum of squares: less is not worth another round
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,7 +53,7 @@ class DiagnosedTruck:
 
 
 def diagnosed_truck(
-    study: Study, given: Packed, residual: Floats, named: Sequence[Hypothesis],
+    study: Study, given: Packed, models: Sequence[Floats], named: Sequence[Hypothesis],
     law: Mapping[str, float] | None = None,
 ) -> DiagnosedTruck:  # fmt: skip
     """The truck that the runs ask for with the named effects in force.
@@ -52,27 +61,22 @@ def diagnosed_truck(
     Args:
         study: the case.
         given: the truck before the diagnosis.
-        residual: whitened, over all rows, with the named effects in force.
+        models: of all runs, those of training with the named effects in force.
         named: effects.
         law: parameters of a force without name, if one is to be added.
     """
-    projector = study.projector(named)
-    names = [study.names[k] for k in projector.kept.tolist()]
-    usual = np.array([study.expected(name) for name in names])
-    found = projector.amounts_within(residual, usual - FURTHEST, usual + FURTHEST)
-    amounts = dict(zip(names, found.tolist(), strict=True))
-    truck = study.packed
+    amounts = _asked_for(study, models, named)
+    place = {number.name for number in study.settings.nuisances
+             if all(name.startswith(_PLACE) for name, _ in number.targets)}
+    truck = _moved(study, np.array([0.0 if name in place else amount
+                                    for name, amount in amounts.items()]))
     sources: dict[str, str] = {}
     for number in study.settings.nuisances:
-        here = study.amounts.get(number.name, 0.0)
-        total = amounts.get(number.name, here)
-        place = all(name.startswith(_PLACE) for name, _ in number.targets)
-        changed = number.values(truck, number.between(here, 0.0 if place else total))
-        truck = truck.unchecked(changed)
-        if not place and abs(total) > _NO_CHANGE:
+        total = amounts[number.name]
+        if number.name not in place and abs(total) > _NO_CHANGE:
             sources |= {name: _joined(sources.get(name), f"sheet number {number.name} "
                                       f"{total:+.2f} prior sigmas from the sheet")
-                        for name in changed}  # fmt: skip
+                        for name, _ in number.targets}  # fmt: skip
     if law:
         truck = truck.unchecked(law)
         sources |= dict.fromkeys(law, "diagnosed: the law of a force that has no name")
@@ -85,6 +89,62 @@ def diagnosed_truck(
     values = {name: float(truck.params[i]) for name, i in given.index.items()
               if truck.params[i] != given.params[i]}  # fmt: skip
     return DiagnosedTruck(truck, values, {name: sources.get(name, "calibrated") for name in values})
+
+
+def _asked_for(study: Study, models: Sequence[Floats], named: Sequence[Hypothesis]
+               ) -> dict[str, float]:
+    """Amounts of all numbers of the sheet, in prior sigmas, that explain the fitted runs best.
+
+    Gauss-Newton with the columns of the reference: only what is left is simulated anew.
+    """
+    sheet = [number.name for number in study.settings.nuisances]
+    columns, projector = study.columns[:, :len(sheet)], study.projector(named)
+    names = [study.names[k] for k in projector.kept.tolist()]
+    usual = np.array([study.expected(name) for name in names])
+    best = here = np.array([study.amounts.get(name, 0.0) for name in sheet])
+    least = _left(study, models, here)
+    for _ in range(_ROUNDS):
+        residual = study.residual(dict(enumerate(models))) + columns @ (best - here)
+        asked = dict(zip(names, projector.amounts_within(
+            residual, usual - FURTHEST, usual + FURTHEST).tolist(), strict=True))
+        way = np.array([asked.get(name, at) for name, at in zip(sheet, best, strict=True)]) - best
+        for share in _SHARES:
+            there = best + share * way
+            driven = _driven(study, _moved(study, there), named)
+            left = _left(study, driven, there)
+            if left < least - _ENOUGH:
+                best, least, models = there, left, driven
+                break
+        else:
+            break
+    return dict(zip(sheet, best.tolist(), strict=True))
+
+
+def _moved(study: Study, amounts: Floats) -> Packed:
+    """The reference with its sheet numbers at these amounts."""
+    truck = study.packed
+    for number, there in zip(study.settings.nuisances, amounts.tolist(), strict=True):
+        here = study.amounts.get(number.name, 0.0)
+        truck = truck.unchecked(number.values(truck, number.between(here, there)))
+    return truck
+
+
+def _driven(study: Study, truck: Packed, named: Sequence[Hypothesis]) -> list[Floats]:
+    """Bin means of a truck over all fitted runs, what is named in force in training."""
+    return study.simulate([(run, with_effects(truck, named if run.role == "train" else (),
+                                              run.recording.name)) for run in study.runs])
+
+
+def _left(study: Study, models: Sequence[Floats], amounts: Floats) -> float:
+    """Sum of squares that instruments and starts leave, and what the priors say of the amounts."""
+    sheet = [number.name for number in study.settings.nuisances]
+    here = np.array([study.amounts.get(name, 0.0) for name in sheet])
+    # the runs were shifted by what the columns say of the reference, so that amounts count from
+    # the sheet: a truck that is driven has its own already
+    residual = study.residual(dict(enumerate(models))) - study.columns[:, :len(sheet)] @ here
+    instruments = Projector.of(study.columns, range(len(sheet), study.columns.shape[1]))
+    left = instruments.chi2(residual) + float(amounts @ amounts)
+    return left if np.isfinite(left) else float("inf")
 
 
 def _joined(first: str | None, second: str) -> str:

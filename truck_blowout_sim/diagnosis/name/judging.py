@@ -69,7 +69,7 @@ class Found:
 
 def excess_of(study: Study, found: Found) -> float:
     """What is left beyond the usual; nothing where less is left."""
-    return max(found.chi2_after - study.settings.expected_level * study.columns.shape[0], 0.0)
+    return max(found.chi2_after - study.level * study.columns.shape[0], 0.0)
 
 
 def predicts_better(study: Study, before: Sequence[Prediction], after: Sequence[Prediction]
@@ -78,7 +78,7 @@ def predicts_better(study: Study, before: Sequence[Prediction], after: Sequence[
 
     Squares alone would let the one run in which a law is least exact outvote all others.
     """
-    least = _FLAWLESS * study.settings.expected_level
+    least = _FLAWLESS * study.level
     return float(sum(a.left.size * np.log(max(b.chi2, least * a.left.size)
                                           / max(a.chi2, least * a.left.size))
                      for b, a in zip(before, after, strict=True)))

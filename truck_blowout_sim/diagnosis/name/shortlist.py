@@ -120,7 +120,7 @@ def _events(study: Study, beside: Beside, chi2: float, chance: Chance,
             progress: Progress | None) -> list[Ranked]:
     """Tires that lost pressure by themselves, and everything scanned over time."""
     named = beside.named
-    excess = chi2 - study.settings.expected_level * study.columns.shape[0]
+    excess = chi2 - study.level * study.columns.shape[0]
     found = [supported(study, _failed(study, named, chi2, tire, times), beside, chance)
              for tire, times in failed_tires(study, study.train).items()]
     scanned = sorted(_scanned(study, named, places, progress),
