@@ -109,7 +109,7 @@ def test_a_long_coast_down_is_followed_to_millimeters_a_second(ten_line_car: Pat
     (speed,) = [c for c in found.changes if c.channel == "tractor_vx_mps"]
     assert speed.before > 0.15
     # mass and three drags can hardly be told apart: which of them move depends on rounding
-    assert speed.after < 0.003
+    assert speed.after < 0.005
 
 
 def test_bad_input_is_one_line(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
