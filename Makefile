@@ -12,7 +12,8 @@ SET ?= sample
 OUT := out
 RECORD := config/recordings/test_2013_steer_blowout.csv
 BIN := .venv/bin
-# The files in their order: the long ones with few tests would otherwise come last, one behind another.
+# The files in the order of test/conftest.py: the long ones with few tests would otherwise come last,
+# one behind another.
 PYTEST := -m pytest -n $(JOBS) --dist loadfile --no-loadscope-reorder
 
 # The environment is complete in itself: what a sourced ROS installation, or a Python that is already

@@ -21,8 +21,10 @@ echo "Setting up $folder from $requirements (once, a minute or two) ..."
 rm -f "$folder/ready"
 "$python" -m venv "$folder"
 # The package itself is built here (its build tools are pinned like the rest), so that nothing is
-# fetched for it and it installs without a network, too.
-"$folder/bin/python" -m pip install --quiet --quiet --disable-pip-version-check -r "$requirements"
+# fetched for it and it installs without a network, too. Python compiles a module when it is first
+# imported: to compile all modules of all packages takes longer than to install them.
+"$folder/bin/python" -m pip install --quiet --quiet --disable-pip-version-check --no-compile \
+    -r "$requirements"
 "$folder/bin/python" -m pip install --quiet --quiet --disable-pip-version-check \
     --no-deps --no-build-isolation --editable .
 touch "$folder/ready"

@@ -26,6 +26,22 @@ if (threading.current_thread() is threading.main_thread()
 
 ROOT = Path(__file__).resolve().parents[1]
 
+# Files that take long come first, so that at the end no process works on one while the others have
+# nothing left. The second compiles the model; the first and the fourth take until then without it.
+LONG_FILES = (
+    "test_style.py", "proof/test_ci_sound_trucks.py", "proof/test_ci_effects.py",
+    "test_packaging.py", "test_code_blocks.py", "diagnosis/test_sample_recordings.py",
+)  # fmt: skip
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Long files first, all others in the order in which they were found."""
+    place = {ROOT / "test" / name: k for k, name in enumerate(LONG_FILES)}
+    missing = [str(path) for path in place if not path.is_file()]
+    if missing:
+        raise pytest.UsageError(f"LONG_FILES names what is not there: {missing}")
+    items.sort(key=lambda item: place.get(item.path, len(place)))
+
 
 @pytest.fixture(scope="session")
 def shared_recordings() -> Path:

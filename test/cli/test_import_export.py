@@ -5,12 +5,19 @@ from __future__ import annotations
 import json
 import subprocess
 import sys
+from collections.abc import Callable
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 import pytest
 
+from truck_blowout_sim.cli.main import main
 from truck_blowout_sim.recordings import read_recording
+
+# A terminal would show a warning beside the lines that are counted here.
+pytestmark = [pytest.mark.filterwarnings(f"error::{kind}") for kind in
+              ("UserWarning", "RuntimeWarning", "FutureWarning")]
 
 CSV = """# test: by hand
 time_s,throttle,blowout,tractor_vx_mps,tire_pressure_steer_left_pa
@@ -20,7 +27,32 @@ time_s,throttle,blowout,tractor_vx_mps,tire_pressure_steer_left_pa
 """
 
 
-def cli(*words: str | Path) -> subprocess.CompletedProcess[str]:
+@dataclass(frozen=True)
+class Done:
+    """What a command line left: its status and what it said."""
+
+    returncode: int
+    stdout: str
+    stderr: str
+
+
+Cli = Callable[..., Done]
+
+
+@pytest.fixture
+def cli(capsys: pytest.CaptureFixture[str]) -> Cli:
+    """Run a command line in this process: starting Python takes longer than the command."""
+
+    def run(*words: str | Path) -> Done:
+        capsys.readouterr()
+        status = main([str(word) for word in words])
+        return Done(status, *capsys.readouterr())
+
+    return run
+
+
+def typed(*words: str | Path) -> subprocess.CompletedProcess[str]:
+    """The same in a process of its own."""
     return subprocess.run([sys.executable, "-m", "truck_blowout_sim", *map(str, words)],
                           capture_output=True, text=True, check=False)  # fmt: skip
 
@@ -33,10 +65,10 @@ def log(tmp_path: Path) -> Path:
 
 
 def test_there_and_back(tmp_path: Path, log: Path) -> None:
-    there = cli("import", log, "-o", tmp_path / "bag")
+    there = typed("import", log, "-o", tmp_path / "bag")
     assert (there.returncode, there.stderr) == (0, "")
     assert "steer_left blown at 0 s" in there.stdout
-    back = cli("export", tmp_path / "bag", "-o", tmp_path / "again.csv")
+    back = typed("export", tmp_path / "bag", "-o", tmp_path / "again.csv")
     assert back.returncode == 0
     one, two = read_recording(log), read_recording(tmp_path / "again.csv")
     assert set(one.channels) == set(two.channels)
@@ -47,7 +79,7 @@ def test_there_and_back(tmp_path: Path, log: Path) -> None:
     assert two.metadata["test"] == "by hand"
 
 
-def test_a_plain_csv_begins_with_its_header(tmp_path: Path, log: Path) -> None:
+def test_a_plain_csv_begins_with_its_header(tmp_path: Path, log: Path, cli: Cli) -> None:
     assert cli("export", log, "-o", tmp_path / "plain.csv", "--plain").returncode == 0
     lines = (tmp_path / "plain.csv").read_text().splitlines()
     assert lines[0] == "time_s,throttle,blowout,tractor_vx_mps,tire_pressure_steer_left_pa"
@@ -57,7 +89,7 @@ def test_a_plain_csv_begins_with_its_header(tmp_path: Path, log: Path) -> None:
 
 def test_bad_input_is_one_line_and_status_2_and_nothing_is_left(tmp_path: Path, log: Path) -> None:
     log.write_text(CSV.replace("19.5", "nan"))
-    done = cli("import", log, "-o", tmp_path / "bag")
+    done = typed("import", log, "-o", tmp_path / "bag")
     assert done.returncode == 2
     assert done.stdout == ""
     assert len(done.stderr.splitlines()) == 1
@@ -82,7 +114,7 @@ def test_bad_input_is_one_line_and_status_2_and_nothing_is_left(tmp_path: Path, 
     ],
 )
 def test_bad_usage_is_one_line_and_status_2(
-    tmp_path: Path, log: Path, words: tuple[str, ...], monkeypatch: pytest.MonkeyPatch
+    tmp_path: Path, log: Path, cli: Cli, words: tuple[str, ...], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.chdir(log.parent)
     done = cli(*words)
@@ -91,7 +123,7 @@ def test_bad_usage_is_one_line_and_status_2(
     assert sorted(p.name for p in tmp_path.iterdir()) == ["log.csv"]
 
 
-def test_nothing_that_exists_is_replaced_unless_forced(tmp_path: Path, log: Path) -> None:
+def test_nothing_that_exists_is_replaced_unless_forced(tmp_path: Path, log: Path, cli: Cli) -> None:
     assert cli("import", log, "-o", tmp_path / "bag").returncode == 0
     kept = {path: path.read_bytes() for path in (tmp_path / "bag").iterdir()}
     again = cli("import", log, "-o", tmp_path / "bag")
@@ -104,7 +136,7 @@ def test_nothing_that_exists_is_replaced_unless_forced(tmp_path: Path, log: Path
 
 
 def test_a_topic_that_is_not_in_the_bag_is_refused_and_the_nearest_named(
-    tmp_path: Path, log: Path
+    tmp_path: Path, log: Path, cli: Cli
 ) -> None:
     assert cli("import", log, "-o", tmp_path / "bag").returncode == 0
     rules = tmp_path / "map.yaml"
@@ -116,7 +148,9 @@ def test_a_topic_that_is_not_in_the_bag_is_refused_and_the_nearest_named(
     assert not (tmp_path / "b").exists()
 
 
-def test_an_unfinished_bag_is_exported_with_a_note_and_recovered(tmp_path: Path, log: Path) -> None:
+def test_an_unfinished_bag_is_exported_with_a_note_and_recovered(
+    tmp_path: Path, log: Path, cli: Cli
+) -> None:
     bag = tmp_path / "bag.mcap"
     assert cli("import", log, "-o", bag).returncode == 0
     bag.write_bytes(bag.read_bytes()[:-40])
@@ -129,7 +163,9 @@ def test_an_unfinished_bag_is_exported_with_a_note_and_recovered(tmp_path: Path,
     assert cli("export", bag, "-o", tmp_path / "whole.csv").stderr == ""
 
 
-def test_an_imported_bag_shows_the_truck_unless_told_not_to(tmp_path: Path, log: Path) -> None:
+def test_an_imported_bag_shows_the_truck_unless_told_not_to(
+    tmp_path: Path, log: Path, cli: Cli
+) -> None:
     def topics(*words: str) -> set[str]:
         assert cli("import", log, "-o", tmp_path / "bag", "--force", *words).returncode == 0
         text = (tmp_path / "bag" / "metadata.yaml").read_text()
@@ -145,7 +181,7 @@ def test_an_imported_bag_shows_the_truck_unless_told_not_to(tmp_path: Path, log:
 
 
 def test_a_log_of_a_truck_that_is_not_shipped_is_imported_without_a_model(
-    tmp_path: Path, log: Path
+    tmp_path: Path, log: Path, cli: Cli
 ) -> None:
     log.write_text("# tire_names: nose tail\n# hub_names: nose tail\n"
                    + CSV.replace("steer_left", "nose"))  # fmt: skip

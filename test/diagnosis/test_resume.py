@@ -184,31 +184,40 @@ def straight(words: list[str], tmp_path_factory: pytest.TempPathFactory) -> Path
     return out
 
 
-@pytest.mark.parametrize("name", ["SIGINT", "SIGTERM", "SIGKILL"])
-def test_a_killed_diagnosis_continues_to_the_same_answer(
-    words: list[str], straight: Path, tmp_path: Path, name: str
-) -> None:
-    out, kept = tmp_path / "out", tmp_path / "out" / ".resume" / "simulations"
+def interrupted_by(name: str, words: list[str], out: Path, least_bytes: int) -> list[str]:
+    """What a diagnosis says on stderr that a signal ends once so much of it is kept."""
+    kept = out / ".resume" / "simulations"
     process = start(words, out)
     deadline = time.monotonic() + 240.0
-    while not (kept.is_file() and kept.stat().st_size > 300_000):
+    while not (kept.is_file() and kept.stat().st_size > least_bytes):
         assert process.poll() is None
         assert time.monotonic() < deadline
         time.sleep(0.01)
     process.send_signal(getattr(signal, name))
     _, error = process.communicate(timeout=120)
-    if name == "SIGKILL":
-        assert process.returncode == -signal.SIGKILL
-    else:
-        assert process.returncode == 130
-        line, = [text for text in error.splitlines() if text.strip()]
-        assert line.endswith("interrupted; the same command continues from here")
+    assert process.returncode == (-signal.SIGKILL if name == "SIGKILL" else 130)
+    return [text for text in error.splitlines() if text.strip()]
+
+
+def test_a_diagnosis_killed_in_every_way_continues_to_the_same_answer(
+    words: list[str], straight: Path, tmp_path: Path
+) -> None:
+    """Ended three times in a row, each time later: of about 2.8 MB in all."""
+    out = tmp_path / "out"
+    goes_on, ended = "continuing an interrupted diagnosis", "the same command continues from here"
+    line, = interrupted_by("SIGINT", words, out, 300_000)
+    assert line.endswith(f"interrupted; {ended}")
+    first, line = interrupted_by("SIGTERM", words, out, 1_000_000)
+    assert first.startswith(goes_on)
+    assert line.endswith(f"interrupted; {ended}")
+    line, = interrupted_by("SIGKILL", words, out, 1_700_000)
+    assert line.startswith(goes_on)
     again = start(words, out)
     _, error = again.communicate(timeout=240)
     assert again.returncode == 0
     line, = [text for text in error.splitlines() if text.strip()]
-    assert line.startswith("continuing an interrupted diagnosis")
-    assert not kept.parent.exists()
+    assert line.startswith(goes_on)
+    assert not (out / ".resume").exists()
     for file in ("diagnosis.json", "vehicle.yaml"):
         assert (out / file).read_bytes() == (straight / file).read_bytes()
 
