@@ -196,7 +196,7 @@ def _leaves_of_named(vehicle: Branch) -> Iterable[tuple[str, ...]]:
     """Paths of every key of the files that a vehicle file names."""
     for word, (_, schema) in _NAMED.items():
         below = vehicle.entries.get(word)
-        places = [(word,)]
+        places: list[tuple[str, ...]] = [(word,)]
         if word == "tires":
             names = below.entries if isinstance(below, Branch) else ()
             places = [(word, name) for name in names]
