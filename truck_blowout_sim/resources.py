@@ -45,6 +45,8 @@ def config_file(kind: str, name: str | os.PathLike[str]) -> Path:
     for candidate in (folder / text, folder / f"{text}.yaml", Path(text)):
         if candidate.is_file():
             return candidate
+    if text and Path(text).is_dir():
+        raise InputError("is a folder", file=text, expected="a YAML file")
     names = config_names(kind)
     near = "" if _is_path(text) else closest(text, names)
     raise InputError(

@@ -91,6 +91,14 @@ def test_a_path_is_not_answered_with_a_shipped_name(capsys: pytest.CaptureFixtur
     assert "did you mean" not in capsys.readouterr().err
 
 
+@pytest.mark.parametrize("words", [["run"], ["vehicle"], ["run", "coast_down", "--vehicle"]])
+def test_a_folder_in_place_of_a_file_is_told(
+    words: list[str], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main([*words, str(tmp_path)]) == 2
+    assert f"{tmp_path}: is a folder; expected a YAML file" in capsys.readouterr().err
+
+
 @pytest.mark.parametrize("word", ["steer_lft@3", "steer_left@500"])
 def test_a_wrong_blowout_is_told_as_it_was_written(
     word: str, capsys: pytest.CaptureFixture[str]
