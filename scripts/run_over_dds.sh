@@ -28,4 +28,7 @@ trap 'kill -INT $simulator 2>/dev/null || true' EXIT INT TERM
 kill -INT "$simulator"
 wait "$simulator"
 trap - EXIT INT TERM
-"$bin/truck-blowout" compare "$folder/bag" --force -o "$folder/comparison"
+"$bin/truck-blowout" compare "$folder/bag" --force -o "$folder/comparison" > "$folder/comparison.txt"
+echo "The run over DDS beside the same inputs simulated without ROS:"
+"$bin/python" "$(dirname -- "$0")/sum_up_comparison.py" "$folder/comparison"
+echo "$folder/comparison.txt: every channel; $folder/comparison/report.html: the same with figures"

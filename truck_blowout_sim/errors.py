@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import difflib
 import errno
+import re
 from collections.abc import Iterable
 from pathlib import Path
 
@@ -84,12 +85,38 @@ def nearest(name: str, known: Iterable[str], otherwise: str = "") -> str:
         otherwise: what to say if nothing resembles it.
     """
     names = list(known)
-    lowered = {one.lower(): one for one in reversed(names)}
-    holding = sorted((one for one in lowered if name and name.lower() in one), key=len)
-    near = holding or difflib.get_close_matches(name.lower(), list(lowered), 1, _SIMILAR)
-    if near:
-        return f"{lowered[near[0]]} (the nearest)"
+    if near := closest(name, names):
+        return f"{near} (the nearest)"
     return otherwise or ", ".join(names[:_MOST_NAMES]) + (" …" if len(names) > _MOST_NAMES else "")
+
+
+def closest(name: str, known: Iterable[str], similar: float = _SIMILAR) -> str:
+    """The known name that a person means who wrote this one; empty if none is like it.
+
+    The same words in another order come first, then a name that holds what was written, then
+    the one of the most equal letters.
+
+    Args:
+        name: what was written.
+        known: what there is; of equally near names the first one is taken.
+        similar: least share of equal letters, 0 to 1.
+    """
+    written = name.lower()[:_LONGEST_VALUE]
+    lowered = {one.lower(): one for one in reversed(list(known))}
+    names = list(reversed(lowered))
+    same = [one for one in names if _words(one) == _words(written)]
+    holding = [one for one in names if written and written in one]
+    if near := same or sorted(holding, key=len):
+        return lowered[near[0]]
+    alike = difflib.get_close_matches(written, names, len(names) or 1, similar)
+    if not alike:
+        return ""
+    shares = {one: difflib.SequenceMatcher(None, one, written).ratio() for one in alike}
+    return lowered[max((one for one in names if one in shares), key=shares.__getitem__)]
+
+
+def _words(name: str) -> list[str]:
+    return sorted(re.findall(r"[^\W_]+", name))
 
 
 def _rebuild_input_error(problem: str, file: str, where: str, expected: str) -> InputError:

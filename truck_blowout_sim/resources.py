@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 import os
-from difflib import get_close_matches
 from pathlib import Path
 
-from truck_blowout_sim.errors import InputError
+from truck_blowout_sim.errors import InputError, closest
 
 PACKAGE = "truck_blowout_sim"
-_SIMILAR = 0.5
 _SETTINGS = {"diagnosis": "settings"}  # a folder whose name is no plural
 
 
@@ -47,13 +45,19 @@ def config_file(kind: str, name: str | os.PathLike[str]) -> Path:
     for candidate in (folder / text, folder / f"{text}.yaml", Path(text)):
         if candidate.is_file():
             return candidate
+    if text and Path(text).is_dir():
+        raise InputError("is a folder", file=text, expected="a YAML file")
     names = config_names(kind)
-    near = get_close_matches(text.lower(), names, n=1, cutoff=_SIMILAR)
+    near = "" if _is_path(text) else closest(text, names)
     raise InputError(
         f"no {_SETTINGS.get(kind, kind.removesuffix('s'))} of the name {text!r} and no such file"
-        + (f" (did you mean {near[0]!r}?)" if near else ""),
+        + (f" (did you mean {near!r}?)" if near else ""),
         expected=f"a path or one of: {', '.join(names) or 'none shipped'}",
     )
+
+
+def _is_path(text: str) -> bool:
+    return Path(text).name != text or Path(text).suffix in (".yaml", ".yml", ".csv")
 
 
 def config_names(kind: str) -> tuple[str, ...]:

@@ -73,12 +73,38 @@ def test_list_shows_shipped_files_with_titles(capsys: pytest.CaptureFixture[str]
     (["vehicle", "rigid_trck"], "rigid_truck"),
     (["run", "coast_down", "--vehicle", "ferari"], "ferrari_250lm"),
     (["diagnose", "test_2013_steer_blowout", "--settings", "rebuild_record"], "rebuilt_record"),
+    (["run", "lane_change"], "double_lane_change"),
+    (["run", "coast_down", "--vehicle", "trailmobile_international_9400i"],
+     "international_9400i_trailmobile"),
+    (["run", "coast_down", "--blow", "left_steer@3"], "steer_left"),
+    (["compare", "test_2013_ster_blowout"], "test_2013_steer_blowout"),
 ])  # fmt: skip
 def test_a_typo_is_answered_with_the_nearest_name(
     words: list[str], near: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert main([*words, *(["-o", str(tmp_path)] if words[0] == "diagnose" else [])]) == 2
     assert f"did you mean '{near}'?" in capsys.readouterr().err
+
+
+def test_a_path_is_not_answered_with_a_shipped_name(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["run", "coast_down", "--vehicle", "my_truck.yaml"]) == 2
+    assert "did you mean" not in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("words", [["run"], ["vehicle"], ["run", "coast_down", "--vehicle"]])
+def test_a_folder_in_place_of_a_file_is_told(
+    words: list[str], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main([*words, str(tmp_path)]) == 2
+    assert f"{tmp_path}: is a folder; expected a YAML file" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("word", ["steer_lft@3", "steer_left@500"])
+def test_a_wrong_blowout_is_told_as_it_was_written(
+    word: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["run", "coast_down", "--blow", word]) == 2
+    assert f"blowout {word}: " in capsys.readouterr().err
 
 
 @pytest.mark.parametrize(("line", "word", "completed"), [

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 
+from truck_blowout_sim.cli.main import main
 from truck_blowout_sim.cli.outputs import claim, say
 from truck_blowout_sim.errors import InputError
 
@@ -30,6 +31,24 @@ def test_what_exists_is_replaced_only_with_force(tmp_path: Path, name: str) -> N
     with pytest.raises(InputError, match="exists already; expected a new name, or --force"):
         claim(target)
     assert claim(target, force=True) == target
+
+
+@pytest.mark.parametrize(("words", "problem"), [
+    (["view", "-o", "FOLDER"], "expected a name that ends in .html"),
+    (["view", "-o", "FOLDER.html"], "is a folder; expected a file to write"),
+    (["plot", "-o", "FOLDER", "--start", "5", "--end", "2"], "expected a start before the end"),
+    (["view", "--start", "nan", "-o", "x.html"], "expected a start before the end"),
+])  # fmt: skip
+def test_an_output_or_span_that_cannot_be_is_refused(
+    words: list[str], problem: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    for name in ("FOLDER", "FOLDER.html"):
+        (tmp_path / name).mkdir()
+    assert main([words[0], "test_2013_steer_blowout", *words[1:]]) == 2
+    assert problem in capsys.readouterr().err
+    assert not any(path.is_file() for path in tmp_path.rglob("*"))
 
 
 def test_other_files_in_a_result_folder_do_not_matter(tmp_path: Path) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import runpy
 from pathlib import Path
 
 import numpy as np
@@ -15,6 +16,7 @@ from truck_blowout_sim.cli.main import main
 from truck_blowout_sim.recordings import read_recording
 from truck_blowout_sim.recordings.shipped import find_recording
 
+SUM_UP = Path(__file__).parents[2] / "scripts" / "sum_up_comparison.py"
 TEST_2013 = "test_2013_steer_blowout"
 
 
@@ -34,6 +36,22 @@ def test_a_shipped_record_is_compared_by_its_name(
     assert "report.html" in shown.out
     assert json.loads((tmp_path / "out" / "comparison.json").read_text())["recording"] == TEST_2013
     assert (tmp_path / "out" / "figures" / "yaw_rate_tractor.png").is_file()
+
+
+def test_a_comparison_is_summed_up_by_its_worst_and_best_channels() -> None:
+    def channel(rating: float | None, *, imposed: bool = False) -> dict[str, object]:
+        return {"label": f"channel {rating}", "imposed": imposed,
+                "display": {"unit": "deg", "rms": 1.0 - (rating or 0.0)},
+                "iso_18571": None if rating is None else {"overall": rating}}
+
+    ratings = [0.9, 0.5, None, 0.99, 0.7, 0.6, 0.95]
+    channels = {f"c{n}": channel(rating) for n, rating in enumerate(ratings)}
+    channels["held"] = channel(0.1, imposed=True)
+    lines = runpy.run_path(str(SUM_UP))["lines"]({"channels": channels})
+    assert lines[0] == "8 channels compared, 6 rated by ISO/TS 18571, mean 0.773 (1: equal)"
+    assert [line.split(",")[0].split("channel ")[1] for line in lines[1:]] == [
+        "0.5", "0.6", "0.7", "0.99", "0.95"]
+    assert lines[1] == "worst  0.500  channel 0.5, rms error 0.5 deg"
 
 
 def test_each_channel_of_a_full_recording_is_one_line_in_a_pipe(

@@ -51,6 +51,20 @@ def test_the_flat_tire_alone_is_colored_and_stands_where_it_is(vehicle: Vehicle)
     assert middle == pytest.approx(expected, abs=1e-6)
 
 
+def test_a_folded_truck_is_drawn_whole(vehicle: Vehicle) -> None:
+    run = drive()
+    channels = {**run.channels, "articulation_rad": Series(TIME, -0.25 * (TIME - 4).clip(0))}
+    folded = Recording("run", channels, run.blowouts)
+    picture = run_pictures(folded, motion_of(folded, vehicle), vehicle)[0]
+    picture.figure.draw_without_rendering()
+    for axes in picture.figure.axes:
+        low, high = axes.get_ylim()
+        drawn = np.concatenate([p.get_path().vertices[:, 1] for p in axes.patches])
+        assert low < drawn.min()
+        assert drawn.max() < high
+    assert np.ptp(picture.figure.axes[-1].get_ylim()) > np.ptp(picture.figure.axes[0].get_ylim())
+
+
 @pytest.mark.parametrize("name", ["international_9400i_trailmobile", "rigid_truck"])
 def test_every_vehicle_has_its_pictures(name: str) -> None:
     vehicle = load_vehicle(name)

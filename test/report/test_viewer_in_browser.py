@@ -120,6 +120,27 @@ def test_plots_read_the_channel_at_the_cursor_in_the_chosen_units(browser: Brows
     assert "42.50 mph" in words
 
 
+def test_a_rollover_is_drawn_marked_and_said(tmp_path: Path, vehicle: Vehicle) -> None:
+    time = np.arange(0.0, 3.0, 0.02)
+    run = Recording("over", {
+        "tractor_vx_mps": Series(time, np.full(time.size, 20.0)),
+        "trailer_roll_rad": Series(time, 0.27 * time),
+    }, metadata={"rolled_over_unit": "trailer", "rolled_over_s": "2.984"})  # fmt: skip
+    shown = [RunToShow(run, motion_of(run, vehicle), vehicle)]
+    with Browser(write_viewer(shown, tmp_path / "over.html"), (800, 700)) as browser:
+        browser.wait_for("!!window.viewer")
+        browser.evaluate("window.viewer.then(() => true)")
+        said = "document.getElementById('readout').textContent"
+        assert "rolled over" not in browser.evaluate(f"app.seek(2.5, true) || {said}")
+        assert "the trailer rolled over at 2.98 s" in browser.evaluate(
+            f"app.key({{key: 'r', target: document.body}}) || {said}")
+        assert browser.evaluate("document.querySelectorAll('#marks .over').length") == 1
+        assert browser.evaluate("app.trucks[0].units.trailer.body.rotation.x") == pytest.approx(
+            0.8, abs=0.02)
+        r, g, b = np.moveaxis(picture(browser, 2.5), 2, 0)
+        assert ((b > 1.5 * g) & (r > 1.3 * g) & (b > r)).sum() > 20  # the mark on the road
+
+
 def test_side_by_side_draws_both_halves(browser: Browser) -> None:
     browser.evaluate("app.mode = 'side', app.arrange(), app.view('chase') || true")
     image = picture(browser, 2.0)

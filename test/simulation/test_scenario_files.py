@@ -83,6 +83,8 @@ def test_blowouts_can_be_replaced(truck: Packed) -> None:
     (("end_s: 2", "end_s: -1"), "end_s: -1 s is not after the start; expected more than 0 s"),
     (("end_s: 2", "end: 2"), "has no unit; expected end_s"),
     (("end_s: 2", "ends_s: 2"), "unknown key 'ends_s', did you mean 'end_s'?"),
+    (("end_s: 2", "extend: coast_down"), "unknown key 'extend', did you mean 'extends'?"),
+    (("speed_mph", "sped_mph"), "unknown key 'sped_mph', did you mean 'speed_mph'?"),
     (("speed_mph: 50", "speed_mph: fast"), "'fast' is not a number"),
     (("speed_mph: 50", "speed_kg: 50"), "not a unit of this quantity"),
     (("speed_mph: 50", "speed_mph: -3"), "out of bounds"),

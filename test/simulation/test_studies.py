@@ -122,11 +122,19 @@ def test_a_study_goes_to_another_process(short: Path) -> None:
 
 
 @pytest.mark.parametrize(("key", "line"), [
-    ("start.speed_mhp", "did you mean 'start.speed_mps'"),
+    ("start.sped_mph", "did you mean 'start.speed_mph'"),
+    ("start.speed_mhp", "did you mean 'start.speed_mph'"),
+    ("start.speed_kmh", "did you mean 'start.speed_kmph'"),
     ("start.speed", "did you mean 'start.speed_mps'"),
-    ("units.trailer.payload.nothing.mass_kg", "did you mean"),
+    ("scenario.strat.speed_mph", "did you mean 'scenario.start.speed_mph'"),
+    ("tires.steer.presure_psi", "did you mean 'tires.steer.pressure_psi'"),
+    ("road.friction", "did you mean 'road.friction_scale'"),
+    ("blowout.flat_roling", "did you mean 'blowout.flat_rolling'"),
+    ("payload.mass_kg", "did you mean 'units.trailer.payload.front_block.mass_kg'"),
+    ("units.trailer.payload.*.mas_kg", r"did you mean 'units\.trailer\.payload\.\*\.mass_kg'"),
+    ("hub.trailer_2_lft.brake_gain", "did you mean 'hub.trailer_2_left.brake_gain'"),
+    ("vehcle", "did you mean 'vehicle'"),
     ("steering.table.angle_deg", "no such key"),
-    ("tires.rear.pressure_psi", "no such key"),
     ("", "no such key"),
 ])
 def test_an_unknown_key_names_the_nearest(short: Path, key: str, line: str) -> None:

@@ -6,6 +6,7 @@ A verb declares ``force: bool = FORCE`` and ``as_json: bool = JSON`` among its p
 
 from __future__ import annotations
 
+import math
 import os
 import sys
 from collections.abc import Iterable, Mapping, Sequence
@@ -80,6 +81,17 @@ def claim(output: str | PathLike[str], *, force: bool = False,
                                  expected="a new name, or --force to replace it")
     _check_writable(target)
     return target
+
+
+def check_span(start_s: float | None, end_s: float | None) -> None:
+    """Refuse `--start` and `--end` between which there is no time.
+
+    Raises:
+        InputError: the start is not before the end, or one of them is no number.
+    """
+    start, end = -math.inf if start_s is None else start_s, math.inf if end_s is None else end_s
+    if not start < end:
+        raise InputError(f"--start {start:g} --end {end:g}", expected="a start before the end")
 
 
 def say(as_json: bool, result: Mapping[str, object], lines: Iterable[str]) -> None:

@@ -11,7 +11,7 @@ import typer
 from rich.progress import BarColumn, TextColumn
 
 from truck_blowout_sim.cli.listing import names_of
-from truck_blowout_sim.cli.outputs import FORCE, JSON, claim, say
+from truck_blowout_sim.cli.outputs import FORCE, JSON, check_span, claim, say
 from truck_blowout_sim.cli.progress import bar
 from truck_blowout_sim.cli.reading import AS_IT_IS, LogOptions, reads_logs, say_notes
 from truck_blowout_sim.comparison.units import AXES, SYSTEMS
@@ -69,6 +69,7 @@ def command(
 
         _say_paths(as_json, plot_thesis(thesis, output, forms, dark, force))
         return
+    check_span(start_s, end_s)
     if not runs:
         raise InputError("no run given", expected="a run, or --thesis")
     recordings = logs.read_all(runs)

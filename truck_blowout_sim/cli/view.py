@@ -12,7 +12,7 @@ from rich.progress import BarColumn, TextColumn, TimeRemainingColumn
 
 from truck_blowout_sim.cli.drawn_vehicle import vehicle_of
 from truck_blowout_sim.cli.listing import list_option, names_of
-from truck_blowout_sim.cli.outputs import FORCE, JSON, claim, say
+from truck_blowout_sim.cli.outputs import FORCE, JSON, check_span, claim, say
 from truck_blowout_sim.cli.progress import bar
 from truck_blowout_sim.cli.reading import AS_IT_IS, LogOptions, reads_logs, say_notes
 from truck_blowout_sim.errors import InputError, quoted
@@ -63,8 +63,13 @@ def command(
 
     _check_view(camera)
     inputs = logs.inputs(*runs)
-    target = claim(output or Path(f"{Path(runs[0].rstrip('/')).stem}.html"), force=force,
-                   inputs=inputs)
+    page = output or Path(f"{Path(runs[0].rstrip('/')).stem}.html")
+    if page.suffix.lower() not in (".html", ".htm"):
+        raise InputError(f"--output {quoted(str(page))}", expected="a name that ends in .html")
+    if page.is_dir():
+        raise InputError("is a folder", file=page, expected="a file to write")
+    target = claim(page, force=force, inputs=inputs)
+    check_span(start_s, end_s)
     if video is not None:
         if video.suffix != ".mp4":
             raise InputError(f"--video {quoted(str(video))}", expected="a name that ends in .mp4")

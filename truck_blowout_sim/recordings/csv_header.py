@@ -7,7 +7,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from truck_blowout_sim.errors import InputError, quoted
+from truck_blowout_sim.errors import InputError, closest, quoted
 from truck_blowout_sim.recordings.channels import (
     BLOWOUT_EVENT,
     DEFAULT_HUBS,
@@ -130,8 +130,8 @@ def _check_names(
     ):
         for name in found:
             if name not in known:
-                near = difflib.get_close_matches(name, known, 1)
-                hint = f"{near[0]}, or " if near else ""
+                near = closest(name, known)
+                hint = f"{near}, or " if near else ""
                 raise InputError(
                     f"unknown {kind} {quoted(name)}",
                     file=path,
@@ -144,7 +144,7 @@ def _check_names(
 def _refuse_near_miss(path: Path, line: int, name: str, table: Sequence[str]) -> None:
     near = difflib.get_close_matches(name, table, 1, _SIMILAR)
     if near or name.startswith(_PREFIXES):
-        meant = near or difflib.get_close_matches(name, table, 1, 0.0)
+        meant = [closest(name, table, 0.0)]
         raise InputError(
             f"column {quoted(name)}",
             file=path,

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from pathlib import Path
 
-from truck_blowout_sim.errors import InputError, quoted
+from truck_blowout_sim.errors import InputError, closest, quoted
 from truck_blowout_sim.resources import config_dir
 
 _FOLDER = "recordings"
@@ -23,8 +23,10 @@ def find_recording(name: str | os.PathLike[str]) -> Path:
     shipped = config_dir() / _FOLDER / f"{path.name.removesuffix('.csv')}.csv"
     if path.parent == Path() and shipped.is_file() and shipped.stem in shipped_recordings():
         return shipped
+    near = closest(path.name, shipped_recordings()) if path.parent == Path() else ""
     raise InputError(
-        f"no such file or folder: {quoted(os.fspath(name))}",
+        f"no such file or folder: {quoted(os.fspath(name))}"
+        + (f" (did you mean {near!r}?)" if near else ""),
         expected="a recording's path or one of: " + ", ".join(shipped_recordings()),
     )
 

@@ -9,6 +9,7 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 
 import numpy as np
+from matplotlib.axes import Axes
 
 from truck_blowout_sim.motion import Motion
 from truck_blowout_sim.recordings import Recording
@@ -84,7 +85,8 @@ def _above(run: Recording, motion: Motion, vehicle: Vehicle) -> Picture:
     half = 0.5 * length + _MARGIN_M
     high = 0.06 * length + 1.5
     figure = new_figure((_WIDE_IN, 0.3 + 5 * _WIDE_IN * high / half))
-    for axes, k in zip(figure.subplots(5, 1, sharex=True), picks, strict=True):
+    strips = figure.subplots(5, 1, sharex=True)
+    for axes, k in zip(strips, picks, strict=True):
         turn = -float(first.yaw_rad[picks[0]])
         if turned:
             turn = -0.5 * float(first.yaw_rad[k] + last.yaw_rad[k])
@@ -93,19 +95,28 @@ def _above(run: Recording, motion: Motion, vehicle: Vehicle) -> Picture:
         c, s = np.cos(turn), np.sin(turn)
         x, y = first.x_m - middle[0], first.y_m - middle[1]
         path_line(axes, c * x - s * y, s * x + c * y)
-        axes.set(xlim=(-half, half), ylim=(-high, high))
+        axes.set(xlim=(-half, half), ylim=_reach(axes, high))
         axes.set_aspect("equal")
         axes.set_yticks([])
         axes.spines["left"].set_visible(False)
         axes.annotate(f"{motion.times_s[k]:.2f} s", (0.0, 0.92), xycoords="axes fraction",
                       va="top", weight="bold", color=INK)  # fmt: skip
         axes.grid(visible=False)
+    heights = [float(np.ptp(axes.get_ylim())) for axes in strips]
+    strips[0].get_gridspec().set_height_ratios(heights)
+    figure.set_size_inches(_WIDE_IN, 0.3 + _WIDE_IN * sum(heights) / (2.0 * half))
     figure.axes[-1].set_xlabel("m")
     arrows = f" Arrows: force of the road on each tire, 1 m = {scale / 1e3:g} kN." if scale else ""
     return Picture("truck_above", "The truck from above at five instants",
                    "To scale; the flat tire in color; the line is the path of the tractor."
                    + (" Each is turned to lie level." if turned else "") + arrows,
                    figure)  # fmt: skip
+
+
+def _reach(axes: Axes, least: float) -> tuple[float, float]:
+    """Limits that hold every part drawn so far, at least so far to either side."""
+    drawn = np.concatenate([patch.get_path().vertices[:, 1] for patch in axes.patches])
+    return min(-least, float(drawn.min()) - 0.5), max(least, float(drawn.max()) + 0.5)
 
 
 @styled

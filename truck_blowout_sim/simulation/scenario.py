@@ -58,12 +58,14 @@ class Scenario:
         Raises:
             InputError: an instant outside the run.
         """
-        for event in events:
+        places = {f"blowouts.{n}.tires": Place(f"blowout {'+'.join(e.tires)}@{e.time_s:g}", 0, "")
+                  for n, e in enumerate(events)}
+        for event, place in zip(events, places.values(), strict=True):
             if not self.spec.start_s <= event.time_s <= self.spec.end_s:
-                raise _outside(self.spec, event.time_s, Place(str(self.path), 1, "end_s"))
+                raise _outside(self.spec, event.time_s, place)
         specs = {f"{n}": BlowoutEventSpec(time_s=event.time_s, tires="+".join(event.tires))
                  for n, event in enumerate(events)}
-        return replace(self, spec=replace(self.spec, blowouts=specs), places={})
+        return replace(self, spec=replace(self.spec, blowouts=specs), places=places)
 
     def blowouts_of(self, vehicle: Vehicle) -> tuple[Blowout, ...]:
         """Its blowouts at instants, with hubs resolved into tires; those on a condition are not.

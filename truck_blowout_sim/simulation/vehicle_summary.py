@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass
-from difflib import get_close_matches
 from math import degrees
 
-from truck_blowout_sim.errors import InputError, quoted
+from truck_blowout_sim.errors import InputError, nearest, quoted
 from truck_blowout_sim.simulation.handling import Handling, handling
 from truck_blowout_sim.vehicle import Packed, Vehicle, pack
 from truck_blowout_sim.vehicle.masses import unit_mass
@@ -123,9 +122,8 @@ def tires_named(vehicle: Vehicle, words: Sequence[str]) -> tuple[str, ...]:
     found: list[str] = []
     for word in words:
         if word != "all" and word not in known:
-            near = get_close_matches(word, known, n=1)
             raise InputError(f"{quoted(word)} is no tire, hub or axle of {vehicle.name}",
-                             expected=near[0] if near else ", ".join(known))  # fmt: skip
+                             expected=nearest(word, known, ", ".join(known)))  # fmt: skip
         found += list(first.values()) if word == "all" else [known[word]]
     return tuple(dict.fromkeys(found))
 

@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-import difflib
 import math
 from dataclasses import dataclass, field
 from typing import TypeVar
 
-from truck_blowout_sim.errors import InputError
+from truck_blowout_sim.errors import InputError, closest
 from truck_blowout_sim.vehicle.document import Branch, Leaf, Place
 from truck_blowout_sim.vehicle.fields import Rule, required, rules
-from truck_blowout_sim.vehicle.units import spellings
+from truck_blowout_sim.vehicle.units import in_unit_of, spellings
 
 Section = TypeVar("Section")
 
@@ -36,6 +35,9 @@ class Notes:
 
 
 LARGEST = 1e15  # nothing on a road is larger, in SI; squares stay finite
+
+
+_OF_ANY_FILE = ("extends",)
 
 
 def build(of: type[Section], tree: Branch, notes: Notes, path: str = "") -> Section:
@@ -77,14 +79,17 @@ def _unknown_key(key: str, entry: Leaf | Branch, known: tuple[str, ...]) -> Inpu
             f"{_shown(entry)} in {suffix!r}: not a unit of this quantity",
             " or ".join(spellings(same[0])),
         )
-    return unknown(entry.place, f"unknown key {written!r}", written, known)
+    near = closest(key, (*known, *_OF_ANY_FILE), 0.6)
+    if near:  # in the unit that was written, where the quantity may have it
+        near = in_unit_of(written, near)
+        return entry.place.error(f"unknown key {written!r}, did you mean {near!r}?")
+    return entry.place.error(f"unknown key {written!r}", f"one of: {', '.join(known)}")
 
 
 def unknown(place: Place, problem: str, word: str, known: tuple[str, ...]) -> InputError:
     """An error about a name, with the nearest of the known names or all of them."""
-    near = difflib.get_close_matches(word, known, n=1, cutoff=0.6)
-    if near:
-        return place.error(f"{problem}, did you mean {near[0]!r}?")
+    if near := closest(word, known, 0.6):
+        return place.error(f"{problem}, did you mean {near!r}?")
     return place.error(problem, f"one of: {', '.join(known)}")
 
 

@@ -6,6 +6,7 @@ because a number that was never converted by hand can be held against the book i
 
 from __future__ import annotations
 
+from difflib import get_close_matches
 from math import degrees, radians
 from typing import NamedTuple
 
@@ -72,3 +73,13 @@ def spellings(key: str) -> tuple[str, ...]:
     stem, _, suffix = key.rpartition("_")
     others = [name for name, unit in UNITS.items() if unit.si == suffix and stem]
     return (key, *(f"{stem}_{name}" for name in others))
+
+
+def in_unit_of(written: str, key: str) -> str:
+    """An SI key in the unit that a written key has or seems to have; else as it is."""
+    suffix = written.rpartition("_")[2].lower()
+    own = key.rpartition("_")[2]
+    units = [own, *(name for name, unit in UNITS.items() if unit.si == own)]
+    swapped = [one for one in units if sorted(one) == sorted(suffix)]
+    near = swapped or get_close_matches(suffix, units, 1)
+    return spellings(key)[units.index(near[0])] if near else key

@@ -49,12 +49,22 @@ def run_content(run: RunToShow, origin: tuple[float, float], moved: tuple[float,
         "title": run.recording.metadata.get("title", run.recording.metadata.get("test", "")),
         "blowouts": [{"t": event.time_s, "tires": list(event.tires)}
                      for event in run.recording.blowouts],
+        "rollover": _rollover(run.recording),
         "notes": list(run.recording.notes), "assumptions": [*notes, DRAWN],
         "vehicle": vehicle_shape(run.vehicle),
         "t0": float(run.motion.times_s[0]), "t1": float(run.motion.times_s[-1]),
         "n": int(run.motion.times_s.size),
         "motion": motion, "times": times, "channels": channels, "bytes": packer.text(),
     }
+
+
+def _rollover(recording: Recording) -> dict[str, Any] | None:
+    """Instant, unit and words of a rollover, which ends a simulated run."""
+    unit = recording.metadata.get("rolled_over_unit")
+    if not unit:
+        return None
+    time_s = float(recording.metadata["rolled_over_s"])
+    return {"t": time_s, "unit": unit, "words": f"the {unit} rolled over at {time_s:.2f} s"}
 
 
 def _motion(motion: Motion, packer: Packer, origin: tuple[float, float],

@@ -11,12 +11,12 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
-from difflib import get_close_matches
 from fnmatch import fnmatchcase
 from typing import Any
 
 from truck_blowout_sim.errors import InputError, quoted
 from truck_blowout_sim.simulation.scenario_schema import ScenarioSpec
+from truck_blowout_sim.simulation.studies.suggesting import suggestion
 from truck_blowout_sim.vehicle import Packed
 from truck_blowout_sim.vehicle.document import Branch, Leaf, Place
 from truck_blowout_sim.vehicle.fields import rules
@@ -27,6 +27,7 @@ from truck_blowout_sim.vehicle.schema.vehicle import VehicleSpec
 from truck_blowout_sim.vehicle.units import si_key
 
 SCENARIO, VEHICLE, PARAMETER, FILE = "scenario", "vehicle", "parameter", "file"
+FILE_KEY = "vehicle"  # the word that stands for the vehicle file itself
 # Keys of a vehicle file that name another file: its kind and its schema.
 _NAMED: dict[str, tuple[str, type[Any]]] = {
     "tires": ("tires", TireSpec), "blowout": ("blowout", BlowoutSpec), "road": ("roads", RoadSpec),
@@ -64,13 +65,20 @@ class Key:
         return tree
 
 
-def find_key(text: str, scenario: Branch, vehicle: Branch, packed: Packed) -> Key:
+def find_key(text: str, scenario: Branch, vehicle: Branch, packed: Packed, *,
+             suggest: bool = True) -> Key:
     """Find a key in the files of a study.
+
+    Args:
+        text: the key as written.
+        scenario, vehicle: the files.
+        packed: the vehicle, packed.
+        suggest: look for the nearest key if there is none.
 
     Raises:
         InputError: no such key, with the nearest one; or both files have it.
     """
-    if text == "vehicle":
+    if text == FILE_KEY:
         return Key(text, FILE, ((),), numeric=False)
     word, _, rest = text.partition(".")
     trees = {SCENARIO: (scenario, ScenarioSpec), VEHICLE: (vehicle, VehicleSpec)}
@@ -88,14 +96,31 @@ def find_key(text: str, scenario: Branch, vehicle: Branch, packed: Packed) -> Ke
         return found[0]
     if text in packed.index:
         return Key(text, PARAMETER, ((text,),))
+    if not suggest:
+        raise InputError(f"no key {quoted(text)}")
     raise _unknown(text, scenario, vehicle, packed)
 
 
 def _unknown(text: str, scenario: Branch, vehicle: Branch, packed: Packed) -> InputError:
-    known = {".".join(path) for tree, schema in ((scenario, ScenarioSpec), (vehicle, VehicleSpec))
-             for path in _leaves(tree, schema)}
-    near = get_close_matches(text, [*known, *packed.index], n=1, cutoff=0.6)
-    hint = f", did you mean {near[0]!r}?" if near else ""
+    def is_key(key: str) -> bool:
+        try:
+            find_key(key, scenario, vehicle, packed, suggest=False)
+        except InputError:
+            return False
+        return True
+
+    trees = {SCENARIO: (scenario, ScenarioSpec), VEHICLE: (vehicle, VehicleSpec)}
+    word, _, rest = text.partition(".")
+    known = [".".join(path) for where, (tree, schema) in trees.items()
+             for path in _leaves(tree, schema) if word not in trees or word == where]
+    if word != SCENARIO:
+        known += [".".join(path) for path in _leaves_of_named(vehicle)]
+    if word in trees:
+        near = suggestion(rest, known, lambda key: is_key(f"{word}.{key}"))
+        near = f"{word}.{near}" if near else ""
+    else:
+        near = suggestion(text, [FILE_KEY, *known, *packed.index], is_key)
+    hint = f", did you mean {near!r}?" if near else ""
     return InputError(f"--vary {quoted(text)}: no such key{hint}", expected=None if near else
                       "a key of the scenario, vehicle, tire, blowout or road file")
 
@@ -165,6 +190,17 @@ def _leaves(tree: Branch, schema: type[Any], before: tuple[str, ...] = ()
                     yield from _leaves(entry, rule.section, (*before, name, key))
         else:
             yield (*before, name)
+
+
+def _leaves_of_named(vehicle: Branch) -> Iterable[tuple[str, ...]]:
+    """Paths of every key of the files that a vehicle file names."""
+    for word, (_, schema) in _NAMED.items():
+        below = vehicle.entries.get(word)
+        places: list[tuple[str, ...]] = [(word,)]
+        if word == "tires":
+            names = below.entries if isinstance(below, Branch) else ()
+            places = [(word, name) for name in names]
+        yield from ((*place, key) for place in places for key in rules(schema))
 
 
 def _leaf(value: float | str, factor: float, place: Place) -> Leaf:

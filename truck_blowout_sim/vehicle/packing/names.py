@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from difflib import get_close_matches
 from typing import Any
 
-from truck_blowout_sim.errors import InputError
+from truck_blowout_sim.errors import InputError, closest
 from truck_blowout_sim.physics import layout
 from truck_blowout_sim.physics.tires.lanes import tire_offset
 from truck_blowout_sim.vehicle.document import Place
@@ -15,6 +14,7 @@ from truck_blowout_sim.vehicle.schema.axle import CIRCUITS
 from truck_blowout_sim.vehicle.vehicle import Vehicle
 
 LONGEST_NAME = 120  # nobody meant a longer one, and comparing it with all others takes time
+_SIMILAR = 0.6  # least share of equal letters of a name that was meant
 
 
 @dataclass(frozen=True)
@@ -86,12 +86,12 @@ def unknown_parameter(place: Place, name: str, index: Mapping[str, int]) -> Inpu
     # the same field elsewhere, else the nearest block, and in it the nearest field
     blocks = dict.fromkeys(block for block, _, one in parts if one == field)
     blocks = blocks or dict.fromkeys(block for block, _, _ in parts)
-    near = [prefix] if prefix in blocks else get_close_matches(prefix or name, blocks, n=1)
+    near = prefix if prefix in blocks else closest(prefix or name, blocks, _SIMILAR)
     if not near:
         same = [key for key, (_, _, one) in zip(index, parts, strict=True) if one == field]
         how = "one of: " if same else "a name that begins with one of: "
         return place.error(problem, how + ", ".join(same or blocks))
-    fields = [one for block, _, one in parts if block == near[0]]
-    if close := get_close_matches(field, fields, n=1):
-        return place.error(f"{problem}, did you mean {f'{near[0]}.{close[0]}'!r}?")
-    return place.error(problem, "one of: " + ", ".join(f"{near[0]}.{one}" for one in fields))
+    fields = [one for block, _, one in parts if block == near]
+    if close := closest(field, fields, _SIMILAR):
+        return place.error(f"{problem}, did you mean {f'{near}.{close}'!r}?")
+    return place.error(problem, "one of: " + ", ".join(f"{near}.{one}" for one in fields))

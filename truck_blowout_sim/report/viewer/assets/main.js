@@ -87,10 +87,14 @@ class App {
     scrub.oninput = () => this.seek(+scrub.value, true);
     $('speed').onchange = () => { this.speed = +$('speed').value; };
     $('marks').innerHTML = this.runs.flatMap(r => r.blowouts).map(b =>
-      `<i style="left:${100 * (b.t - this.start) / (this.end - this.start)}%" title="blown: ${escape_(b.tires.join(', '))}"></i>`).join('');
+      `<i style="left:${100 * (b.t - this.start) / (this.end - this.start)}%" title="blown: ${escape_(b.tires.join(', '))}"></i>`).join('')
+      + this.rollovers().map(o =>
+        `<i class="over" style="left:${100 * Math.min((o.t - this.start) / (this.end - this.start), 1)}%" title="${escape_(o.words)}"></i>`).join('');
     addEventListener('keydown', e => this.key(e));
     this.arrange();
   }
+
+  rollovers() { return this.runs.map(r => r.rollover).filter(o => o); }
 
   key(e) {
     if (e.target.matches('input:not([type=range]), select, textarea')) return;
@@ -99,6 +103,7 @@ class App {
     else if (e.key in steps) { e.preventDefault(); this.seek(this.t + steps[e.key], true); }
     else if (e.key === 'Home') this.seek(this.start, true);
     else if (e.key === 'b') this.seek(Math.min(...this.runs.flatMap(r => r.blowouts.map(b => b.t))), true);
+    else if (e.key === 'r' && this.rollovers().length) this.seek(Math.min(...this.rollovers().map(o => o.t)), true);
     else if (e.key === 'f') { this.eye.follow = !this.eye.follow; this.followChoice.value = this.eye.follow ? 'yes' : 'no'; }
     else if (/^[1-6]$/.test(e.key)) { const v = Object.keys(VIEWS)[e.key - 1]; this.viewChoice.value = v; this.view(v); }
   }
@@ -107,7 +112,7 @@ class App {
     $('about').querySelector('div').innerHTML = this.runs.map(run => `<h3>${escape_(run.name)}</h3>`
       + `<p>${escape_(run.title)}</p><p>Vehicle: ${escape_(run.vehicle.title)} (${escape_(run.vehicle.name)})</p><ul>`
       + [...run.notes, ...run.assumptions].map(a => `<li>${escape_(a)}</li>`).join('') + '</ul>').join('')
-      + '<p>Keys: space plays, arrows step 0.1 s, comma and dot 0.02 s, b goes to the blowout, 1 to 6 choose'
+      + '<p>Keys: space plays, arrows step 0.1 s, comma and dot 0.02 s, b goes to the blowout, r to a rollover, 1 to 6 choose'
       + ' the camera, f frees it. Drag turns the view, the wheel comes closer, the right button shifts.'
       + ' In a plot: drag moves the cursor, the wheel spreads time, a double click shows all.</p>'
       + '<p>Drawn with three.js ' + '(MIT license, © three.js authors).</p>';
@@ -132,6 +137,7 @@ class App {
       + (arrows && this.forces ? '<span><i style="background:#0091d5"></i>1 m = 5 kN on the road</span>'
         + '<span><i style="background:#52b788"></i>1 m = 20 kN upward</span>' : '')
       + '<span><i style="background:#d94f1e"></i>blown tire</span>'
+      + (this.rollovers().length ? '<span><i style="background:#8b3fa8"></i>rollover</span>' : '')
       + `<span>grid ${this.world.step} m</span>`;
   }
 
@@ -174,7 +180,9 @@ class App {
       say(sae * get('steering_wheel_angle_rad') * degrees, 0, 'deg hand wheel');
       say(sae * get('articulation_rad') * degrees, 1, 'deg articulation');
       const flat = run.blowouts.filter(b => b.t <= this.t).flatMap(b => b.tires);
-      return `<div>${escape_(run.name)}: ${parts.join(' · ')}${flat.length ? ` · <b>${escape_(flat.join(', '))} blown</b>` : ''}</div>`;
+      const over = run.rollover && this.t >= Math.min(run.rollover.t, run.t1) - 0.005;
+      const events = [...(flat.length ? [`${flat.join(', ')} blown`] : []), ...(over ? [run.rollover.words] : [])];
+      return `<div>${[`${escape_(run.name)}: ${parts.join(' · ')}`, ...events.map(e => `<b>${escape_(e)}</b>`)].join(' · ')}</div>`;
     });
     $('readout').innerHTML = rows.join('');
   }

@@ -117,6 +117,12 @@ class Plots {
       if (e.t < t0 || e.t > t1) continue;
       g.beginPath(); g.moveTo(X(e.t), s.y0); g.lineTo(X(e.t) - 5, s.y0 + 8); g.lineTo(X(e.t) + 5, s.y0 + 8); g.fill();
     }
+    g.fillStyle = '#8b3fa8';
+    for (const o of this.app.rollovers()) {
+      if (o.t < t0 || o.t > t1 + 0.01) continue;
+      const x = X(Math.min(o.t, t1));
+      g.beginPath(); g.moveTo(x, s.y0); g.lineTo(x - 5, s.y0 + 8); g.lineTo(x + 5, s.y0 + 8); g.fill();
+    }
     g.save(); g.beginPath(); g.rect(s.x0, s.y1 - 2, s.x1 - s.x0, s.y0 - s.y1 + 4); g.clip();
     for (const q of curves) trace(g, q, X, Yp, t0, t1, s.x1 - s.x0);
     g.restore();

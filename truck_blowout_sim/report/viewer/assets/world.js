@@ -86,13 +86,11 @@ class World {
       group.add(ribbon(u, run.n, k ? 0.05 : 0.09, COLORS[number % COLORS.length], k ? 0.45 : 0.85,
         0.02 + 0.004 * number));
     });
-    for (const event of run.blowouts) {
-      const p = pose(run, Object.keys(run.motion.units)[0], instant(run, event.t));
-      const bar = new Solid(), c = Math.cos(p.yaw), s = Math.sin(p.yaw);
-      bar.face([[-0.08, -4], [0.08, -4], [0.08, 4], [-0.08, 4]]
-        .map(([a, b]) => [p.x + a * c - b * s, p.y + a * s + b * c, 0.03]), 0xd94f1e);
-      group.add(bar.mesh(new THREE.MeshBasicMaterial({color: 0xd94f1e})));
-      group.add(label('blowout', p.x - 4.7 * -s * 1, p.y + 4.7 * c, 0.5));
+    const [first] = Object.keys(run.motion.units);
+    for (const event of run.blowouts) markRoad(group, pose(run, first, instant(run, event.t)), 'blowout', 0xd94f1e);
+    if (run.rollover) {
+      const at = instant(run, run.rollover.t);
+      markRoad(group, pose(run, run.rollover.unit, at), 'rollover', 0x8b3fa8);
     }
     this.scene.add(group);
     return group;
@@ -129,13 +127,22 @@ function ribbon(u, n, half, color, opacity, z) {
     depthWrite: false, side: THREE.DoubleSide, forceSinglePass: true}));
 }
 
-function label(text, x, y, height) {
+// A bar across the road where something happened, with its name beside it.
+function markRoad(group, p, words, color) {
+  const bar = new Solid(), c = Math.cos(p.yaw), s = Math.sin(p.yaw);
+  bar.face([[-0.08, -4], [0.08, -4], [0.08, 4], [-0.08, 4]]
+    .map(([a, b]) => [p.x + a * c - b * s, p.y + a * s + b * c, 0.03]), color);
+  group.add(bar.mesh(new THREE.MeshBasicMaterial({color})));
+  group.add(label(words, p.x - 4.7 * s, p.y + 4.7 * c, 0.5, color));
+}
+
+function label(text, x, y, height, color) {
   const canvas = document.createElement('canvas');
   canvas.width = 256; canvas.height = 64;
   const c = canvas.getContext('2d');
   c.font = '600 40px system-ui, sans-serif'; c.textAlign = 'center'; c.textBaseline = 'middle';
   c.lineWidth = 8; c.strokeStyle = 'rgba(255,255,255,.85)'; c.strokeText(text, 128, 32);
-  c.fillStyle = '#b8400f'; c.fillText(text, 128, 32);
+  c.fillStyle = '#' + color.toString(16).padStart(6, '0'); c.fillText(text, 128, 32);
   const map = new THREE.CanvasTexture(canvas);
   map.colorSpace = THREE.SRGBColorSpace;
   const sprite = new THREE.Sprite(new THREE.SpriteMaterial({map, transparent: true}));
