@@ -2,7 +2,8 @@
 
 A prediction lets the numbers of the sheet follow what is named; a vehicle file has one value of
 each, and is driven where the model is no longer linear. So the last that was named is taken back as
-long as the vehicle with it predicts the unseen runs that can show it worse than the calibrated one.
+long as the vehicle with it predicts the unseen runs that can show it worse than the calibrated one,
+and no channel clearly better: what acts shows somewhere.
 
 References: Stone 1974 (a model is judged by what it predicts).
 Known limits: an event begins at another instant in each run, so a case with one is not asked; an
@@ -19,6 +20,8 @@ from truck_blowout_sim.diagnosis.name.trial import Fate
 from truck_blowout_sim.diagnosis.prove.unseen import gained
 from truck_blowout_sim.vehicle import Packed
 
+_CLEARLY = 0.7  # of a logarithm: half of the squares
+
 
 def take_back(study: Study, found: Found, given: Packed) -> None:
     """Keep of ``found`` what makes the unseen runs better when its vehicle is driven.
@@ -34,9 +37,9 @@ def take_back(study: Study, found: Found, given: Packed) -> None:
         without = without or diagnosed_truck(study, given, found.models_null, ())
         with_them = diagnosed_truck(study, given, study.models, named)
         gain = gained(study, runs, without.packed, with_them.packed)
-        if gain > 0.0:
+        if gain.all_channels > 0.0 or gain.best > _CLEARLY:
             return
-        note(found, found.named.pop(), Fate("driven", gain))
+        note(found, found.named.pop(), Fate("driven", gain.all_channels))
         found.rivals.pop()
         named.pop()
         study.models, found.after = predict_with(study, named)

@@ -9,6 +9,7 @@ Validated with: test/diagnosis/test_driving.py.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,10 +22,22 @@ Floats = NDArray[np.float64]
 _FLAWLESS = 0.25  # of what is usually left: no prediction is better than that
 
 
-def gained(study: Study, runs: Sequence[int], before: Packed, after: Packed) -> float:
-    """Log-likelihood gained on unseen runs, twice, by driving one truck and not the other.
+@dataclass(frozen=True)
+class Gain:
+    """What driving one truck and not another does on unseen runs.
 
-    The scale of each channel's error is its own: one that is off most does not outvote the others.
+    Attributes:
+        all_channels: log-likelihood gained, twice. The scale of each channel's error is its own:
+            one that is off most does not outvote the others.
+        best: logarithm by which the squares of the channel fall that gains most.
+    """
+
+    all_channels: float
+    best: float
+
+
+def gained(study: Study, runs: Sequence[int], before: Packed, after: Packed) -> Gain:
+    """What the second truck gains over the first.
 
     Args:
         study: the case.
@@ -32,13 +45,14 @@ def gained(study: Study, runs: Sequence[int], before: Packed, after: Packed) -> 
         before: one truck; ``after``: the other.
     """
     least = _FLAWLESS * study.level
-    gain = 0.0
+    gain, best = 0.0, -np.inf
     first, then = (_left(study, runs, truck) for truck in (before, after))
     for k, one, other in zip(runs, first, then, strict=True):
         count = np.isfinite(study.holdout[k].measured).sum(axis=0)
         floor = least * np.maximum(count, 1)
-        gain += float(np.sum(count * np.log(np.maximum(one, floor) / np.maximum(other, floor))))
-    return gain
+        fall = np.log(np.maximum(one, floor) / np.maximum(other, floor))
+        gain, best = gain + float(count @ fall), max(best, float(fall.max()))
+    return Gain(gain, best)
 
 
 def _left(study: Study, which: Sequence[int], truck: Packed) -> list[Floats]:
