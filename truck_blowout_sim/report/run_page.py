@@ -115,7 +115,7 @@ def _above(run: Recording, motion: Motion, vehicle: Vehicle) -> Picture:
 
 def _reach(axes: Axes, least: float) -> tuple[float, float]:
     """Limits that hold every part drawn so far, at least so far to either side."""
-    drawn = np.concatenate([patch.get_path().vertices[:, 1] for patch in axes.patches])
+    drawn = np.concatenate([np.asarray(patch.get_path().vertices)[:, 1] for patch in axes.patches])
     return min(-least, float(drawn.min()) - 0.5), max(least, float(drawn.max()) + 0.5)
 
 
