@@ -63,12 +63,7 @@ def command(
 
     _check_view(camera)
     inputs = logs.inputs(*runs)
-    page = output or Path(f"{Path(runs[0].rstrip('/')).stem}.html")
-    if page.suffix.lower() not in (".html", ".htm"):
-        raise InputError(f"--output {quoted(str(page))}", expected="a name that ends in .html")
-    if page.is_dir():
-        raise InputError("is a folder", file=page, expected="a file to write")
-    target = claim(page, force=force, inputs=inputs)
+    target = claim(_page(output, runs[0]), force=force, inputs=inputs)
     check_span(start_s, end_s)
     if video is not None:
         if video.suffix != ".mp4":
@@ -93,6 +88,16 @@ def command(
     say(as_json, result, lines)
     if open_page:
         webbrowser.open(target.resolve().as_uri())
+
+
+def _page(output: Path | None, run: str) -> Path:
+    """File to write: as asked, else named after the run."""
+    page = output or Path(f"{Path(run.rstrip('/')).stem}.html")
+    if page.suffix.lower() not in (".html", ".htm"):
+        raise InputError(f"--output {quoted(str(page))}", expected="a name that ends in .html")
+    if page.is_dir():
+        raise InputError("is a folder", file=page, expected="a file to write")
+    return page
 
 
 def _check_view(camera: str) -> None:
