@@ -34,7 +34,6 @@ from truck_blowout_sim.diagnosis.model.vehicle import (
     driven_fit,
 )
 from truck_blowout_sim.diagnosis.name.candidates import known_names
-from truck_blowout_sim.diagnosis.name.driving import take_back
 from truck_blowout_sim.diagnosis.name.judging import Found, not_taken_back
 from truck_blowout_sim.diagnosis.name.search import search
 from truck_blowout_sim.diagnosis.prove.intervals import Timing, time_intervals
@@ -98,9 +97,7 @@ def diagnose(recordings: Sequence[Recording], *, baseline: Sequence[Recording] =
     def searched(gate: GateResult) -> tuple[Study, Found]:
         study = case.study(gate)
         calibrate(study, progress=progress)
-        found = search(study, progress, effort.most_effects)
-        take_back(study, found, packed)
-        return study, found
+        return study, search(study, progress, effort.most_effects)
 
     study, found = searched(gate)
     believed = not_taken_back(gate, found)

@@ -63,6 +63,7 @@ class Settings:
         calm_below_mps2, calm_share: on straighter courses less than ``unknown_delta`` is asked
             for, down to that share where nothing turns.
         forms: by effect, instead of ``form_share``, where laws of its kind differ more.
+        expected_level: sum of squares a row if nothing is missing.
         unknown_delta: what a wrench that nothing named explains must buy to be a missing effect.
         lag_delta, posture_delta: what one wheel's lag, a body's stand must buy to be told.
         beat_turn, beat_tone: score from which on something beats once per wheel turn, or steadily.
@@ -79,6 +80,7 @@ class Settings:
     correlation_s: float
     swing_s: float
     false_alarms: float
+    expected_level: float
     unknown_delta: float
     lag_delta: float
     posture_delta: float

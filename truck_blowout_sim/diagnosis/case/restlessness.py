@@ -82,14 +82,13 @@ def _no_calmer_than_guessed(covariance: Floats) -> Color:
 
 
 def resting_level(study: Study) -> float:
-    """Mean square that the fit leaves a whitened row of the runs that show the colors, 1 at most.
+    """Mean square that the fit leaves a row of training once its color is out, 1 at most.
 
     Less than 1 where channels are calmer than the guess.
     """
-    residual, projector, rows = study.residual(), study.projector(), row_ranges(study)
+    residual, projector = study.residual(), study.projector()
     left = residual - projector.explained(projector.amounts(residual))
-    shown = np.concatenate([left[rows[i]] for i in study.baseline or study.train])
-    return min(float(np.mean(np.square(shown))), 1.0)
+    return min(float(np.mean(np.square(left))), 1.0)
 
 
 def whiten(study: Study) -> None:

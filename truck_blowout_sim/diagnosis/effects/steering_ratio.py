@@ -14,8 +14,8 @@ _SPLITS = "the path, or the yaw rate over speed, against the hand wheel below 5 
 
 EFFECT = Effect(
     name="steering_ratio",
-    amount=Amount("ratio_factor", "1", step=0.05, low=-0.6, high=3.0, material=0.06,
-                  report=lambda a: 1.0 + a, grid=(-0.15, 0.15, 1.0)),
+    amount=Amount("ratio_factor", "1", step=0.05, low=-0.5, high=1.0, material=0.06,
+                  report=lambda a: 1.0 + a, grid=(-0.15, 0.15)),
     places=steered_axle,
     values=lambda packed, place, a: scaled(packed, ("steering.ratio",), a),
     sentence="The hand wheel must turn {value} times as far as the sheet's ratio says for the same "

@@ -99,10 +99,9 @@ def rank_steady(study: Study, candidates: Sequence[Hypothesis],
         held = study.meaning(candidate)
         removed = cleaned[held] if held in cleaned else projector.remove(residual)
         cleaned[held] = removed
-        found, explains = max(
-            ((score(projector, removed, one, amount.low - at, amount.high - at), one)
-             for one in (column * trained, *far.get(candidate.form, ()))),
-            key=lambda s: s[0].delta)
+        found = max((score(projector, removed, one, amount.low - at, amount.high - at)
+                     for one in (column * trained, *far.get(candidate.form, ()))),
+                    key=lambda s: s.delta)
         fall = max(found.delta - (float(residual @ removed) - free), 0.0)
         ranked.append(Ranked(candidate.at(at + found.amount), fall, found.sigma, evidence=fall,
                              promise=found.delta))
@@ -112,7 +111,7 @@ def rank_steady(study: Study, candidates: Sequence[Hypothesis],
             candidate.effect.strays(study.packed, study.grip_used),
             (amount.low - at, amount.high - at))
         questions.append((candidate.key, question))
-        shown.append(question.shown(removed - found.amount * projector.remove(explains))
+        shown.append(question.shown(removed - found.amount * projector.remove(column * trained))
                      if question else None)
     scatter = Scatter.of([one for one in shown if one])
     ranked = [replace(r, support=scatter.support(one)) if one else r

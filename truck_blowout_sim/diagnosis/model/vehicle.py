@@ -9,7 +9,7 @@ unless it is what was named.
 References: Gauss-Newton with shortened steps (Nocedal and Wright 2006, section 10.3).
 Known limits: one step. To go on from there made speeds of unseen runs better and yaw rates worse,
 as the amounts of what is named were not fitted with it.
-Validated with: test/diagnosis/test_diagnose_cli.py, test/diagnosis/test_driving.py.
+Validated with: test/diagnosis/test_diagnose_cli.py, test/diagnosis/test_diagnosed_truck.py.
 """
 
 from __future__ import annotations

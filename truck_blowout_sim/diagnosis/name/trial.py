@@ -11,7 +11,7 @@ from typing import Literal
 from truck_blowout_sim.diagnosis.fit.attribute import Ranked
 
 Rule = Literal["accepted", "refit", "support", "instant", "bound", "remainder", "explains",
-               "predicts", "holdout", "driven"]
+               "predicts", "holdout"]
 _WORDS: dict[Rule, str] = {
     "accepted": "accepted",
     "refit": "not refitted: others explain more",
@@ -22,7 +22,6 @@ _WORDS: dict[Rule, str] = {
     "explains": "explains {value:.0f}, another {limit:.0f}",
     "predicts": "explains as much, predicts less",
     "holdout": "does not predict the holdout better ({value:+.1f})",
-    "driven": "its vehicle, driven over the holdout, predicts it worse ({value:+.1f})",
 }
 
 
