@@ -28,8 +28,8 @@ def test_where_driving_confirms_nothing_the_reference_stays(
     study = study_of({MASS: 1.03 * truck[MASS]})
     usual, asked = vehicle._left, []
 
-    def never_better(study: Study, models: object, amounts: object) -> float:
-        asked.append(usual(study, models, amounts))  # type: ignore[arg-type]
+    def never_better(study: Study, *given: object) -> float:
+        asked.append(usual(study, *given))  # type: ignore[arg-type]
         return float(len(asked))
 
     monkeypatch.setattr(vehicle, "_left", never_better)

@@ -66,7 +66,7 @@ def test_a_restless_channel_is_widened_in_every_run_with_its_columns(study_of: S
 @pytest.mark.parametrize("baseline", [True, False])
 def test_a_calm_truck_keeps_the_guess(study_of: Studies, baseline: bool) -> None:
     study = study_of(baseline=baseline)
-    assert max(width(study, name) for name in colors(study)) < 1.15
+    assert max(width(study, name) for name in colors(study)) < 1.1
     assert min(width(study, name) for name in colors(study)) > 0.999
     assert 0.0 < resting_level(study) <= 1.0
 

@@ -104,10 +104,12 @@ def _asked_for(study: Study, models: Sequence[Floats], named: Sequence[Hypothesi
         residual, usual - FURTHEST, usual + FURTHEST).tolist(), strict=True))
     here = np.array([study.amounts.get(name, 0.0) for name in sheet])
     way = np.array([asked.get(name, at) for name, at in zip(sheet, here, strict=True)]) - here
-    least = _left(study, models, here)
+    instruments = Projector.of(study.columns, range(len(sheet), study.columns.shape[1]))
+    least = _left(study, instruments, models, here)
     for share in _SHARES:
         there = here + share * way
-        if _left(study, _driven(study, _moved(study, there), named), there) < least:
+        driven = _driven(study, _moved(study, there), named)
+        if _left(study, instruments, driven, there) < least:
             here = there
             break
     return dict(zip(sheet, here.tolist(), strict=True))
@@ -128,14 +130,14 @@ def _driven(study: Study, truck: Packed, named: Sequence[Hypothesis]) -> list[Fl
                                               run.recording.name)) for run in study.runs])
 
 
-def _left(study: Study, models: Sequence[Floats], amounts: Floats) -> float:
+def _left(study: Study, instruments: Projector, models: Sequence[Floats], amounts: Floats
+          ) -> float:
     """Sum of squares that instruments and starts leave, and what the priors say of the amounts."""
     sheet = [number.name for number in study.settings.nuisances]
     here = np.array([study.amounts.get(name, 0.0) for name in sheet])
     # the runs were shifted by what the columns say of the reference, so that amounts count from
     # the sheet: a truck that is driven has its own already
     residual = study.residual(dict(enumerate(models))) - study.columns[:, :len(sheet)] @ here
-    instruments = Projector.of(study.columns, range(len(sheet), study.columns.shape[1]))
     left = instruments.chi2(residual) + float(amounts @ amounts)
     return left if np.isfinite(left) else float("inf")
 
