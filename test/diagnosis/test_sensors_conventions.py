@@ -55,6 +55,17 @@ def test_a_reading_that_is_not_as_stated_is_named(
     assert names(change(RUN)) == [(name, channels)]
 
 
+@pytest.mark.parametrize("change", [
+    inverted("tractor_ay_mps2"), exchanged("tractor_roll_rate_radps", "tractor_pitch_rate_radps"),
+])  # fmt: skip
+def test_sound_baseline_runs_do_not_hide_it(change: Callable[[Recording], Recording]) -> None:
+    """What baseline runs would lose by the other reading is no sign of a delay."""
+    gate = sensor_gate([change(RUN)], [make_run(21, 15.0)])
+    assert [f.name for f in gate.findings] == ["channel_" + (
+        "swap" if change.__qualname__.startswith("exchanged") else "sign")]
+    assert not gate.findings[0].in_baseline
+
+
 def test_gravity_that_is_said_to_be_removed_and_is_not() -> None:
     assert [name for name, _ in names(gravity(RUN))] == ["gravity_convention"]
 

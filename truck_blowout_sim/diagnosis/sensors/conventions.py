@@ -148,23 +148,22 @@ class _Log:
         return total + _steered(signals) - _steered(self.signals) + (
             _forward(signals) - _forward(self.signals))
 
-    def merely_late(self, convention: Convention) -> bool:
-        """Whether a delay of one channel does as well as another sign or axis."""
-        touched = self._touched(convention)
-        here = self.log_ratio(convention)
-        late = {c for i in touched for c in i.channels if c in self.signals}
-        return any(self._late_gain(channel, delay_s, touched) > here
-                   for channel in sorted(late) for delay_s in _DELAYS_S.tolist())  # fmt: skip
+    def concerned(self, convention: Convention) -> set[str]:
+        """Recorded channels of all identities that another reading changes."""
+        return {c for i in self._touched(convention) for c in i.channels if c in self.signals}
 
-    def _late_gain(self, channel: str, delay_s: float, touched: Sequence[Identity]) -> float:
-        """Log likelihood ratio with a channel read that much earlier."""
+    def late_gain(self, channel: str, delay_s: float, convention: Convention) -> float:
+        """Log likelihood ratio with a channel read that much earlier.
+
+        Of the identities that the other reading changes.
+        """
         step = round(delay_s / self.signals.period_s)
         if step == 0:
             return 0.0
         early = np.concatenate([self.signals[channel][step:], np.full(step, np.nan)])
         signals = self.signals.with_values({channel: early})
         return sum(_gain(self.left[i.name], _left(i, signals, self.windows), self.windows)
-                   for i in touched if channel in i.channels)  # fmt: skip
+                   for i in self._touched(convention) if channel in i.channels)  # fmt: skip
 
 
 def _best(logs: Sequence[_Log], is_baseline: NDArray[np.bool_]) -> FoundConvention | None:
@@ -183,10 +182,20 @@ def _best(logs: Sequence[_Log], is_baseline: NDArray[np.bool_]) -> FoundConventi
     scored.sort(key=lambda item: (-item[0], item[1]))
     ratio, _, convention, everywhere = scored[0]
     needed = float(np.log(len(tried) / _FAMILY_P))
-    if ratio < needed or any(log.merely_late(convention) for log in logs):
+    faulty = [log for log, baseline in zip(logs, is_baseline.tolist(), strict=True)
+              if everywhere or not baseline]
+    if ratio < needed or _merely_late(faulty, convention):
         return None
     rivals = tuple(c for r, _, c, _ in scored[1:] if ratio - r < _ALIAS)
     return FoundConvention(convention, everywhere, ratio, len(tried), rivals)
+
+
+def _merely_late(logs: Sequence[_Log], convention: Convention) -> bool:
+    """Whether a delay of one channel does as well as another sign or axis, over all logs."""
+    here = sum(log.log_ratio(convention) for log in logs)
+    channels = sorted(set.union(*(log.concerned(convention) for log in logs)))
+    return any(sum(log.late_gain(channel, delay_s, convention) for log in logs) > here
+               for channel in channels for delay_s in _DELAYS_S.tolist())
 
 
 def _readings(present: set[str]) -> list[Convention]:
