@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from truck_blowout_sim.diagnosis.case.color import Color
 from truck_blowout_sim.diagnosis.case.trust import BRAKES_ON_PA, wider
-from truck_blowout_sim.diagnosis.case.widths import swings, widths
+from truck_blowout_sim.diagnosis.case.widths import rms_around, swings, widths
 from truck_blowout_sim.diagnosis.result.evidence import Role
 from truck_blowout_sim.diagnosis.sensors import Noise, channel_noise
 from truck_blowout_sim.diagnosis.settings import Settings
@@ -148,9 +148,13 @@ class Run:
         return np.minimum(rows, n_rows)
 
     def weighed(self, model: Floats, settings: Settings) -> Run:
-        """This run, its widths those of the motion that it and a model [n, m] both have."""
+        """This run, its widths those of the motion that it and a model [n, m] both have.
+
+        Its correction is still that for the coarse step.
+        """
         swing = np.minimum(swings(model, settings), swings(self.measured, settings))
-        sigma = widths(self.channels, self.noise, swing, self.wider, settings)
+        sigma = widths(self.channels, self.noise, swing, self.wider, settings,
+                       rms_around(self.correction, settings))
         return replace(self, swing=swing, sigma=np.where(np.isfinite(self.sigma), sigma, np.nan))
 
     def residual(self, model: Floats) -> Floats:

@@ -1,6 +1,9 @@
 """How far good models of one vehicle may differ in each bin: the widths, first guess.
 
-    sigma^2 = noise^2 + w^2 (floor^2 + (relative swing)^2) correlation / bin
+    sigma^2 = noise^2 + (w^2 (floor^2 + (relative swing)^2) + step^2) correlation / bin
+
+Step is what a finer step changes in the model, rms over half a maneuver: where friction sticks and
+slips, no step is fine enough for two simulations to agree.
 
 The swing is the rms, over half a maneuver, of how far the *model's* signal is from its median. A
 model that is late is off most where its signal passes zero, so the swing of one bin would be wrong.
@@ -33,22 +36,29 @@ def swings(signals: Floats, settings: Settings) -> Floats:
     middle = np.array([np.median(one[seen]) if seen.any() else 0.0
                        for one, seen in zip(signals.T, known.T, strict=True)])
     away = np.where(known, np.nan_to_num(signals) - middle, 0.0)
+    return rms_around(away, settings)
+
+
+def rms_around(values: Floats, settings: Settings) -> Floats:
+    """[n, m] rms of values [n, m] over half a maneuver around each bin."""
     bins = max(round(settings.swing_s / settings.bin_s), 1)
-    squares = uniform_filter1d(np.square(away), bins, axis=0, mode="nearest")
+    squares = uniform_filter1d(np.square(values), bins, axis=0, mode="nearest")
     return np.sqrt(np.maximum(squares, 0.0))  # its running sums leave less than nothing
 
 
 def widths(channels: Sequence[str], noise: Floats, swing: Floats, wider: Floats,
-           settings: Settings) -> Floats:
+           settings: Settings, step: Floats | float = 0.0) -> Floats:
     """[n, m] standard error of each bin of each channel.
 
     Args:
         channels: names, m of them; ``noise``: [n, m] standard errors of the instrument alone.
         swing: [n, m] of the model's signal; ``wider``: [n] factor on what models differ by.
+        settings: floors and shares; ``step``: [n, m] rms of what a finer step changes.
     """
     floor, relative = _rules(channels, settings)
     lasts = np.sqrt(settings.correlation_s / settings.bin_s)
-    return np.asarray(np.hypot(noise, wider[:, None] * lasts * np.hypot(floor, relative * swing)))
+    models = np.hypot(wider[:, None] * np.hypot(floor, relative * swing), step)
+    return np.asarray(np.hypot(noise, lasts * models))
 
 
 def _rules(channels: Sequence[str], settings: Settings) -> tuple[Floats, Floats]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,31 +21,8 @@ Floats = NDArray[np.float64]
 _WIDE = 0.25  # of its bound: an event is rarely as strong as can be
 
 
-@dataclass(frozen=True, eq=False)
-class Seconds:
-    """The responses of all runs to a force over each second, and what they show.
-
-    Attributes:
-        windows: what they show.
-        columns: [rows, n] by run, each of the seconds in this run.
-        solved: [m, n] what the nuisances do in all of them, see :meth:`Projector.solve`.
-        projector: of the nuisances.
-    """
-
-    windows: Windows
-    columns: Mapping[int, Floats]
-    solved: Floats
-    projector: Projector
-
-    def seen_of(self, study: Study, vector: Floats) -> Floats:
-        """[n] w_i' C^-1 v of a vector over all rows."""
-        rows = row_ranges(study)
-        own = np.concatenate([column.T @ vector[rows[i]] for i, column in self.columns.items()])
-        return np.asarray(own - self.solved.T @ self.projector.reach(vector))
-
-
-def seconds_of(study: Study, projector: Projector, effect: Effect, place: Place, removed: Floats,
-               trained: Mapping[tuple[int, int], Floats]) -> Seconds:
+def windows_of(study: Study, projector: Projector, effect: Effect, place: Place, removed: Floats,
+               trained: Mapping[tuple[int, int], Floats]) -> Windows:
     """The seconds of all runs.
 
     Args:
@@ -58,24 +35,22 @@ def seconds_of(study: Study, projector: Projector, effect: Effect, place: Place,
             and instant.
     """
     quiet, rows = _quiet(study, effect, place), row_ranges(study)
-    reach, gradient, run, time_s = [], [], list[int](), list[float]()
-    own: dict[int, Floats] = {}
+    own, reach, gradient, run, time_s = [], [], [], list[int](), list[float]()
     for i in (*study.train, *study.baseline):
         found = quiet[i] if i in quiet else _seconds(study, effect, i, [
             trained[i, k] for k in range(grid_of(study.runs[i], effect).size)])
         columns = np.stack([column for _, column in found], axis=1)
-        own[i] = columns
+        own.append(columns.T @ columns)
         reach.append(projector.reach(columns, rows[i]))
         gradient.append(columns.T @ removed[rows[i]])
         run += [i] * len(found)
         time_s += [time for time, _ in found]
     shared = np.concatenate(reach, axis=1)
-    amount, solved = effect.amount, projector.solve(shared)
-    return Seconds(Windows(
-        block_diag(*(c.T @ c for c in own.values())) - shared.T @ solved, np.concatenate(gradient),
+    amount = effect.amount
+    return Windows(
+        block_diag(*own) - shared.T @ projector.solve(shared), np.concatenate(gradient),
         np.array(run), np.array(time_s), np.isin(run, study.train), effect.timing == "pulse",
-        (amount.low, amount.high), effect.strays(study.packed)[0], _WIDE * amount.high),
-        own, solved, projector)
+        (amount.low, amount.high), effect.strays(study.packed)[0], _WIDE * amount.high)
 
 
 def _quiet(study: Study, effect: Effect, place: Place

@@ -21,7 +21,7 @@ from truck_blowout_sim.diagnosis.fit.instants import bins_between, grid_of, spac
 from truck_blowout_sim.diagnosis.fit.linear import Projector, score
 from truck_blowout_sim.diagnosis.fit.models import models_at, with_effects
 from truck_blowout_sim.diagnosis.fit.refit import chi2_of
-from truck_blowout_sim.diagnosis.fit.seconds import Seconds, responses, seconds_of
+from truck_blowout_sim.diagnosis.fit.seconds import responses, windows_of
 from truck_blowout_sim.diagnosis.result.parts import Place
 
 Floats = NDArray[np.float64]
@@ -30,11 +30,8 @@ _REFINE_S = (0.5, 0.25, 0.12)
 
 
 def scan(study: Study, projector: Projector, effect: Effect, place: Place,
-         named: Sequence[Hypothesis] = ()) -> tuple[Ranked, Seconds | None]:
-    """Best instants on the grid in all training runs, the common amount, and its support.
-
-    With what each second shows, where the event is one of those that add up.
-    """
+         named: Sequence[Hypothesis] = ()) -> Ranked:
+    """Best instants on the grid in all training runs, the common amount, and its support."""
     step = effect.amount.step
     jobs, keys = [], []
     for i in study.train:
@@ -48,15 +45,16 @@ def scan(study: Study, projector: Projector, effect: Effect, place: Place,
             keys.append((i, k))
     results = dict(zip(keys, study.simulate(jobs), strict=True))
     removed = projector.remove(study.residual())
-    seconds = (seconds_of(study, projector, effect, place, removed, results)
-               if effect.adds_up else None)
+    support = 0.0
+    if effect.adds_up:
+        support = windows_of(study, projector, effect, place, removed, results).support()
     best: Ranked | None = None
     for sign in (1.0, -1.0):
         found = _best_of_sign(study, projector, effect, place, results, removed, sign)
         if best is None or found.delta > best.delta:
             best = found
     assert best is not None
-    return replace(best, support=seconds.windows.support() if seconds else 0.0), seconds
+    return replace(best, support=support)
 
 
 def _best_of_sign(study: Study, projector: Projector, effect: Effect, place: Place,

@@ -44,40 +44,6 @@ _DIM = 1e-9
 
 
 @dataclass(frozen=True, eq=False)
-class Process:
-    """A force without rest of one correlation, of every size in question.
-
-    Attributes:
-        loaded: [n, n] directions in which it acts; ``value``: [n] information on each.
-        widened: [sizes, n] by how much it widens what is seen of them.
-        scale: of the information.
-    """
-
-    loaded: Floats
-    value: Floats
-    widened: Floats
-    scale: float
-
-    @staticmethod
-    def of(root: Floats, information: Floats, scale: float) -> Process:
-        """From the square root [n, n] of its correlation and what the seconds show of a force."""
-        value, vector = np.linalg.eigh(root.T @ information @ root / scale)
-        value = np.maximum(value, 0.0)
-        return Process(root @ vector, value, 1.0 + np.square(_SIZES)[:, None] * value, scale)
-
-    def likelihoods(self, gradient: Floats) -> Floats:
-        """[sizes] log-likelihoods of what the seconds show [n], against none of it."""
-        seen = self.loaded.T @ gradient / np.sqrt(self.scale)
-        return np.asarray(0.5 * (np.square(_SIZES)[:, None] * np.square(seen) / self.widened
-                                 - np.log(self.widened)).sum(axis=1))
-
-    def taken(self, k: int) -> Floats:
-        """[n, n] what the process of one size takes of a gradient as its own."""
-        return np.asarray((self.loaded * (_SIZES[k]**2 / self.widened[k])) @ self.loaded.T
-                          / self.scale)
-
-
-@dataclass(frozen=True, eq=False)
 class Windows:
     """What each second of each run shows of an event's force, the nuisances marginalized.
 
@@ -112,32 +78,32 @@ class Windows:
         """Twice the log of the odds, at even odds before; 0 where no run shows the event."""
         if self.scale <= 0.0 or not self.trained.any():
             return 0.0
-        found = [one for process in self.processes() for one in self._weighed(process)]
+        found = [one for process in self._processes() for one in self._weighed(process)]
         idle, ambient, wide = np.array(found).T if found else np.zeros((3, 1))
         return float(2.0 * (logsumexp(wide) - logsumexp([idle, ambient])))
 
-    def without(self) -> float:
-        """Log-likelihood where nothing acts but the process and events of everyday size."""
-        found = [one for process in self.processes() for one in self._weighed(process)]
-        return float(logsumexp(np.array(found)[:, :2]))
-
-    def processes(self) -> Iterator[Process]:
-        """Correlations that the restless force may have."""
+    def _processes(self) -> Iterator[Floats]:
+        """Square roots [n, n] of the correlations that the restless force may have."""
         same = self.run[:, None] == self.run[None, :]
         apart = np.abs(self.time_s[:, None] - self.time_s[None, :])
         kinds = [np.eye(self.run.size)] + [
             (1.0 - share) * np.eye(self.run.size) + share * same * np.exp(-apart / length)
             for share, length in product(_SHARES, _LENGTHS_S)]
-        return (Process.of(np.linalg.cholesky(kind), self.information, self.scale)
-                for kind in kinds)
+        return (np.linalg.cholesky(kind) for kind in kinds)
 
-    def _weighed(self, process: Process) -> Iterator[tuple[float, float, float]]:
+    def _weighed(self, root: Floats) -> Iterator[tuple[float, float, float]]:
         """Log-likelihoods for each size: nothing, an everyday event, an event of any size."""
-        idle = process.likelihoods(self.gradient)
-        for k, rest in enumerate(idle):
+        value, vector = np.linalg.eigh(root.T @ self.information @ root / self.scale)
+        value = np.maximum(value, 0.0)
+        seen = vector.T @ (root.T @ self.gradient) / np.sqrt(self.scale)
+        widened = 1.0 + np.square(_SIZES)[:, None] * value
+        idle = 0.5 * (np.square(_SIZES)[:, None] * np.square(seen) / widened
+                      - np.log(widened)).sum(axis=1)
+        loaded = root @ vector
+        for size, wide, rest in zip(_SIZES, widened, idle, strict=True):
             if rest < idle.max() - _UNLIKELY:
                 continue
-            taken = process.taken(k)
+            taken = (loaded * (size**2 / wide)) @ loaded.T / self.scale
             ambient, event = self._events(
                 self.gradient - self.information @ (taken @ self.gradient),
                 self.information - self.information @ taken @ self.information)

@@ -17,8 +17,6 @@ from truck_blowout_sim.diagnosis.fit.event_fit import fit_event
 from truck_blowout_sim.diagnosis.fit.models import models_at
 from truck_blowout_sim.diagnosis.fit.refit import chi2_of, refit
 from truck_blowout_sim.diagnosis.fit.scatter import Chance
-from truck_blowout_sim.diagnosis.fit.seconds import Seconds
-from truck_blowout_sim.diagnosis.fit.shaped import shaped_support
 from truck_blowout_sim.diagnosis.fit.support import Beside, supported
 from truck_blowout_sim.diagnosis.fit.timed import refine_times, scan
 from truck_blowout_sim.diagnosis.locate.sinking import sinking_hubs
@@ -127,11 +125,11 @@ def _events(study: Study, beside: Beside, chi2: float, chance: Chance,
     found = [supported(study, _failed(study, named, chi2, tire, times), beside, chance)
              for tire, times in failed_tires(study, study.train).items()]
     scanned = sorted(_scanned(study, named, places, progress),
-                     key=lambda r: (r[0].support < chance.asked, -r[0].delta))
-    large = _large([*steady, *(one for one, _ in scanned)], chance)
+                     key=lambda r: (r.support < chance.asked, -r.delta))
+    large = _large([*steady, *scanned], chance)
     worth = max(chance.asked, _HALF * max((r.delta for r in steady if r.refitted), default=0.0))
     keys: set[tuple[str, str]] = set()
-    for one, seconds in scanned:
+    for one in scanned:
         cost = _TIMED_COST * len(one.hypothesis.times) + _TIMED_SHARE * one.delta
         # what acts only near a limit shows little to a linear scan: looked at where much is open
         curved = bool(one.hypothesis.effect.amount.grid) and large and (
@@ -144,32 +142,32 @@ def _events(study: Study, beside: Beside, chi2: float, chance: Chance,
             support = one.support
             one = refine_times(study, one, chi2, named)
             one = fit_event(study, refit(study, one, chi2, named), chi2, named)
-            one = (supported(study, one, beside, chance) if seconds is None else replace(
-                one, support=shaped_support(study, replace(one, support=support), seconds, named)))
+            one = (replace(one, support=support) if one.hypothesis.effect.adds_up
+                   else supported(study, one, beside, chance))
             cost = _TIMED_COST * len(one.hypothesis.times) + _TIMED_SHARE * max(one.delta, 0.0)
         found.append(replace(one, delta=one.delta - cost, evidence=one.evidence - cost))
     return found
 
 
 def _scanned(study: Study, named: Sequence[Hypothesis], places: Sequence[tuple[Effect, Place]],
-             progress: Progress | None) -> list[tuple[Ranked, Seconds | None]]:
+             progress: Progress | None) -> list[Ranked]:
     """Each event at its best instants; another form of it only where the plain one is supported.
 
     Forms of one event, as the places where a wind may take hold, share their support: its mean
     odds. Which of them it is, the sum of squares says.
     """
     projector = study.projector(named)
-    forms: dict[tuple[str, str], list[tuple[Ranked, Seconds | None]]] = {}
+    forms: dict[tuple[str, str], list[Ranked]] = {}
     for k, (effect, place) in enumerate(sorted(places, key=lambda one: one[0].variant)):
         of_event = forms.setdefault((effect.name, str(place)), [])
-        if not of_event or not effect.adds_up or of_event[0][0].support > 0.0:
+        if not of_event or not effect.adds_up or of_event[0].support > 0.0:
             of_event.append(scan(study, projector, effect, place, named))
         if progress:
             progress("events", (k + 1) / len(places))
     for key, found in forms.items():
-        if found[0][0].hypothesis.effect.adds_up:
-            mean = 2.0 * logsumexp([0.5 * r.support for r, _ in found]) - 2.0 * np.log(len(found))
-            forms[key] = [(replace(r, support=float(mean)), seconds) for r, seconds in found]
+        if found[0].hypothesis.effect.adds_up:
+            mean = 2.0 * logsumexp([0.5 * r.support for r in found]) - 2.0 * np.log(len(found))
+            forms[key] = [replace(r, support=float(mean)) for r in found]
     return [one for found in forms.values() for one in found]
 
 
