@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from truck_blowout_sim.comparison.comparing import Comparison, compare, compare_recordings
+from truck_blowout_sim.comparison.driving import rms_errors
 from truck_blowout_sim.comparison.errors import ChannelError
 from truck_blowout_sim.comparison.iso18571 import Rating, rate
 from truck_blowout_sim.comparison.result_json import encode_comparison, write_comparison
@@ -16,6 +17,7 @@ __all__ = [
     "compare_recordings",
     "encode_comparison",
     "rate",
+    "rms_errors",
     "verdict",
     "write_comparison",
 ]

@@ -16,18 +16,15 @@ from dataclasses import dataclass
 import numpy as np
 
 from truck_blowout_sim.comparison.contrast import Contrast, contrast
+from truck_blowout_sim.comparison.driving import STEP_S, side_by_side
 from truck_blowout_sim.comparison.errors import ChannelError, channel_error
 from truck_blowout_sim.comparison.noise import channel_sigmas
 from truck_blowout_sim.comparison.pairing import Pair, gravity_is_removed, pairs_of
 from truck_blowout_sim.comparison.provenance import Marks, marks_of
-from truck_blowout_sim.comparison.resets import longest_run
 from truck_blowout_sim.comparison.words import labels_for
 from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.recordings import INPUT_NAMES, Recording, read_recording
 from truck_blowout_sim.recordings.shipped import find_recording
-from truck_blowout_sim.simulation.drive import execute
-from truck_blowout_sim.simulation.plausible import implausible
-from truck_blowout_sim.simulation.replay import as_recording, drive_from
 from truck_blowout_sim.vehicle import Packed, Vehicle, load_vehicle, pack
 
 # Instruments on one clock begin, and mark a blowout, within a few of their samples.
@@ -88,7 +85,7 @@ class Comparison:
 
 def compare(recording: Recording | str | os.PathLike[str],
             vehicle: Vehicle | Packed | str | os.PathLike[str] = DEFAULT_VEHICLE, *,
-            step_s: float = 0.001, impose_speed: bool | None = None, contrasted: bool = False,
+            step_s: float = STEP_S, impose_speed: bool | None = None, contrasted: bool = False,
             ask: Callable[[Sequence[str]], None] | None = None,
             progress: Progress | None = None) -> Comparison:  # fmt: skip
     """Drive a vehicle's model with a recording's inputs and report the differences.
@@ -110,25 +107,16 @@ def compare(recording: Recording | str | os.PathLike[str],
     packed = _packed(vehicle)
     tell("reading", 0.0)
     recording, marks = _recording(recording, packed.vehicle)
-    recording = longest_run(recording)
     tell("simulating", 0.1)
-    drive = drive_from(recording, packed.vehicle, step_s=step_s, impose_speed=impose_speed)
-    if ask:
-        ask(implausible(packed, drive))
-    model = as_recording(f"{recording.name} (simulated)", packed, drive, execute(packed, drive),
-                         recording.blowouts)  # fmt: skip
-    imposed = bool(drive.speed.size)
-    pairs = pairs_of(recording, model)
-    if not pairs:
-        raise InputError("no output channel to compare", file=recording.name,
-                         expected="at least one of " + ", ".join(list(model.channels)[:12]))
-    channels = _errors(recording, packed.vehicle, pairs, imposed, tell)
+    driven = side_by_side(recording, packed, step_s=step_s, impose_speed=impose_speed, ask=ask)
+    recording, pairs = driven.recording, driven.pairs
+    channels = _errors(recording, packed.vehicle, pairs, driven.imposed, tell)
     tell("contrasting", 0.9)
     others = (contrast(recording, pairs, packed.vehicle.name, impose_speed) if contrasted
               else None)  # fmt: skip
     tell("done", 1.0)
-    return Comparison(recording, model, packed.vehicle, imposed, pairs, channels, marks,
-                      _notes(recording, model), others)  # fmt: skip
+    return Comparison(recording, driven.model, packed.vehicle, driven.speed_imposed, pairs,
+                      channels, marks, _notes(recording, driven.model), others)  # fmt: skip
 
 
 def compare_recordings(first: Recording | str | os.PathLike[str],
@@ -153,7 +141,7 @@ def compare_recordings(first: Recording | str | os.PathLike[str],
     if not pairs:
         raise InputError(f"no output channel in common with {other.name}", file=one.name,
                          expected="a channel that both recorded at common times")
-    channels = _errors(one, loaded, pairs, False, tell)
+    channels = _errors(one, loaded, pairs, _nothing, tell)
     tell("done", 1.0)
     notes = (*one.notes, *other.notes, *_clocks_apart(one, other))
     return Comparison(one, other, loaded, False, pairs, channels, marks, notes, None, other.name)
@@ -170,8 +158,8 @@ def _clocks_apart(one: Recording, other: Recording) -> tuple[str, ...]:
             f" {other.start_s:g} s in {other.name}: no shift was applied",)  # fmt: skip
 
 
-def _errors(recording: Recording, vehicle: Vehicle, pairs: Mapping[str, Pair], imposed: bool,
-            tell: Progress) -> tuple[ChannelError, ...]:  # fmt: skip
+def _errors(recording: Recording, vehicle: Vehicle, pairs: Mapping[str, Pair],
+            imposed: Callable[[str], bool], tell: Progress) -> tuple[ChannelError, ...]:
     """Errors of all pairs in the order of the channel table."""
     sigmas = channel_sigmas(recording)
     labels = labels_for(vehicle)
@@ -179,9 +167,8 @@ def _errors(recording: Recording, vehicle: Vehicle, pairs: Mapping[str, Pair], i
     found = []
     for k, name in enumerate(sorted(pairs, key=lambda n: order.get(n, len(order)))):
         tell("measuring " + labels.get(name, name), 0.4 + 0.5 * k / len(pairs))
-        follows = imposed and name == "tractor_vx_mps"
         found.append(channel_error(pairs[name], labels.get(name, name),
-                                   sigmas.get(name), imposed=follows))  # fmt: skip
+                                   sigmas.get(name), imposed=imposed(name)))  # fmt: skip
     return tuple(found)
 
 
@@ -210,6 +197,11 @@ def _notes(recording: Recording, model: Recording) -> tuple[str, ...]:
     if strange:
         notes += (f"not compared, this vehicle has no such part: {', '.join(strange)}",)
     return notes
+
+
+def _nothing(channel: str) -> bool:
+    """No channel was imposed."""
+    return False
 
 
 def _silent(stage: str, share: float) -> None:

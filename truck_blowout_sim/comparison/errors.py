@@ -93,7 +93,7 @@ def channel_error(pair: Pair, label: str, noise: Sigma | None, *, imposed: bool 
         label=label,
         unit=pair.unit,
         count=int(error.size),
-        rms=float(np.sqrt(np.mean(error**2))),
+        rms=pair.rms,
         mean=float(error.mean()),
         peak=float(error[peak]),
         peak_time_s=float(pair.time_s[peak]),

@@ -39,6 +39,11 @@ class Pair:
         return self.model - self.measured
 
     @property
+    def rms(self) -> float:
+        """Root of the error's mean square."""
+        return float(np.sqrt(np.mean(self.error**2)))
+
+    @property
     def unit(self) -> DisplayUnit:
         """Unit to show it in."""
         return display_unit(self.name)

@@ -20,7 +20,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from truck_blowout_sim.comparison import compare
+from truck_blowout_sim.comparison import rms_errors
 from truck_blowout_sim.diagnosis.case.study import FURTHEST, Study
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.fit.linear import Projector
@@ -167,10 +167,8 @@ def _errors(
 ) -> dict[str, float]:
     squares: dict[str, list[float]] = {}
     for recording in recordings:
-        compared = compare(recording, truck, impose_speed=impose_speed)
         noise = channel_noise(recording)
-        for channel in compared.channels:
-            if channel.name in noise and not channel.imposed:
-                figure = channel.rms / noise[channel.name].sigma
-                squares.setdefault(channel.name, []).append(figure**2)
+        for name, rms in rms_errors(recording, truck, impose_speed=impose_speed).items():
+            if name in noise:
+                squares.setdefault(name, []).append((rms / noise[name].sigma)**2)
     return {name: float(np.sqrt(np.mean(values))) for name, values in squares.items()}

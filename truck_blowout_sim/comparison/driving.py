@@ -1,0 +1,76 @@
+"""Drive a truck with a recording's inputs and hold it beside the record, without judging it.
+
+Whoever needs no more than the size of the errors asks :func:`rms_errors`: lags and ratings take ten
+times as long as the simulation.
+
+Validated with: test/comparison/test_driving.py.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+
+from truck_blowout_sim.comparison.pairing import Pair, pairs_of
+from truck_blowout_sim.comparison.resets import longest_run
+from truck_blowout_sim.errors import InputError
+from truck_blowout_sim.recordings import Recording
+from truck_blowout_sim.simulation.drive import execute
+from truck_blowout_sim.simulation.plausible import implausible
+from truck_blowout_sim.simulation.replay import as_recording, drive_from
+from truck_blowout_sim.vehicle import Packed
+
+STEP_S = 0.001
+_IMPOSED = "tractor_vx_mps"  # the channel that an imposed speed follows
+
+
+@dataclass(frozen=True, eq=False)
+class SideBySide:
+    """A record and the truck that was driven with its inputs.
+
+    Attributes:
+        recording: the part that was driven, without resets of the clock.
+        model: as simulated; ``pairs``: both by channel.
+        speed_imposed: the recorded speed was imposed.
+    """
+
+    recording: Recording
+    model: Recording
+    pairs: Mapping[str, Pair]
+    speed_imposed: bool
+
+    def imposed(self, channel: str) -> bool:
+        """Whether the model was made to follow a channel, so that its error says nothing."""
+        return self.speed_imposed and channel == _IMPOSED
+
+
+def side_by_side(recording: Recording, packed: Packed, *, step_s: float = STEP_S,
+                 impose_speed: bool | None = None,
+                 ask: Callable[[Sequence[str]], None] | None = None) -> SideBySide:
+    """Drive a truck with a recording's inputs.
+
+    Args:
+        recording: as measured; ``packed``: the truck.
+        step_s, impose_speed, ask: as in :func:`truck_blowout_sim.comparison.compare`.
+
+    Raises:
+        InputError: no steering in the recording, no channel in common.
+    """
+    recording = longest_run(recording)
+    drive = drive_from(recording, packed.vehicle, step_s=step_s, impose_speed=impose_speed)
+    if ask:
+        ask(implausible(packed, drive))
+    model = as_recording(f"{recording.name} (simulated)", packed, drive, execute(packed, drive),
+                         recording.blowouts)  # fmt: skip
+    pairs = pairs_of(recording, model)
+    if not pairs:
+        raise InputError("no output channel to compare", file=recording.name,
+                         expected="at least one of " + ", ".join(list(model.channels)[:12]))
+    return SideBySide(recording, model, pairs, bool(drive.speed.size))
+
+
+def rms_errors(recording: Recording, packed: Packed, *, impose_speed: bool | None = None
+               ) -> Mapping[str, float]:
+    """Rms error of every channel in which the truck was free, as ``compare`` has it; SI."""
+    driven = side_by_side(recording, packed, impose_speed=impose_speed)
+    return {name: pair.rms for name, pair in driven.pairs.items() if not driven.imposed(name)}
