@@ -230,10 +230,23 @@ def _channel_bins(recording: Recording, name: str, noise: Noise, edges: Floats,
 
 
 def simulate_bins(jobs: Sequence[tuple[Run, Packed]], workers: int,
-                  simulated: Callable[[Run, Packed], Floats]) -> list[Floats]:
-    """Bin means of each truck over its run, in order; in parallel, same bits as one by one."""
+                  simulated: Callable[[Run, Packed], Floats],
+                  tell: Callable[[float], None] | None = None) -> list[Floats]:
+    """Bin means of each truck over its run, in order; in parallel, same bits as one by one.
+
+    ``tell``: called with the share that is done.
+    """
+    done: list[Floats] = []
     with ThreadPoolExecutor(workers) as pool:
-        return list(pool.map(lambda job: simulated(*job), jobs))
+        try:
+            for bins in pool.map(lambda job: simulated(*job), jobs):
+                done.append(bins)
+                if tell:
+                    tell(len(done) / len(jobs))
+        except BaseException:
+            pool.shutdown(cancel_futures=True)  # whoever interrupts does not wait for the rest
+            raise
+    return done
 
 
 def rms_sigma(run: Run, model: Floats) -> Mapping[str, float]:

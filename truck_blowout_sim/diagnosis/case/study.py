@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from functools import cached_property
+from functools import cached_property, partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -136,10 +136,12 @@ class Study:
         self._projectors.clear()
         self._gram = np.zeros((0, 0))
 
-    def simulate(self, jobs: Sequence[tuple[Run, Packed]]) -> list[Floats]:
-        """Bin means of many (run, truck) pairs."""
+    def simulate(self, jobs: Sequence[tuple[Run, Packed]], what: str = "",
+                 progress: Progress | None = None) -> list[Floats]:
+        """Bin means of many (run, truck) pairs; ``progress`` is told of them as ``what``."""
         self.simulations += len(jobs)
-        return simulate_bins(jobs, self.workers, self.simulated)
+        tell = partial(progress, what) if progress else None
+        return simulate_bins(jobs, self.workers, self.simulated, tell)
 
     def job(self, run: Run, base: Packed, hypothesis: Hypothesis) -> tuple[Run, Packed]:
         """What to simulate for a hypothesis on top of a truck: an event from its start on only."""
@@ -186,7 +188,7 @@ def build_columns(study: Study, progress: Progress | None = None) -> None:
         jobs += [(run, study.packed.unchecked(n.values(study.packed, n.step)))
                  for n, flag in zip(sheet, flags, strict=True) if flag]
         jobs.append((_faster(run), study.packed))
-    results = iter(_with_progress(study, jobs, "sensitivities", progress))
+    results = iter(study.simulate(jobs, "sensitivities", progress))
     blocks = []
     for k, (run, flags, base) in enumerate(zip(everything, shown, bases, strict=True)):
         own = [run.change(next(results), base) * (n.sigma / n.moved(study.amounts.get(n.name, 0.0)))
@@ -200,18 +202,6 @@ def build_columns(study: Study, progress: Progress | None = None) -> None:
     study.holdout_columns = blocks[n_runs:]
     study.names = (*(n.name for n in sheet), *(f"start speed of {r.recording.name}"
                                                for r in everything), *instrument_names(study))
-
-
-def _with_progress(study: Study, jobs: Sequence[tuple[Run, Packed]], what: str,
-                   progress: Progress | None) -> list[Floats]:
-    """Simulate in portions so that progress can be told."""
-    done: list[Floats] = []
-    portion = max(len(jobs) // 20, 8)
-    for first in range(0, len(jobs), portion):
-        done += study.simulate(jobs[first:first + portion])
-        if progress:
-            progress(what, len(done) / len(jobs))
-    return done
 
 
 def _faster(run: Run) -> Run:

@@ -99,20 +99,19 @@ def rank_steady(study: Study, candidates: Sequence[Hypothesis],
         held = study.meaning(candidate)
         removed = cleaned[held] if held in cleaned else projector.remove(residual)
         cleaned[held] = removed
-        found = max((score(projector, removed, one, amount.low - at, amount.high - at)
-                     for one in (column * trained, *far.get(candidate.form, ()))),
-                    key=lambda s: s.delta)
+        low, high, clean = amount.low - at, amount.high - at, projector.remove(column * trained)
+        found = max((score(projector, removed, column * trained, low, high, clean),
+                     *(score(projector, removed, one, low, high)
+                       for one in far.get(candidate.form, ()))), key=lambda s: s.delta)
         fall = max(found.delta - (float(residual @ removed) - free), 0.0)
         ranked.append(Ranked(candidate.at(at + found.amount), fall, found.sigma, evidence=fall,
                              promise=found.delta))
         question = Question.of(projector, removed, [
             part for i, at_i in enumerate(rows) for part in parts_of(
                 study.runs[i], at_i.start, column[at_i], i in study.train, episode_s, manner[i])],
-            candidate.effect.strays(study.packed, study.grip_used),
-            (amount.low - at, amount.high - at))
+            candidate.effect.strays(study.packed, study.grip_used), (low, high))
         questions.append((candidate.key, question))
-        shown.append(question.shown(removed - found.amount * projector.remove(column * trained))
-                     if question else None)
+        shown.append(question.shown(removed - found.amount * clean) if question else None)
     scatter = Scatter.of([one for one in shown if one])
     ranked = [replace(r, support=scatter.support(one)) if one else r
               for r, one in zip(ranked, shown, strict=True)]
@@ -128,17 +127,14 @@ def _far_columns(study: Study, candidates: Sequence[Hypothesis], named: Sequence
 
     What acts near a limit only, as a tire that levels off early, shows nothing for a small one.
     """
-    curved = [c for c in candidates if c.effect.amount.grid]
+    starts = [c.at(a) for c in candidates for a in c.effect.amount.grid]
     found: dict[tuple[str, str, str], list[Floats]] = {}
-    for k, candidate in enumerate(curved):
-        starts = [candidate.at(a) for a in candidate.effect.amount.grid]
-        for one, models in zip(starts, models_at(study, starts, named), strict=True):
-            away = one.amount - one.effect.neutral(study.packed)
-            column = study.stack({i: study.runs[i].change(model, study.models[i]) / away
-                                  for i, model in models.items()})
-            found.setdefault(one.form, []).append(column)
-        if progress:
-            progress("large amounts", (k + 1) / len(curved))
+    everything = models_at(study, starts, named, "large amounts", progress)
+    for one, models in zip(starts, everything, strict=True):
+        away = one.amount - one.effect.neutral(study.packed)
+        column = study.stack({i: study.runs[i].change(model, study.models[i]) / away
+                              for i, model in models.items()})
+        found.setdefault(one.form, []).append(column)
     return found
 
 
@@ -147,14 +143,10 @@ def _columns(study: Study, candidates: Sequence[Hypothesis], named: Sequence[Hyp
     """Whitened change over all runs per unit of each candidate's amount."""
     jobs = [(c, i, truck) for c in candidates for i, truck in _jobs(study, c, named)]
     parts: dict[tuple[str, str, str], dict[int, Floats]] = {c.form: {} for c in candidates}
-    portion = 24
-    for first in range(0, len(jobs), portion):
-        part = jobs[first:first + portion]
-        results = study.simulate([(study.runs[i], truck) for _, i, truck in part])
-        for (c, i, _), model in zip(part, results, strict=True):
-            parts[c.form][i] = study.runs[i].change(model, study.models[i]) / c.effect.amount.step
-        if progress:
-            progress("candidates", min(first + portion, len(jobs)) / len(jobs))
+    results = study.simulate([(study.runs[i], truck) for _, i, truck in jobs], "candidates",
+                             progress)
+    for (c, i, _), model in zip(jobs, results, strict=True):
+        parts[c.form][i] = study.runs[i].change(model, study.models[i]) / c.effect.amount.step
     for form, found in parts.items():
         if form not in study.quiet:
             study.quiet[form] = {i: found[i] for i in study.baseline}

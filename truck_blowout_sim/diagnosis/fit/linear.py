@@ -106,12 +106,14 @@ class Score:
 
 
 def score(projector: Projector, removed: Floats, column: Floats, low: float = -np.inf,
-          high: float = np.inf) -> Score:
+          high: float = np.inf, clean: Floats | None = None) -> Score:
     """Score of a candidate column; ``removed`` is what :meth:`Projector.remove` leaves.
 
-    The amount is limited to [low, high]; the fall is that of the limited amount.
+    The amount is limited to [low, high]; the fall is that of the limited amount. ``clean``: what
+    the projector leaves of the column, if known.
     """
-    clean = projector.remove(column)
+    if clean is None:
+        clean = projector.remove(column)
     information = float(column @ clean)
     if information < 1e-12:
         return Score(0.0, np.inf, 0.0)

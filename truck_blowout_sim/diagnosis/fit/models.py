@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from truck_blowout_sim.diagnosis.case.study import Study
+from truck_blowout_sim.diagnosis.case.study import Progress, Study
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.vehicle import Packed
 
@@ -21,13 +21,16 @@ def with_effects(packed: Packed, effects: Sequence[Hypothesis], run: str) -> Pac
     return packed
 
 
-def models_at(study: Study, hypotheses: Sequence[Hypothesis], named: Sequence[Hypothesis]
-              ) -> list[dict[int, Floats]]:
-    """Training models under each hypothesis, on top of those already named."""
+def models_at(study: Study, hypotheses: Sequence[Hypothesis], named: Sequence[Hypothesis],
+              what: str = "", progress: Progress | None = None) -> list[dict[int, Floats]]:
+    """Training models under each hypothesis, on top of those already named.
+
+    ``what``, ``progress``: see :meth:`Study.simulate`.
+    """
     jobs = [study.job(study.runs[i], with_effects(
         study.packed, named, study.runs[i].recording.name), h)
         for h in hypotheses for i in study.train]
-    results = study.simulate(jobs)
+    results = study.simulate(jobs, what, progress)
     n = len(study.train)
     return [dict(zip(study.train, results[k * n:(k + 1) * n], strict=True))
             for k in range(len(hypotheses))]
