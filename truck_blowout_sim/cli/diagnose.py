@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import re
 import time
 from collections.abc import Callable, Mapping, Sequence
@@ -176,7 +177,12 @@ def _write(answer: Diagnosis, vehicle: Vehicle, base: str, values: Mapping[str, 
     folder.mkdir(parents=True, exist_ok=True)
     write_diagnosis(answer, folder / "diagnosis.json")
     write_diagnosed_vehicle(folder / "vehicle.yaml", base, values, answer)
-    write_diagnosis_report(answer, vehicle, folder / "report.html", panels)
+    # thousands of small parts of figures make the collector search all that was loaded before
+    gc.disable()
+    try:
+        write_diagnosis_report(answer, vehicle, folder / "report.html", panels)
+    finally:
+        gc.enable()
 
 
 def _say_roles(train: Sequence[Recording], base: Sequence[Recording], hold: Sequence[Recording]

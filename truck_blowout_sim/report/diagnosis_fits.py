@@ -149,10 +149,12 @@ def pulls_picture(calibrated: Sequence[Calibrated]) -> Picture:
     axes = figure.add_subplot()
     axes.axvspan(-_IMPLAUSIBLE, _IMPLAUSIBLE, color=INK, alpha=0.06, linewidth=0)
     axes.axvline(0.0, color=SOFT, linewidth=0.8)
-    for k, number in enumerate(calibrated):
-        color = VERMILION if abs(number.pull) > _IMPLAUSIBLE else AFTER
-        error = number.sigma / number.prior_sigma
-        axes.errorbar(number.pull, k, xerr=error, fmt="o", color=color, markersize=4.5)
+    rows, pulls = np.arange(len(calibrated)), np.array([number.pull for number in calibrated])
+    errors = np.array([number.sigma / number.prior_sigma for number in calibrated])
+    far = np.abs(pulls) > _IMPLAUSIBLE
+    for these, color in ((~far, AFTER), (far, VERMILION)):
+        axes.errorbar(pulls[these], rows[these], xerr=errors[these], fmt="o", color=color,
+                      markersize=4.5)
     axes.set_yticks(np.arange(len(calibrated)), [number.name for number in calibrated])
     axes.tick_params(axis="y", labelsize=8.5, length=0)
     axes.set_ylim(len(calibrated) - 0.5, -0.5)
