@@ -85,6 +85,23 @@ def test_no_label_is_cut_off(vehicle: Vehicle) -> None:
             assert label.y1 <= paper.y1, (picture.name, label)
 
 
+@pytest.mark.parametrize(("units", "length", "force"), [("us", "ft", "lbf"), ("si", "m", "kN")])
+def test_lengths_and_arrows_have_the_units_of_the_curves(vehicle: Vehicle, units: str, length: str,
+                                                         force: str) -> None:
+    run = drive()
+    above, path = run_pictures(run, motion_of(run, vehicle), vehicle, units)[:2]
+    assert above.figure.axes[-1].get_xlabel() == length
+    assert f"1 {length} = " in above.caption
+    assert f" {force}." in above.caption
+    assert path.figure.axes[-1].get_xlabel().endswith(f"({length})")
+    path.figure.draw_without_rendering()
+    axes = path.figure.axes[-1]
+    words = [text.get_text().replace("\N{MINUS SIGN}", "-") for text in axes.get_xticklabels()]
+    per_m = {"ft": 1 / 0.3048, "m": 1.0}[length]
+    expected = per_m * np.array(axes.get_xticks())
+    assert [float(word) for word in words] == pytest.approx(expected, rel=1e-5)
+
+
 def test_the_page_says_the_result_and_needs_no_other_file(tmp_path: Path, vehicle: Vehicle) -> None:
     run = drive()
     page = write_run_page(run, motion_of(run, vehicle), vehicle, "it stayed <in> its lane",

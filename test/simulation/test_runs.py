@@ -5,7 +5,13 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from truck_blowout_sim.recordings import INPUT_NAMES, channels_for, read_recording
+from truck_blowout_sim.recordings import (
+    INPUT_NAMES,
+    Recording,
+    Series,
+    channels_for,
+    read_recording,
+)
 from truck_blowout_sim.resources import config_file
 from truck_blowout_sim.simulation import (
     InitialState,
@@ -110,6 +116,18 @@ def test_the_summary_says_what_happened(truck: Packed, name: str, words: str) ->
     assert words in line
     assert "\n" not in line
     assert "rolled over" not in line
+
+
+def test_a_truck_that_slides_sideways_does_not_stand() -> None:
+    time_s = np.array([0.0, 1.0, 2.0])
+    values = {"tractor_vx_mps": [20.0, 10.0, 0.0], "tractor_vy_mps": [0.0, 8.0, 10.0],
+              "tractor_yaw_rate_radps": [0.0, 0.5, 0.5], "tractor_x_m": [0.0, 15.0, 25.0],
+              "tractor_y_m": [0.0, 0.0, 0.0], "tractor_yaw_rad": [0.0, 0.5, 1.5],
+              "articulation_rad": [0.0, -1.0, -2.0]}
+    run = Recording("fold", {n: Series(time_s, np.array(v)) for n, v in values.items()})
+    line = summarize(run, "si")
+    assert line.startswith("20.0 to 10.0 m/s over 25 m;")
+    assert "articulation passed 90 deg at 2.0 s" in line
 
 
 def test_a_rollover_is_called_one(truck: Packed) -> None:

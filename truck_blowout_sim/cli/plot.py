@@ -14,7 +14,8 @@ from truck_blowout_sim.cli.listing import names_of
 from truck_blowout_sim.cli.outputs import FORCE, JSON, check_span, claim, say
 from truck_blowout_sim.cli.progress import bar
 from truck_blowout_sim.cli.reading import AS_IT_IS, LogOptions, reads_logs, say_notes
-from truck_blowout_sim.comparison.units import AXES, SYSTEMS
+from truck_blowout_sim.cli.units import UNITS
+from truck_blowout_sim.comparison.units import AXES
 from truck_blowout_sim.errors import InputError, nearest, quoted
 from truck_blowout_sim.recordings import Recording
 
@@ -44,7 +45,7 @@ def command(
     ),
     output: Path = typer.Option(Path("plots"), "-o", "--output", help="Folder for the figures."),
     forms: list[str] = typer.Option(["png"], "--format", help="png, svg, pdf; one or several."),
-    units: str = typer.Option("us", help="us (mph, ft, psi, lbf) or si (m/s, m, kPa, kN)."),
+    units: str = UNITS,
     axes: str = typer.Option("iso", help="iso (left and up positive) or sae (right and down)."),
     over: str = typer.Option("time_s", help="Channel on the horizontal axis, such as tractor_x_m."),
     start_s: float | None = typer.Option(None, "--start", help="Start, s on the run's clock."),
@@ -60,7 +61,7 @@ def command(
     Example: truck-blowout plot out/steer_axle_blowout test_2013_steer_blowout
     -c tractor_yaw_rate_radps steering_wheel_angle_rad --axes sae
     """
-    for words, known, option in ((units, SYSTEMS, "--units"), (axes, AXES, "--axes"),
+    for words, known, option in ((axes, AXES, "--axes"),
                                  *((form, _FORMATS, "--format") for form in forms)):
         if words not in known:
             raise InputError(f"{option} {quoted(words)}", expected=" or ".join(known))

@@ -14,6 +14,7 @@ from truck_blowout_sim.cli.listing import list_option, names_of
 from truck_blowout_sim.cli.outputs import FORCE, JSON, YES, ask_about, claim, say
 from truck_blowout_sim.cli.progress import bar
 from truck_blowout_sim.cli.settings import set_values
+from truck_blowout_sim.cli.units import UNITS
 from truck_blowout_sim.display.scene import beside
 from truck_blowout_sim.errors import InputError, quoted
 from truck_blowout_sim.recordings import INPUT_NAMES, Recording, write_recording
@@ -32,9 +33,8 @@ _SUFFIX = {"bag": "", "csv": ".csv"}
 
 
 def command(
-    scenario: str = typer.Argument(
-        help="Name of a shipped scenario, or a YAML file.", autocompletion=names_of("scenarios")
-    ),
+    scenario: str = typer.Argument(help="Name of a shipped scenario, or a YAML file.",
+                                   autocompletion=names_of("scenarios")),
     output: Path | None = typer.Option(
         None, "-o", "--output", help="Bag to write (a folder); the scenario's name by default."
     ),
@@ -53,6 +53,7 @@ def command(
     form: str = typer.Option("bag", "--format", help="bag or csv."),
     step_s: float = typer.Option(0.001, help="Step [s]."),
     rate_hz: float = typer.Option(100.0, help="Rate of the recording [Hz]."),
+    units: str = UNITS,
     page: bool = typer.Option(True, help="Write a page with figures beside the output, .html."),
     open_page: bool = typer.Option(False, "--open", help="Open the page in the browser."),
     listed: bool = list_option("scenarios", "vehicles"),
@@ -75,28 +76,29 @@ def command(
         target = target.with_name(f"{target.name}.csv")
     claim(target, force=force, inputs=[loaded.path, truck.vehicle.path])
     html = page_beside(target)
-    if page or open_page:
+    if page := page or open_page:
         claim(html, force=force, inputs=[loaded.path, truck.vehicle.path])
     packed, drive, blowouts = prepare(truck, loaded, step_s=step_s, rate_hz=rate_hz)
     ask_about(implausible(packed, drive), yes)
     ran, factor = _run(packed, drive, loaded.name)
     recording = recorded(packed, drive, ran, blowouts, loaded)
     write_recording(recording, target, beside=_shown(recording, packed, drive, ran))
-    if page or open_page:
-        _write_page(recording, packed, html)
+    if page:
+        _write_page(recording, packed, html, units)
     measures = measure(packed, drive, ran, loaded.spec.lane_width_m).as_row()
     result = {"output": str(target), "scenario": loaded.name, "vehicle": packed.vehicle.name,
-              **_result(recording), "page": str(html) if page or open_page else None,
+              **_result(recording, units), "page": str(html) if page else None,
               "measures": measures}
     _tell(recording, result, factor, as_json=as_json)
     if open_page:
         webbrowser.open(html.resolve().as_uri())
 
 
-def _result(recording: Recording) -> dict[str, object]:
+def _result(recording: Recording, units: str) -> dict[str, object]:
     """What a recording says of its run, as plain data."""
     return {
-        "start_s": recording.start_s, "end_s": recording.end_s, "summary": summarize(recording),
+        "start_s": recording.start_s, "end_s": recording.end_s,
+        "summary": summarize(recording, units),
         "blowouts": [{"time_s": b.time_s, "tires": b.tires} for b in recording.blowouts],
     }
 
@@ -127,12 +129,13 @@ def page_beside(target: Path) -> Path:
     return target.with_name(f"{target.name.removesuffix('.csv')}.html")
 
 
-def _write_page(recording: Recording, packed: Packed, html: Path) -> None:
+def _write_page(recording: Recording, packed: Packed, html: Path, units: str) -> None:
     from truck_blowout_sim.motion import motion_of
     from truck_blowout_sim.report.run_page import write_run_page
 
     motion = motion_of(recording, packed.vehicle)
-    write_run_page(recording, motion, packed.vehicle, summarize(recording), html)
+    write_run_page(recording, motion, packed.vehicle, summarize(recording, units), html,
+                   units=units)
 
 
 def _run(packed: Packed, drive: Drive, name: str) -> tuple[Ran, float]:

@@ -11,6 +11,7 @@ from pathlib import Path
 import numpy as np
 from matplotlib.axes import Axes
 
+from truck_blowout_sim.comparison.units import display_unit
 from truck_blowout_sim.motion import Motion
 from truck_blowout_sim.recordings import Recording
 from truck_blowout_sim.report.channel_plots import PlotRequest, channel_plot
@@ -22,6 +23,7 @@ from truck_blowout_sim.report.style import (
     new_figure,
     styled,
 )
+from truck_blowout_sim.report.ticks import tick_in
 from truck_blowout_sim.report.truck_above import arrow_scale, draw_above, path_line
 from truck_blowout_sim.vehicle import Vehicle
 
@@ -31,7 +33,7 @@ _TURNED_RAD = 0.2
 
 
 def write_run_page(run: Recording, motion: Motion, vehicle: Vehicle, sentence: str, path: Path, *,
-                   facts: Mapping[str, str] | None = None) -> Path:
+                   facts: Mapping[str, str] | None = None, units: str = "us") -> Path:
     """Write the page of a run.
 
     Args:
@@ -41,6 +43,7 @@ def write_run_page(run: Recording, motion: Motion, vehicle: Vehicle, sentence: s
         sentence: the result.
         path: HTML file.
         facts: further lines under the sentence.
+        units: of the figures, ``us`` or ``si``.
 
     Raises:
         StorageError: it cannot be written.
@@ -48,15 +51,16 @@ def write_run_page(run: Recording, motion: Motion, vehicle: Vehicle, sentence: s
     write_text(render("run.html", {
         "name": run.name, "title": run.metadata.get("title", ""), "sentence": sentence,
         "facts": dict(facts or {}), "notes": run.notes, "vehicle": vehicle.title,
-        "pictures": run_pictures(run, motion, vehicle),
+        "pictures": run_pictures(run, motion, vehicle, units),
     }), path)  # fmt: skip
     return path
 
 
-def run_pictures(run: Recording, motion: Motion, vehicle: Vehicle) -> list[Picture]:
-    """Every figure for which there are channels."""
-    pictures = [_above(run, motion, vehicle), _path(run, motion, vehicle)]
-    pictures += [_channels(run, name, title, words, groups)
+def run_pictures(run: Recording, motion: Motion, vehicle: Vehicle, units: str = "us"
+                 ) -> list[Picture]:
+    """Every figure for which there are channels, in the units ``us`` or ``si``."""
+    pictures = [_above(run, motion, vehicle, units), _path(run, motion, vehicle, units)]
+    pictures += [_channels(run, name, title, words, groups, units)
                  for name, title, words, groups in _groups(run, vehicle)]  # fmt: skip
     return pictures
 
@@ -74,10 +78,12 @@ def five_instants(run: Recording, motion: Motion) -> list[int]:
 
 
 @styled
-def _above(run: Recording, motion: Motion, vehicle: Vehicle) -> Picture:
+def _above(run: Recording, motion: Motion, vehicle: Vehicle, units: str) -> Picture:
     """The truck at five instants, heading to the right: as first, or each time if it turned far."""
     picks = five_instants(run, motion)
-    scale = arrow_scale(motion, picks)
+    length_unit, force_unit = display_unit("tractor_x_m", units), display_unit("tire_fz_n", units)
+    unit_n_per_m = length_unit.per_si / force_unit.per_si
+    scale = arrow_scale(motion, picks, unit_n_per_m)
     first = motion.units[vehicle.units[0]]
     last = motion.units[vehicle.units[-1]]
     turned = np.ptp(first.yaw_rad[picks]) > _TURNED_RAD
@@ -91,7 +97,8 @@ def _above(run: Recording, motion: Motion, vehicle: Vehicle) -> Picture:
         if turned:
             turn = -0.5 * float(first.yaw_rad[k] + last.yaw_rad[k])
         middle = (float(first.x_m[k] + last.x_m[k]) / 2, float(first.y_m[k] + last.y_m[k]) / 2)
-        draw_above(axes, vehicle, motion, k, n_per_m=scale, turn_rad=turn, center=middle)
+        draw_above(axes, vehicle, motion, k, n_per_m=scale and scale * unit_n_per_m,
+                   turn_rad=turn, center=middle)
         c, s = np.cos(turn), np.sin(turn)
         x, y = first.x_m - middle[0], first.y_m - middle[1]
         path_line(axes, c * x - s * y, s * x + c * y)
@@ -105,12 +112,14 @@ def _above(run: Recording, motion: Motion, vehicle: Vehicle) -> Picture:
     heights = [float(np.ptp(axes.get_ylim())) for axes in strips]
     strips[0].get_gridspec().set_height_ratios(heights)
     figure.set_size_inches(_WIDE_IN, 0.3 + _WIDE_IN * sum(heights) / (2.0 * half))
-    figure.axes[-1].set_xlabel("m")
-    arrows = f" Arrows: force of the road on each tire, 1 m = {scale / 1e3:g} kN." if scale else ""
+    figure.axes[-1].set_xlabel(length_unit.symbol)
+    tick_in(figure.axes[-1].xaxis, length_unit.per_si)
+    arrows = (f" Arrows: force of the road on each tire, 1 {length_unit.symbol} ="
+              f" {scale:g} {force_unit.symbol}.") if scale else ""
     return Picture("truck_above", "The truck from above at five instants",
                    "To scale; the flat tire in color; the line is the path of the tractor."
-                   + (" Each is turned to lie level." if turned else "") + arrows,
-                   figure)  # fmt: skip
+                   + (" Each is turned by the mean heading of its units." if turned else "")
+                   + arrows, figure)  # fmt: skip
 
 
 def _reach(axes: Axes, least: float) -> tuple[float, float]:
@@ -120,7 +129,7 @@ def _reach(axes: Axes, least: float) -> tuple[float, float]:
 
 
 @styled
-def _path(run: Recording, motion: Motion, vehicle: Vehicle) -> Picture:
+def _path(run: Recording, motion: Motion, vehicle: Vehicle, units: str) -> Picture:
     """Paths of all units to scale, and below with the side stretched."""
     first = motion.units[vehicle.units[0]]
     yaw, x0, y0 = float(first.yaw_rad[0]), float(first.x_m[0]), float(first.y_m[0])
@@ -130,18 +139,23 @@ def _path(run: Recording, motion: Motion, vehicle: Vehicle) -> Picture:
     tall = float(np.clip(_WIDE_IN * side / reach, 0.7, 7.0))
     figure = new_figure((_WIDE_IN, tall + 2.9))
     scale, stretched = figure.subplots(2, 1, height_ratios=(tall, 1.9))
-    for unit, color in zip(vehicle.units, (INK, ORANGE), strict=False):
-        track = motion.units[unit]
+    for name, color in zip(vehicle.units, (INK, ORANGE), strict=False):
+        track = motion.units[name]
         dx, dy = track.x_m - x0, track.y_m - y0
         along, across = c * dx + s * dy, c * dy - s * dx
         for axes in (scale, stretched):
-            axes.plot(along, across, color=color, label=unit, zorder=3)
+            axes.plot(along, across, color=color, label=name, zorder=3)
     for k in five_instants(run, motion):
         draw_above(scale, vehicle, motion, k, turn_rad=-yaw, center=(x0, y0))
     scale.margins(0.02, 0.15)
     scale.set_aspect("equal", adjustable="datalim")
-    scale.set_ylabel("left (m)")
-    stretched.set(xlabel="along the first heading (m)", ylabel="left (m), stretched")
+    unit = display_unit("tractor_x_m", units)
+    scale.set_ylabel(f"left ({unit.symbol})")
+    stretched.set(xlabel=f"along the first heading ({unit.symbol})",
+                  ylabel=f"left ({unit.symbol}), stretched")
+    for axes in (scale, stretched):
+        tick_in(axes.xaxis, unit.per_si)
+        tick_in(axes.yaxis, unit.per_si)
     stretched.legend(loc="best")
     return Picture("path", "Path", "Above to scale, with the truck at the five instants; below the"
                    " same with the side stretched.", figure)  # fmt: skip
@@ -180,8 +194,9 @@ def _shown_tires(run: Recording, vehicle: Vehicle) -> tuple[str, ...]:
 
 
 def _channels(run: Recording, name: str, title: str, words: str,
-              groups: tuple[tuple[str, ...], ...]) -> Picture:
+              groups: tuple[tuple[str, ...], ...], units: str) -> Picture:
     there = tuple(tuple(c for c in group if c in run) for group in groups)
-    request = PlotRequest(tuple(group for group in there if group) or (("throttle",),))
+    request = PlotRequest(tuple(group for group in there if group) or (("throttle",),),
+                          units=units)
     picture = channel_plot([run], request, name)
     return Picture(name, title, words, picture.figure)

@@ -5,6 +5,7 @@ Validated with: test/report/test_run_page.py.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 
 import numpy as np
@@ -21,7 +22,6 @@ Floats = NDArray[np.float64]
 _TIRE_WIDTH_OF_RADIUS, _BODY, _RUBBER, _FLAT = 0.56, "#dfe5ea", "#3a4149", VERMILION
 _FLAT_BELOW = 0.3  # part of the air left
 _LONGEST_M = 2.5
-_ROUND_N = (500.0, 1e3, 2e3, 5e3, 1e4, 2e4, 5e4)
 
 
 def draw_above(axes: Axes, vehicle: Vehicle, motion: Motion, index: int, *,
@@ -60,13 +60,24 @@ def draw_above(axes: Axes, vehicle: Vehicle, motion: Motion, index: int, *,
                     "shrinkB": 0, "mutation_scale": 7})  # fmt: skip
 
 
-def arrow_scale(motion: Motion, picks: Sequence[int]) -> float | None:
-    """Round force [N] of one meter, so that the longest arrow stays short; None without forces."""
+def arrow_scale(motion: Motion, picks: Sequence[int], unit_n_per_m: float) -> float | None:
+    """Force for each length of an arrow, so that the longest arrow stays short.
+
+    Args:
+        motion: with the forces.
+        picks: instants that are drawn.
+        unit_n_per_m: one unit of the scale, such as 1000 for kN/m.
+
+    Returns:
+        1, 2 or 5 times a power of ten, in that unit; None without forces.
+    """
     most = [float(np.hypot(force[0][list(picks)], force[1][list(picks)]).max())
             for wheel in motion.wheels.values() for force in wheel.forces_n.values()]
-    if not most:
+    if not most or max(most) <= 0.0:
         return None
-    return next((n for n in _ROUND_N if n * _LONGEST_M >= max(most)), _ROUND_N[-1])
+    least = max(most) / (_LONGEST_M * unit_n_per_m)
+    power = 10.0 ** math.floor(math.log10(least))
+    return next(n * power for n in (1.0, 2.0, 5.0, 10.0) if n * power >= least)
 
 
 def _pose(motion: Motion, unit: str, index: int) -> tuple[Floats, float]:

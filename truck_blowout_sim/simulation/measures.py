@@ -83,7 +83,9 @@ def measure(packed: Packed, drive: Drive, ran: Ran, lane_width_m: float) -> Meas
     since = slice(0 if blown is None else min(int(np.searchsorted(times, blown)), n - 1), n)
     inputs = ran.inputs[:max((n - 1) * every, 1)]
     wheel = inputs[min(since.start * every, len(inputs) - 1):, INPUT.steering_wheel_angle_rad]
-    speed = table["tractor_vx_mps"]
+    # a truck that slides sideways does not stand
+    speed = np.copysign(np.hypot(table["tractor_vx_mps"], table["tractor_vy_mps"]),
+                        table["tractor_vx_mps"])
     standing = np.flatnonzero(np.abs(speed[since]) < _STANDING_MPS)
     departure, sideways, left = _lane(packed, drive, table, since, lane_width_m)
     over = ran.ending if ran.ending and ran.ending.rolled_over else None

@@ -2,32 +2,60 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 from numpy.typing import NDArray
 
 from truck_blowout_sim.recordings import Recording
 from truck_blowout_sim.vehicle.units import FOOT_M, MILE_PER_HOUR_MPS
 
-_STANDING_MPS = 0.05
+_STANDING_MPS, _MOVING_MPS = 0.05, 0.5
+_FOLDED_DEG, _TOUCHING_DEG = 45.0, 90.0
 
 
-def summarize(recording: Recording) -> str:
-    """One line: what burst, speeds, peak yaw rate, where it ended, whether it rolled over."""
+@dataclass(frozen=True)
+class _Units:
+    """Names of a unit of speed and one of length, and their sizes in SI."""
+
+    speed: str
+    speed_mps: float
+    length: str
+    length_m: float
+
+
+_UNITS = {"us": _Units("mph", MILE_PER_HOUR_MPS, "ft", FOOT_M), "si": _Units("m/s", 1.0, "m", 1.0)}
+
+
+def summarize(recording: Recording, units: str = "us") -> str:
+    """One line: what burst, speeds, peak yaw rate, where it ended, whether it jackknifed or rolled.
+
+    Args:
+        recording: of a run.
+        units: ``us`` (mph, ft) or ``si`` (m/s, m).
+    """
+    shown = _UNITS[units]
     parts = [f"{'+'.join(event.tires)} blown at {event.time_s:g} s" for event in recording.blowouts]
-    parts += [_speed(recording), _yaw(recording), _place(recording)]
-    parts += _rolled_over(recording)
+    parts += [_speed(recording, shown), _yaw(recording), _place(recording, shown)]
+    parts += _folded(recording) + _rolled_over(recording)
     return "; ".join(parts)
 
 
-def _speed(recording: Recording) -> str:
-    speed = recording["tractor_vx_mps"]
-    first, last = speed.value[0] / MILE_PER_HOUR_MPS, speed.value[-1] / MILE_PER_HOUR_MPS
-    standing = np.flatnonzero(np.abs(speed.value) < _STANDING_MPS)
-    if first > 1.0 and standing.size:
+def _speed(recording: Recording, units: _Units) -> str:
+    forward, lateral = recording["tractor_vx_mps"], recording["tractor_vy_mps"]
+    # a truck that slides sideways does not stand
+    speed = np.copysign(np.hypot(forward.value, lateral.value), forward.value)
+    first, last = speed[0], speed[-1]
+    start = f"{first / units.speed_mps:.1f}"
+    standing = np.flatnonzero(np.abs(speed) < _STANDING_MPS)
+    if first > _MOVING_MPS and standing.size:
         stop = int(standing[0])
-        way_ft = _travelled(recording)[stop] / FOOT_M
-        return f"{first:.1f} mph to standstill in {way_ft:.0f} ft at {speed.time_s[stop]:.1f} s"
-    return f"{first:.1f} to {last:.1f} mph over {_travelled(recording)[-1] / FOOT_M:.0f} ft"
+        way = _travelled(recording)[stop] / units.length_m
+        return (f"{start} {units.speed} to standstill in {way:.0f} {units.length}"
+                f" at {forward.time_s[stop]:.1f} s")
+    way = _travelled(recording)[-1] / units.length_m
+    return (f"{start} to {last / units.speed_mps:.1f} {units.speed}"
+            f" over {way:.0f} {units.length}")
 
 
 def _travelled(recording: Recording) -> NDArray[np.float64]:
@@ -45,7 +73,7 @@ def _yaw(recording: Recording) -> str:
     return f"yaw rate at most {size:.1f} deg/s to the {side}, at {rate.time_s[peak]:.1f} s"
 
 
-def _place(recording: Recording) -> str:
+def _place(recording: Recording, units: _Units) -> str:
     """Where the tractor ended, beside the straight line on which it started."""
     x, y = recording["tractor_x_m"].value, recording["tractor_y_m"].value
     yaw = recording["tractor_yaw_rad"].value[0]
@@ -53,7 +81,23 @@ def _place(recording: Recording) -> str:
     if abs(off) < 0.05:
         return "ended on the line it started on"
     side = "left" if off > 0.0 else "right"
-    return f"ended {abs(off) / FOOT_M:.1f} ft {side} of the line it started on"
+    return f"ended {abs(off) / units.length_m:.1f} {units.length} {side} of the line it started on"
+
+
+def _folded(recording: Recording) -> list[str]:
+    """Articulation beyond that of a road's bends; where cabs touch trailers, the model ends."""
+    if "articulation_rad" not in recording:
+        return []
+    angle = recording["articulation_rad"]
+    degrees = np.abs(np.degrees(angle.value))
+    beyond = np.flatnonzero(degrees > _TOUCHING_DEG)
+    if beyond.size:
+        return [f"articulation passed {_TOUCHING_DEG:.0f} deg at {angle.time_s[beyond[0]]:.1f} s:"
+                " contact of tractor and trailer is not simulated"]
+    peak = int(np.argmax(degrees))
+    if degrees[peak] < _FOLDED_DEG:
+        return []
+    return [f"articulation at most {degrees[peak]:.0f} deg, at {angle.time_s[peak]:.1f} s"]
 
 
 def _rolled_over(recording: Recording) -> list[str]:
