@@ -96,7 +96,7 @@ def test_compare_maps_the_runs_that_the_mapping_fits(log: Path, tmp_path: Path,
                                                      capsys: pytest.CaptureFixture[str]) -> None:
     own = tmp_path / "own.csv"
     assert main(["export", str(log), "-m", str(tmp_path / "map.yaml"), "-o", str(own)]) == 0
-    words = ["compare", str(own), str(log), "-m", str(tmp_path / "map.yaml"), "--step", "0.004"]
+    words = ["compare", str(own), str(log), "-m", str(tmp_path / "map.yaml"), "--step-s", "0.004"]
     assert main([*words, "-o", str(tmp_path / "out")]) == 0
     assert "does not fit" in capsys.readouterr().out
 

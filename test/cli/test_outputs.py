@@ -36,6 +36,8 @@ def test_what_exists_is_replaced_only_with_force(tmp_path: Path, name: str) -> N
 @pytest.mark.parametrize(("words", "problem"), [
     (["view", "-o", "FOLDER"], "expected a name that ends in .html"),
     (["view", "-o", "FOLDER.html"], "is a folder; expected a file to write"),
+    (["inspect", "--write-map", "FOLDER"], "is a folder; expected a file to write"),
+    (["calibrate", "-o", "FOLDER.yaml"], "is a folder; expected a file to write"),
     (["plot", "-o", "FOLDER", "--start", "5", "--end", "2"], "expected a start before the end"),
     (["view", "--start", "nan", "-o", "x.html"], "expected a start before the end"),
 ])  # fmt: skip
@@ -44,7 +46,7 @@ def test_an_output_or_span_that_cannot_be_is_refused(
     capsys: pytest.CaptureFixture[str],
 ) -> None:
     monkeypatch.chdir(tmp_path)
-    for name in ("FOLDER", "FOLDER.html"):
+    for name in ("FOLDER", "FOLDER.html", "FOLDER.yaml"):
         (tmp_path / name).mkdir()
     assert main([words[0], "test_2013_steer_blowout", *words[1:]]) == 2
     assert problem in capsys.readouterr().err

@@ -80,7 +80,7 @@ def test_the_thesis_s_analysis_runs_with_steering_from_a_second_file(
     (tmp_path / "map.yaml").write_text(
         "also: [steering.csv]\nchannels: {steering_wheel_angle_rad: {from: handwheel}}")
     words = ["compare", str(tmp_path / "exp.mat"), "-m", str(tmp_path / "map.yaml"), "--hve",
-             "--step", "0.004", "-o", str(tmp_path / "out")]  # fmt: skip
+             "--step-s", "0.004", "-o", str(tmp_path / "out")]  # fmt: skip
     assert main(words) == 0
     assert "exp (HVE)" in capsys.readouterr().out
     held = json.loads((tmp_path / "out/hve/comparison.json").read_text())
@@ -102,7 +102,7 @@ def test_what_hve_cannot_be_read_from_is_refused_before_anything_is_written(
     [
         (["no_such_run.csv"], f"no such file or folder: 'no_such_run.csv'; .*{TEST_2013}"),
         ([TEST_2013, "--vehicle", "no_such_truck"], "no_such_truck"),
-        ([TEST_2013, "--step", "1"], "--step"),
+        ([TEST_2013, "--step-s", "1"], "--step-s"),
         ([TEST_2013, "--vehicle", "ferrari_250lm"], "steer_left"),
     ],
 )

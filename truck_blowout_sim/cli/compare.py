@@ -52,7 +52,7 @@ def command(
         " one folder each inside it.",
     ),
     step_s: float = typer.Option(
-        0.001, "--step-s", "--step", min=1e-5, max=0.005, help="Step [s]."
+        0.001, min=1e-5, max=0.005, help="Step [s]."
     ),
     impose_speed: bool | None = typer.Option(
         None, "--impose-speed/--no-impose-speed",

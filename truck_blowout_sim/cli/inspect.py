@@ -54,7 +54,7 @@ def command(
 
     its = load_vehicle(vehicle) if vehicle else None
     if write_map is not None:
-        claim(write_map, force=force, inputs=logs.inputs(log))
+        claim(write_map, force=force, inputs=logs.inputs(log), one_file=True)
     found = inspect_log(find_recording(log), mapping=logs.mapping, namespace=logs.namespace,
                         also=logs.also, wheels=_wheels(its) if its else None)  # fmt: skip
     if logs.mapping is not None or logs.blow:

@@ -47,7 +47,8 @@ def ask_about(problems: Sequence[str], yes: bool) -> None:
 
 
 def claim(output: str | PathLike[str], *, force: bool = False,
-          inputs: Iterable[str | PathLike[str]] = (), writes: Sequence[str] = ()) -> Path:
+          inputs: Iterable[str | PathLike[str]] = (), writes: Sequence[str] = (),
+          one_file: bool = False) -> Path:
     """Check, before any work is done, that an output may be written.
 
     Args:
@@ -57,13 +58,15 @@ def claim(output: str | PathLike[str], *, force: bool = False,
             they are no paths).
         writes: names of the files and folders written inside ``output``. Empty: ``output`` itself
             is written whole, as a file or a bag.
+        one_file: ``output`` becomes a file, never a bag.
 
     Returns:
         ``output`` as a path.
 
     Raises:
         InputError: the output lies on, in or around an input, even with ``force``; or it exists
-            and ``force`` is not given; or nothing can be written there.
+            and ``force`` is not given; or it is a folder in place of a file; or nothing can be
+            written there.
     """
     target = Path(output)
     written = [target / name for name in writes] if writes else [target]
@@ -74,6 +77,8 @@ def claim(output: str | PathLike[str], *, force: bool = False,
                                  expected="an output apart from every input")
     if writes and target.exists() and not target.is_dir():
         raise InputError("is a file", file=target, expected="a folder to write into")
+    if one_file and target.is_dir():
+        raise InputError("is a folder", file=target, expected="a file to write")
     if not force:
         for path in written:
             if path.exists() and not (path.is_dir() and not any(path.iterdir())):

@@ -74,10 +74,10 @@ def command(
     target = output or Path(loaded.name)
     if form == "csv" and target.suffix != ".csv":
         target = target.with_name(f"{target.name}.csv")
-    claim(target, force=force, inputs=[loaded.path, truck.vehicle.path])
+    claim(target, force=force, inputs=[loaded.path, truck.vehicle.path], one_file=form == "csv")
     html = page_beside(target)
     if page := page or open_page:
-        claim(html, force=force, inputs=[loaded.path, truck.vehicle.path])
+        claim(html, force=force, inputs=[loaded.path, truck.vehicle.path], one_file=True)
     packed, drive, blowouts = prepare(truck, loaded, step_s=step_s, rate_hz=rate_hz)
     ask_about(implausible(packed, drive), yes)
     ran, factor = _run(packed, drive, loaded.name)

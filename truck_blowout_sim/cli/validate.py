@@ -8,6 +8,7 @@ from pathlib import Path
 import typer
 
 from truck_blowout_sim.cli.outputs import FORCE, JSON, claim, say
+from truck_blowout_sim.recordings.atomic import replacing
 from truck_blowout_sim.simulation.validation import as_markdown, validate
 
 MARK = "<!-- below: written by `truck-blowout validate -o docs/validation.md` -->"
@@ -26,7 +27,7 @@ def command(
     Example: truck-blowout validate -o validation.md
     """
     if output is not None:
-        claim(output, force=force)
+        claim(output, force=force, one_file=True)
     sections = validate(lambda words: typer.echo(words, err=True))
     table = as_markdown(sections)
     result = {name: {mode: [asdict(row) for row in rows] for mode, rows in by_mode.items()}
@@ -38,5 +39,6 @@ def command(
     if output.is_file():
         # without the mark nothing in the older file is ours to replace
         above = output.read_text(encoding="utf-8").partition(MARK)[0]
-    output.write_text(f"{above}{MARK}\n\n{table}", encoding="utf-8")
+    with replacing(output) as temporary:
+        temporary.write_text(f"{above}{MARK}\n\n{table}", encoding="utf-8")
     say(as_json, {"output": str(output), **result}, [f"{output}: written"])

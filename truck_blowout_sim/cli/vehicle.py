@@ -15,7 +15,7 @@ def command(
         help="Name of a shipped vehicle, or a YAML file.", autocompletion=names_of("vehicles")
     ),
     speed_mps: float = typer.Option(
-        20.0, "--speed", min=3.0, max=60.0, help="Speed of the gentle turns, m/s."
+        20.0, min=3.0, max=60.0, help="Speed of the gentle turns, m/s."
     ),
     tires: list[str] = typer.Option(
         [], "--tire", help="Tire, hub or axle whose rig plot is drawn; 'all' for one of each axle."

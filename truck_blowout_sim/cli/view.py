@@ -63,12 +63,12 @@ def command(
 
     _check_view(camera)
     inputs = logs.inputs(*runs)
-    target = claim(_page(output, runs[0]), force=force, inputs=inputs)
+    target = claim(_page(output, runs[0]), force=force, inputs=inputs, one_file=True)
     check_span(start_s, end_s)
     if video is not None:
         if video.suffix != ".mp4":
             raise InputError(f"--video {quoted(str(video))}", expected="a name that ends in .mp4")
-        claim(video, force=force, inputs=inputs)
+        claim(video, force=force, inputs=inputs, one_file=True)
     recordings = logs.read_all(runs)
     say_notes(*recordings)
     shown = [_shown(recording, vehicle) for recording in recordings]
@@ -95,8 +95,6 @@ def _page(output: Path | None, run: str) -> Path:
     page = output or Path(f"{Path(run.rstrip('/')).stem}.html")
     if page.suffix.lower() not in (".html", ".htm"):
         raise InputError(f"--output {quoted(str(page))}", expected="a name that ends in .html")
-    if page.is_dir():
-        raise InputError("is a folder", file=page, expected="a file to write")
     return page
 
 
