@@ -19,7 +19,7 @@ from matplotlib.axes import Axes
 from truck_blowout_sim.comparison import Comparison, verdict
 from truck_blowout_sim.comparison.units import display_unit
 from truck_blowout_sim.comparison.words import labels_for
-from truck_blowout_sim.report.comparison_lines import draw_measured, event_times
+from truck_blowout_sim.report.comparison_lines import draw_measured, event_times, marks_for
 from truck_blowout_sim.report.page import render, write_text
 from truck_blowout_sim.report.style import AFTER, BEFORE, EVENT, Picture, new_figure, styled
 
@@ -152,7 +152,7 @@ def _overlay(story: Story, *, amended: bool) -> Picture:
         upper, lower, unit = panels[2 * k], panels[2 * k + 1], display_unit(name)
         pair = story.before.pairs[name]
         draw_measured(upper, pair.time_s, pair.measured * unit.per_si, pair.time_s,
-                      story.before.marks.get(name))  # fmt: skip
+                      marks_for(story.before, name))  # fmt: skip
         for comparison, label, color in shown:
             own = comparison.pairs[name]
             upper.plot(own.time_s, own.model * unit.per_si, color=color, label=label, zorder=3)
