@@ -23,7 +23,7 @@ VEHICLE: Any = typer.Option(
     "international_9400i_trailmobile", help="Name of a shipped vehicle, or a YAML file.",
     autocompletion=names_of("vehicles"),
 )
-_CONTINUES = "the same command goes on from here"
+_CONTINUES = "the same command continues from here"
 
 
 def command(
