@@ -85,15 +85,15 @@ FIGURES: dict[int, Entry] = {
     20: Entry("Aligning torque, inflated tire", "A map over slip angle and load; the text prints"
               " no numbers.", (MAPS,),
               partial(tires.tire_figure, quantity="aligning", flat=False)),
-    21: Entry("Aligning torque, flat tire", "Larger than that of the inflated tire; by how much, no"
-              " text says. Our thesis sheet leaves it as it is.", (MAPS,),
+    21: Entry("Aligning torque, flat tire", "Larger than that of the inflated tire; the text does"
+              " not say by how much. Our thesis sheet leaves it as it is.", (MAPS,),
               partial(tires.tire_figure, quantity="aligning", flat=True)),
     29: Entry("Hand wheel of test and simulations", "Test, TruckSim and HVE in SAE axes. Ours are"
               " driven by the record itself.", (STEER,), record.steer_angles),
     30: Entry("Hand wheel given to the simulation", "The same input, turned to the simulator's"
               " axes: left positive.", (STEER,), record.steer_input),
-    31: Entry("Speed", "Simulated and recorded speeds are almost the same; they part from 3 s on.",
-              (STEER,), record.speeds),
+    31: Entry("Speed", "Simulated and recorded speeds are almost the same; they differ from"
+              " 3 s on.", (STEER,), record.speeds),
     32: Entry("Speed error", "No more than 0.6 mph during 15 s.", (STEER,), record.speed_error),
     33: Entry("Lateral speed", "The error is no more than 0.5 mph, positive throughout, and falls"
               " with time.", (STEER,), record.lateral_speed),
@@ -108,10 +108,10 @@ FIGURES: dict[int, Entry] = {
     38: Entry("Trailer axle: paths", "Left (inner) duals: a smaller turn, at first the trailer yaws"
               " away. Right (outer) duals: a much larger radius." + _STEP, (TURNS,),
               _turn("trailer", "no blowout", "left duals", "right duals")),
-    39: Entry("Trailer axle, left duals: yaw rates", "Less effect than of the outer tires.",
-              (TURNS,), _yaw("trailer", "left duals")),
+    39: Entry("Trailer axle, left duals: yaw rates", "The effect is smaller than that of"
+              " the outer tires.", (TURNS,), _yaw("trailer", "left duals")),
     40: Entry("Trailer axle, right duals: yaw rates", "The trailer continues to yaw"
-              " counterclockwise; more effect than of the inner tires.", (TURNS,),
+              " counterclockwise; the effect is larger than that of the inner tires.", (TURNS,),
               _yaw("trailer", "right duals")),
     41: Entry("Drive axle: paths", "With either side blown the truck yaws more into the turn; more"
               " with the left duals." + _STEP, (TURNS,),

@@ -38,8 +38,9 @@ def axis_system(data: ThesisData, stated: str, kind: str) -> Figure:
         _arrow(axes, origin, (3.0, 0.0), "x forward")
         up = "z" if seen == "side" else "y"
         words = {"z": ("z up", "z down"), "y": ("y left", "y right")}[up][down]
-        _arrow(axes, origin, (0.0, -1.5 if down else 1.5), words)
-        axes.set(xlim=(rear - 1, front + 4), ylim=(-2.2, 3.4) if seen == "side" else (-2.4, 2.4),
+        reach = 2.2 if seen == "side" else 1.5
+        _arrow(axes, origin, (0.0, -reach if down else reach), words)
+        axes.set(xlim=(rear - 1, front + 4), ylim=(-2.2, 4.2) if seen == "side" else (-2.4, 2.4),
                  title=f"seen from {'the left' if seen == 'side' else 'above'}")  # fmt: skip
         axes.set(xlabel="x (m)", ylabel=f"{up} (m)")
         axes.set_aspect("equal")
@@ -144,4 +145,6 @@ def _arrow(axes: Axes, start: tuple[float, float], way: tuple[float, float], wor
     end = (start[0] + way[0], start[1] + way[1])
     axes.annotate("", end, start, arrowprops={"arrowstyle": "-|>", "color": OURS_LINE,
                                               "linewidth": 2.2})  # fmt: skip
-    axes.annotate(words, end, xytext=(6, 4), textcoords="offset points", color=OURS_LINE)
+    # beyond the point, which lies past the outline and the road
+    height = 4 if way[1] >= 0.0 else -10
+    axes.annotate(words, end, xytext=(6, height), textcoords="offset points", color=OURS_LINE)
