@@ -216,7 +216,8 @@ def say_notes(*recordings: Recording) -> None:
     for recording in recordings:
         name = f"{recording.name}: " if len(recordings) > 1 else ""
         for note in recording.notes:
-            typer.echo(f"note: {name}{note}", err=True)
+            # some notes name the file already
+            typer.echo(f"note: {name}{note.removeprefix(name)}", err=True)
 
 
 def _parameter(name: str) -> inspect.Parameter:
