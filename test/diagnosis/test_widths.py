@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -43,7 +44,8 @@ def test_a_flat_tire_that_was_braked_widens_what_models_differ_by_and_not_the_no
 def test_what_is_missing_does_not_excuse_itself(study_of: Callable[..., Study]) -> None:
     """A motion that the model lacks widens no bin; one that the model has widens its own."""
     study = study_of()
-    run, still = study.runs[0], np.zeros(study.runs[0].measured.shape)
+    still = np.zeros(study.runs[0].measured.shape)
+    run = replace(study.runs[0], correction=still)
     k = run.channels.index("tractor_yaw_rate_radps")
     moved = still.copy()
     moved[30:45, k] = 0.2
@@ -51,3 +53,20 @@ def test_what_is_missing_does_not_excuse_itself(study_of: Callable[..., Study]) 
     assert np.ptp(calm) == pytest.approx(0.0, abs=1e-3 * calm.mean())
     assert (kicked[30:45] > 3.0 * calm[30:45]).all()
     np.testing.assert_allclose(kicked[70:], calm[70:])
+
+
+def test_what_a_finer_step_changes_widens_the_bins_around_it(study_of: Callable[..., Study]
+                                                             ) -> None:
+    """Where friction sticks and slips, one step is as good a model as another."""
+    study = study_of()
+    still = np.zeros(study.runs[0].measured.shape)
+    run = replace(study.runs[0], correction=still)
+    k = run.channels.index("tractor_yaw_rate_radps")
+    changed = still.copy()
+    changed[20:40, k] = 0.01
+    calm, unsure = (replace(run, correction=one).weighed(still, study.settings).sigma
+                    for one in (still, changed))
+    lasts = study.settings.correlation_s / study.settings.bin_s
+    np.testing.assert_allclose(unsure[30, k], np.sqrt(calm[30, k]**2 + lasts * 0.01**2), rtol=1e-6)
+    np.testing.assert_allclose(unsure[60:], calm[60:])
+    np.testing.assert_allclose(np.delete(unsure, k, axis=1), np.delete(calm, k, axis=1))

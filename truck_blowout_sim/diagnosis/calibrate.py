@@ -45,7 +45,7 @@ from truck_blowout_sim.vehicle import Packed, Vehicle, load_vehicle, pack, write
 Floats = NDArray[np.float64]
 Progress = Callable[[str, float], None]
 
-_STEP_S = 0.002  # residuals on 0.1 s bins do not change beyond a tenth of a sigma against 1 ms
+_STEP_S = 0.002  # bins of 0.1 s hardly depend on it, but where friction sticks and slips
 _PLACE = "world."
 # of the settings' steps: a coast-down of a minute tells a drag to a hundredth of the steps that a
 # diagnosis takes, over which speed is no straight line
