@@ -96,3 +96,19 @@ def test_the_gate_states_it_and_the_correction_undoes_it() -> None:
     assert np.array_equal(mended["tractor_yaw_rate_radps"].value,
                           RUN["tractor_yaw_rate_radps"].value)  # fmt: skip
     assert "channel_sign" in mended.metadata["sensor_correction"]
+
+
+def test_how_an_instrument_is_mounted_says_nothing_of_its_sign() -> None:
+    """On the straight another sign of a channel changes nothing but a constant."""
+    rng = np.random.default_rng(3)
+    t = np.arange(0.0, 15.0, 0.01)
+    levels = {"vx_mps": (20.0, 0.012), "vy_mps": (0.0, 0.012), "yaw_rate_radps": (0.0, 3e-4),
+              "ay_mps2": (0.1, 0.03), "roll_rad": (-0.02, 3e-4), "roll_rate_radps": (0.0, 3e-4),
+              "pitch_rad": (0.0, 3e-4)}
+
+    def straight(name: str) -> Recording:
+        return Recording(name, {f"tractor_{channel}": Series(
+            t, level + noise * rng.standard_normal(t.size))
+            for channel, (level, noise) in levels.items()})
+
+    assert names(straight("one"), straight("two"), straight("three")) == []

@@ -245,7 +245,10 @@ def _left(identity: Identity, signals: Signals, windows: Windows) -> FloatArray:
 
 
 def _gain(before: FloatArray, after: FloatArray, windows: Windows) -> float:
-    """Log likelihood ratio of two residuals, each with its own variance."""
+    """Log likelihood ratio of two residuals, each with its own variance.
+
+    About its own mean: a constant is how an instrument is mounted, and says nothing of its sign.
+    """
     both = np.isfinite(before) & np.isfinite(after)
     if both.sum() < 10:
         return 0.0
@@ -253,7 +256,7 @@ def _gain(before: FloatArray, after: FloatArray, windows: Windows) -> float:
     bump_s = windows.step * windows.period_s
     count = min(_independent(old, bump_s), _independent(new, bump_s))
     tiny = 1e-12
-    ratio = (float(np.mean(old**2)) + tiny) / (float(np.mean(new**2)) + tiny)
+    ratio = (float(np.var(old)) + tiny) / (float(np.var(new)) + tiny)
     return 0.5 * count * float(np.log(ratio))
 
 
