@@ -147,7 +147,7 @@ def test_bad_input_is_one_line_and_status_2(
     assert "steering_wheel_angle_rad" in refused(capsys, str(tmp_path / "blind.csv"), *out)
     assert "no_truck" in refused(capsys, path, "--vehicle", "no_truck", *out)
     assert "no_file" in refused(capsys, path, "--settings", "no_file", *out)
-    assert "--without 'wind'" in refused(capsys, path, "--without", "wind", *out)
+    assert "no effect is called 'wind'" in refused(capsys, path, "--without", "wind", *out)
     assert "--output" in refused(capsys, path)
     assert not (tmp_path / "out" / "diagnosis.json").exists()
 

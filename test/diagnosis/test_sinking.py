@@ -29,7 +29,8 @@ def turned(study: Study, share: float, from_s: float, roles: Sequence[str] = ("t
 
 
 def hubs(study: Study) -> set[str]:
-    return set(sinking_hubs(study, (), secondary_blowout.EFFECT, ASKED))
+    return set(sinking_hubs(study, (), secondary_blowout.EFFECT, ASKED,
+                            study.packed.vehicle.hubs))
 
 
 def test_a_hub_that_turns_faster_is_found_and_no_other(study_of: Studies) -> None:

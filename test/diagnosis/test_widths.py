@@ -7,11 +7,14 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 
+from truck_blowout_sim.diagnosis.case.runs import Run
 from truck_blowout_sim.diagnosis.case.study import Study
 from truck_blowout_sim.diagnosis.case.widths import swings, widths
 from truck_blowout_sim.diagnosis.settings import Settings
 
+Floats = NDArray[np.float64]
 CHANNELS = ("tractor_yaw_rate_radps", "tractor_ay_mps2")
 
 
@@ -41,12 +44,17 @@ def test_a_flat_tire_that_was_braked_widens_what_models_differ_by_and_not_the_no
     np.testing.assert_allclose(loud, 100.0, rtol=1e-3)
 
 
+def uncorrected(study: Study) -> tuple[Run, Floats, int]:
+    """The training run with the same motion at every step, zeros of its shape, and a channel."""
+    still = np.zeros(study.runs[0].measured.shape)
+    run = replace(study.runs[0], correction=still)
+    return run, still, run.channels.index("tractor_yaw_rate_radps")
+
+
 def test_what_is_missing_does_not_excuse_itself(study_of: Callable[..., Study]) -> None:
     """A motion that the model lacks widens no bin; one that the model has widens its own."""
     study = study_of()
-    still = np.zeros(study.runs[0].measured.shape)
-    run = replace(study.runs[0], correction=still)
-    k = run.channels.index("tractor_yaw_rate_radps")
+    run, still, k = uncorrected(study)
     moved = still.copy()
     moved[30:45, k] = 0.2
     calm, kicked = (run.weighed(model, study.settings).sigma[:, k] for model in (still, moved))
@@ -59,9 +67,7 @@ def test_what_a_finer_step_changes_widens_the_bins_around_it(study_of: Callable[
                                                              ) -> None:
     """Where friction sticks and slips, one step is as good a model as another."""
     study = study_of()
-    still = np.zeros(study.runs[0].measured.shape)
-    run = replace(study.runs[0], correction=still)
-    k = run.channels.index("tractor_yaw_rate_radps")
+    run, still, k = uncorrected(study)
     changed = still.copy()
     changed[20:40, k] = 0.01
     calm, unsure = (replace(run, correction=one).weighed(still, study.settings).sigma

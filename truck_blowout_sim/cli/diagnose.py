@@ -18,7 +18,6 @@ from truck_blowout_sim.cli.listing import list_option, names_of
 from truck_blowout_sim.cli.outputs import FORCE, JSON, YES, ask_about, claim, say
 from truck_blowout_sim.cli.progress import bar
 from truck_blowout_sim.cli.reading import AS_IT_IS, LogOptions, check_brakes, reads_logs, say_notes
-from truck_blowout_sim.errors import InputError, nearest, quoted
 
 if TYPE_CHECKING:
     from truck_blowout_sim.diagnosis import Diagnosis
@@ -119,17 +118,13 @@ def command(
 
 def _vehicle(name: str, settings: str, without: Sequence[str]) -> Vehicle:
     """The vehicle; a typo in any name is told before anything else is said."""
-    from truck_blowout_sim.diagnosis.effects import LIBRARY
+    from truck_blowout_sim.diagnosis.name.candidates import known_names
     from truck_blowout_sim.diagnosis.settings import load_settings
     from truck_blowout_sim.vehicle import load_vehicle, pack
 
     loaded = load_vehicle(name)
     load_settings(pack(loaded), settings)
-    effects = sorted(effect.name for effect in LIBRARY)
-    for effect in without:
-        if effect not in effects:
-            raise InputError(f"--without {quoted(effect)}",
-                             expected=nearest(effect, effects, "one of " + ", ".join(effects)))
+    known_names(without)
     return loaded
 
 

@@ -71,12 +71,11 @@ def command(
     if blow:
         loaded = loaded.with_blowouts(parse_blowouts([] if blow == ["none"] else blow))
     truck = set_values(pack(load_vehicle(vehicle)), values)
-    target = output or Path(loaded.name)
-    if form == "csv" and target.suffix != ".csv":
-        target = target.with_name(f"{target.name}.csv")
+    target = _target(output or Path(loaded.name), form)
     claim(target, force=force, inputs=[loaded.path, truck.vehicle.path], one_file=form == "csv")
     html = page_beside(target)
-    if page := page or open_page:
+    page = page or open_page
+    if page:
         claim(html, force=force, inputs=[loaded.path, truck.vehicle.path], one_file=True)
     packed, drive, blowouts = prepare(truck, loaded, step_s=step_s, rate_hz=rate_hz)
     ask_about(implausible(packed, drive), yes)
@@ -92,6 +91,13 @@ def command(
     _tell(recording, result, factor, as_json=as_json)
     if open_page:
         webbrowser.open(html.resolve().as_uri())
+
+
+def _target(output: Path, form: str) -> Path:
+    """Where the recording goes; the name of a CSV ends in .csv."""
+    if form == "csv" and output.suffix != ".csv":
+        return output.with_name(f"{output.name}.csv")
+    return output
 
 
 def _result(recording: Recording, units: str) -> dict[str, object]:

@@ -10,13 +10,13 @@ Validated with: test/comparison/test_comparing.py.
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from truck_blowout_sim.comparison.contrast import Contrast, contrast
-from truck_blowout_sim.comparison.driving import STEP_S, side_by_side
+from truck_blowout_sim.comparison.driving import STEP_S, in_table_order, side_by_side
 from truck_blowout_sim.comparison.errors import ChannelError, channel_error
 from truck_blowout_sim.comparison.noise import channel_sigmas
 from truck_blowout_sim.comparison.pairing import Pair, gravity_is_removed, pairs_of
@@ -141,7 +141,7 @@ def compare_recordings(first: Recording | str | os.PathLike[str],
     if not pairs:
         raise InputError(f"no output channel in common with {other.name}", file=one.name,
                          expected="a channel that both recorded at common times")
-    channels = _errors(one, loaded, pairs, _nothing, tell)
+    channels = _errors(one, loaded, pairs, (), tell)
     tell("done", 1.0)
     notes = (*one.notes, *other.notes, *_clocks_apart(one, other))
     return Comparison(one, other, loaded, False, pairs, channels, marks, notes, None, other.name)
@@ -159,16 +159,15 @@ def _clocks_apart(one: Recording, other: Recording) -> tuple[str, ...]:
 
 
 def _errors(recording: Recording, vehicle: Vehicle, pairs: Mapping[str, Pair],
-            imposed: Callable[[str], bool], tell: Progress) -> tuple[ChannelError, ...]:
+            imposed: Collection[str], tell: Progress) -> tuple[ChannelError, ...]:
     """Errors of all pairs in the order of the channel table."""
     sigmas = channel_sigmas(recording)
     labels = labels_for(vehicle)
-    order = {name: k for k, name in enumerate(labels)}
     found = []
-    for k, name in enumerate(sorted(pairs, key=lambda n: order.get(n, len(order)))):
+    for k, name in enumerate(in_table_order(pairs, vehicle)):
         tell("measuring " + labels.get(name, name), 0.4 + 0.5 * k / len(pairs))
         found.append(channel_error(pairs[name], labels.get(name, name),
-                                   sigmas.get(name), imposed=imposed(name)))  # fmt: skip
+                                   sigmas.get(name), imposed=name in imposed))  # fmt: skip
     return tuple(found)
 
 
@@ -197,11 +196,6 @@ def _notes(recording: Recording, model: Recording) -> tuple[str, ...]:
     if strange:
         notes += (f"not compared, this vehicle has no such part: {', '.join(strange)}",)
     return notes
-
-
-def _nothing(channel: str) -> bool:
-    """No channel was imposed."""
-    return False
 
 
 def _silent(stage: str, share: float) -> None:

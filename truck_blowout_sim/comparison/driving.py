@@ -8,17 +8,18 @@ Validated with: test/comparison/test_driving.py.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 from truck_blowout_sim.comparison.pairing import Pair, pairs_of
 from truck_blowout_sim.comparison.resets import longest_run
+from truck_blowout_sim.comparison.words import labels_for
 from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.recordings import Recording
 from truck_blowout_sim.simulation.drive import execute
 from truck_blowout_sim.simulation.plausible import implausible
 from truck_blowout_sim.simulation.replay import as_recording, drive_from
-from truck_blowout_sim.vehicle import Packed
+from truck_blowout_sim.vehicle import Packed, Vehicle
 
 STEP_S = 0.001
 _IMPOSED = "tractor_vx_mps"  # the channel that an imposed speed follows
@@ -39,9 +40,10 @@ class SideBySide:
     pairs: Mapping[str, Pair]
     speed_imposed: bool
 
-    def imposed(self, channel: str) -> bool:
-        """Whether the model was made to follow a channel, so that its error says nothing."""
-        return self.speed_imposed and channel == _IMPOSED
+    @property
+    def imposed(self) -> frozenset[str]:
+        """Channels that the model was made to follow, so that their errors say nothing."""
+        return frozenset({_IMPOSED} if self.speed_imposed else ())
 
 
 def side_by_side(recording: Recording, packed: Packed, *, step_s: float = STEP_S,
@@ -73,4 +75,11 @@ def rms_errors(recording: Recording, packed: Packed, *, impose_speed: bool | Non
                ) -> Mapping[str, float]:
     """Rms error of every channel in which the truck was free, as ``compare`` has it; SI."""
     driven = side_by_side(recording, packed, impose_speed=impose_speed)
-    return {name: pair.rms for name, pair in driven.pairs.items() if not driven.imposed(name)}
+    return {name: driven.pairs[name].rms for name in in_table_order(driven.pairs, packed.vehicle)
+            if name not in driven.imposed}
+
+
+def in_table_order(names: Iterable[str], vehicle: Vehicle) -> list[str]:
+    """Channels in the order of the channel table; those that it lacks come last."""
+    order = {name: k for k, name in enumerate(labels_for(vehicle))}
+    return sorted(names, key=lambda name: order.get(name, len(order)))

@@ -21,7 +21,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from truck_blowout_sim.comparison import compare
+from truck_blowout_sim.comparison import rms_errors
 from truck_blowout_sim.diagnosis.case.calibration import apply_amounts
 from truck_blowout_sim.diagnosis.case.calibration import calibrate as settle
 from truck_blowout_sim.diagnosis.case.nuisance import Nuisance
@@ -323,10 +323,9 @@ def _errors(
     found = {}
     for group, is_unseen in ((runs, False), (unseen, True)):
         for run in group:
-            compared = compare(run, truck, impose_speed=impose_speed)
-            for channel in compared.channels:
-                if not channel.imposed and channel.name in run:
-                    found[run.name, channel.name, is_unseen] = channel.rms
+            for name, rms in rms_errors(run, truck, impose_speed=impose_speed).items():
+                if name in run:
+                    found[run.name, name, is_unseen] = rms
     return found
 
 

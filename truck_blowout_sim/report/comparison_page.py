@@ -55,8 +55,8 @@ def comparison_page(comparison: Comparison, pictures: tuple[Picture, ...] | None
         "rebuilt": recording.metadata.get("origin", "") if comparison.marks else "",
         "interval": f"{start:.2f} s to {end:.2f} s",
         "blowouts": _blowouts(comparison),
-        "metadata": [(key.replace("_", " "), recording.metadata[key])
-                     for key in _METADATA if key in recording.metadata],
+        "metadata": [(key.replace("_", " "), recording.metadata[key]) for key in _METADATA
+                     if key in recording.metadata],
         "driven_by": _driven_by(comparison),
         "notes": comparison.notes,
         "pictures": comparison_pictures(comparison) if pictures is None else pictures,

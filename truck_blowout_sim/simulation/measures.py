@@ -22,7 +22,7 @@ from truck_blowout_sim.simulation.drive import Drive, Ran, names_of
 from truck_blowout_sim.vehicle import Packed
 
 Floats = NDArray[np.float64]
-_STANDING_MPS = 0.05
+STANDING_MPS = 0.05
 
 
 @dataclass(frozen=True)
@@ -69,6 +69,11 @@ class Measures:
         return asdict(self)
 
 
+def whole_speed(forward_mps: Floats, lateral_mps: Floats) -> Floats:
+    """[n] Speed with the sign of the forward one: a truck that slides sideways does not stand."""
+    return np.copysign(np.hypot(forward_mps, lateral_mps), forward_mps)
+
+
 def measure(packed: Packed, drive: Drive, ran: Ran, lane_width_m: float) -> Measures:
     """Measures of a run that did not fail.
 
@@ -83,10 +88,8 @@ def measure(packed: Packed, drive: Drive, ran: Ran, lane_width_m: float) -> Meas
     since = slice(0 if blown is None else min(int(np.searchsorted(times, blown)), n - 1), n)
     inputs = ran.inputs[:max((n - 1) * every, 1)]
     wheel = inputs[min(since.start * every, len(inputs) - 1):, INPUT.steering_wheel_angle_rad]
-    # a truck that slides sideways does not stand
-    speed = np.copysign(np.hypot(table["tractor_vx_mps"], table["tractor_vy_mps"]),
-                        table["tractor_vx_mps"])
-    standing = np.flatnonzero(np.abs(speed[since]) < _STANDING_MPS)
+    speed = whole_speed(table["tractor_vx_mps"], table["tractor_vy_mps"])
+    standing = np.flatnonzero(np.abs(speed[since]) < STANDING_MPS)
     departure, sideways, left = _lane(packed, drive, table, since, lane_width_m)
     over = ran.ending if ran.ending and ran.ending.rolled_over else None
     units = packed.names.units

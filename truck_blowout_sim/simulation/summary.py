@@ -8,9 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from truck_blowout_sim.recordings import Recording
+from truck_blowout_sim.simulation.measures import STANDING_MPS, whole_speed
 from truck_blowout_sim.vehicle.units import FOOT_M, MILE_PER_HOUR_MPS
 
-_STANDING_MPS, _MOVING_MPS = 0.05, 0.5
+_MOVING_MPS = 0.5
 _FOLDED_DEG, _TOUCHING_DEG = 45.0, 90.0
 
 
@@ -43,11 +44,10 @@ def summarize(recording: Recording, units: str = "us") -> str:
 
 def _speed(recording: Recording, units: _Units) -> str:
     forward, lateral = recording["tractor_vx_mps"], recording["tractor_vy_mps"]
-    # a truck that slides sideways does not stand
-    speed = np.copysign(np.hypot(forward.value, lateral.value), forward.value)
+    speed = whole_speed(forward.value, lateral.value)
     first, last = speed[0], speed[-1]
     start = f"{first / units.speed_mps:.1f}"
-    standing = np.flatnonzero(np.abs(speed) < _STANDING_MPS)
+    standing = np.flatnonzero(np.abs(speed) < STANDING_MPS)
     if first > _MOVING_MPS and standing.size:
         stop = int(standing[0])
         way = _travelled(recording)[stop] / units.length_m

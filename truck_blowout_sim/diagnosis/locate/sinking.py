@@ -14,7 +14,7 @@ Validated with: test/diagnosis/test_sinking.py.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,9 +29,9 @@ from truck_blowout_sim.diagnosis.fit.instants import grid_of
 Floats = NDArray[np.float64]
 
 
-def sinking_hubs(study: Study, named: Sequence[Hypothesis], event: Effect, asked: float
-                 ) -> frozenset[str]:
-    """Hubs that turn faster from an instant on, in the training runs together.
+def sinking_hubs(study: Study, named: Sequence[Hypothesis], event: Effect, asked: float,
+                 hubs: Collection[str]) -> frozenset[str]:
+    """Which of some hubs turn faster from an instant on, in the training runs together.
 
     Study's models have ``named`` in force.
 
@@ -39,7 +39,12 @@ def sinking_hubs(study: Study, named: Sequence[Hypothesis], event: Effect, asked
         study: the case; ``named``: what is in force.
         event: effect at whose instants to look.
         asked: fall of the sum of squares that chance may reach.
+        hubs: that are in question.
     """
+    recorded = {channel for i in study.train for channel in study.runs[i].channels}
+    seen = [hub for hub in hubs if f"hub_speed_{hub}_radps" in recorded]
+    if not seen:
+        return frozenset()
     projector = study.projector(named)
     removed = projector.remove(study.residual())
 
@@ -56,9 +61,7 @@ def sinking_hubs(study: Study, named: Sequence[Hypothesis], event: Effect, asked
             total += max(best - 2.0 * float(np.log(max(len(instants), 1))), 0.0)
         return total
 
-    recorded = {channel for i in study.train for channel in study.runs[i].channels}
-    return frozenset(hub for hub in study.packed.vehicle.hubs
-                     if f"hub_speed_{hub}_radps" in recorded and evidence(hub) > asked)
+    return frozenset(hub for hub in seen if evidence(hub) > asked)
 
 
 def _from(run: Run, which: Run, at_s: float) -> Floats:

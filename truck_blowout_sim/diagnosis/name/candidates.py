@@ -11,7 +11,7 @@ from truck_blowout_sim.diagnosis.case.study import Study
 from truck_blowout_sim.diagnosis.effects import LIBRARY, Effect, secondary_blowout, yaw_rate_scale
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.result.parts import Place
-from truck_blowout_sim.errors import InputError
+from truck_blowout_sim.errors import InputError, nearest
 
 Floats = NDArray[np.float64]
 _PRESSURE_SEEN = 0.03  # share that stands out of a gauge's noise
@@ -28,7 +28,8 @@ def known_names(names: Collection[str]) -> tuple[str, ...]:
     for name in names:
         if name not in known:
             raise InputError(f"no effect is called {name!r}",
-                             expected="one of " + ", ".join(sorted(known)))
+                             expected=nearest(name, sorted(known),
+                                              "one of " + ", ".join(sorted(known))))
     return tuple(sorted(set(names)))
 
 

@@ -195,11 +195,13 @@ def _called_for(study: Study, named: Sequence[Hypothesis],
     For a lost tire where much is open, or at a hub that sinks.
     """
     lost = secondary_blowout.EFFECT
-    hubs = None if _large(steady, chance) else sinking_hubs(study, named, lost, chance.asked)
+    hubs = {place.hub for effect, place in places if effect.name == lost.name and place.hub}
+    if not _large(steady, chance):
+        hubs &= sinking_hubs(study, named, lost, chance.asked, hubs)
 
     def worth(effect: Effect, place: Place) -> bool:
         if effect.name == lost.name:
-            return hubs is None or place.hub in hubs
+            return place.hub in hubs
         own = [r.promise for r in steady if r.hypothesis.effect.name == effect.name]
         return not effect.variant or not own or max(own) > chance.asked
 
