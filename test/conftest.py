@@ -3,6 +3,11 @@
 from __future__ import annotations
 
 import os
+
+# Before the first import of numpy, also in what tests start: several processes share the cores, and
+# BLAS threads that wait for each other made the tests take twice as long.
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+
 import signal
 import threading
 from importlib.util import find_spec

@@ -27,10 +27,10 @@ from truck_blowout_sim.diagnosis.case.calibration import calibrate as settle
 from truck_blowout_sim.diagnosis.case.nuisance import Nuisance
 from truck_blowout_sim.diagnosis.case.runs import prepare_run
 from truck_blowout_sim.diagnosis.case.study import FURTHEST, Study
-from truck_blowout_sim.diagnosis.case.threads import one_blas_thread
 from truck_blowout_sim.diagnosis.case.usable import check_each_once, determined
 from truck_blowout_sim.diagnosis.fit.linear import Projector
 from truck_blowout_sim.diagnosis.fit.quantiles import NINETY
+from truck_blowout_sim.diagnosis.fit.threads import one_blas_thread
 from truck_blowout_sim.diagnosis.sensors import (
     SensorFinding,
     correct,

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from truck_blowout_sim.diagnosis.fit.quantiles import NINETY
+from truck_blowout_sim.diagnosis.fit.threads import one_blas_thread
 from truck_blowout_sim.diagnosis.sensors.case import Case, make_case, undone
 from truck_blowout_sim.diagnosis.sensors.conventions import FoundConvention, find_conventions
 from truck_blowout_sim.diagnosis.sensors.findings import Amount, GateResult, SensorFinding
@@ -29,6 +30,8 @@ from truck_blowout_sim.recordings import Recording
 
 FloatArray = NDArray[np.float64]
 
+
+@one_blas_thread
 def sensor_gate(
     recordings: Sequence[Recording],
     baseline: Sequence[Recording] = (),
