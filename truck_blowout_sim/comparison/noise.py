@@ -19,7 +19,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.signal import savgol_coeffs, savgol_filter
 
 from truck_blowout_sim.comparison.units import PSI_PA
 from truck_blowout_sim.recordings import Recording, Series
@@ -83,6 +82,8 @@ def estimated_sigma(series: Series) -> float | None:
     value = series.value
     if value.size < _SHORTEST:
         return None
+    from scipy.signal import savgol_coeffs, savgol_filter  # slow to load
+
     difference = np.diff(value, 4) / _DIFFERENCE_GAIN
     kept = 1.0 - float(savgol_coeffs(_CUBIC, 3)[_CUBIC // 2])
     residual = (value - savgol_filter(value, _CUBIC, 3)) / np.sqrt(kept)
