@@ -97,7 +97,7 @@ def prove_ci(tmp_path: Path) -> Callable[..., dict[str, Any]]:
 
     def prove(*groups: str) -> dict[str, Any]:
         made, table = tmp_path / "made", cases_of("ci")
-        chosen = [c for g in groups for c in [c for c in table if c.group == g][::2]]
+        chosen = [c for g in groups for c in [t for t in table if t.group == g][::2]]
         assert all(not astray for _, astray in generate(chosen, made, 1))
         sealed, cases = write_manifest(made, "ci"), find_cases(made)
         lines = {line["case"]: line for line in run_cases(
