@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 
 # Before the first import of numpy, also in what tests start: several processes share the cores, and
-# BLAS threads that wait for each other made the tests take twice as long.
+# BLAS threads that wait for each other made two files of tests take 255 s instead of 98 s.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 import signal

@@ -1,4 +1,4 @@
-"""Half of the `ci` cases whose truck lacks one thing of the library, from truth to table."""
+"""The cases of the `ci` set whose truck lacks one thing of the library, from truth to table."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 # Least number of cases solved, verdict and names; one less than when this was written may pass.
-LEAST = {"single": 1}
+LEAST = {"single": 3}
 
 
 @pytest.mark.timeout(1800)

@@ -1,8 +1,8 @@
 """One thread for linear algebra.
 
 The matrices of a diagnosis are small: BLAS threads wait for each other in every product, and take
-the cores from the simulations. On two cores an answer took 0.4 to 0.6 of the time with one of them,
-the check of the instruments 0.4.
+the cores from the simulations. With one of them an answer took 0.4 to 0.6 of the time on two cores;
+the check of the instruments takes half of the processor time, and little less wall time alone.
 
 Known limits: the limit holds for the whole process while the function runs. Where threadpoolctl is
 not installed, nothing is limited.

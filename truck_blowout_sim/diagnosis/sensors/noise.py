@@ -21,6 +21,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import toeplitz
+from scipy.signal import savgol_coeffs, savgol_filter
 
 from truck_blowout_sim.recordings import Recording, Series
 
@@ -191,8 +192,6 @@ def _level_dependence(levels: FloatArray, local: FloatArray, sigma: float) -> tu
 
 def _colour(value: FloatArray, sigma: float, period_s: float) -> tuple[float, float]:
     """Sigma of the residual about local cubics in the quieter half, and its correlation time."""
-    from scipy.signal import savgol_filter  # slow to load
-
     residual = value - savgol_filter(value, _LOCAL_CUBIC, 3)
     pieces = np.array_split(residual, max(2, residual.size // (2 * _LOCAL_CUBIC)))
     power = _means(residual**2, len(pieces))
@@ -210,8 +209,6 @@ def _colour(value: FloatArray, sigma: float, period_s: float) -> tuple[float, fl
 @lru_cache(maxsize=16)
 def _kept(first: float) -> float:
     """Share of the power of first-order noise (lag-one correlation given) that a cubic leaves."""
-    from scipy.signal import savgol_coeffs  # slow to load
-
     weights = -savgol_coeffs(_LOCAL_CUBIC, 3)
     weights[_LOCAL_CUBIC // 2] += 1.0
     return float(weights @ toeplitz(first ** np.arange(_LOCAL_CUBIC)) @ weights)
