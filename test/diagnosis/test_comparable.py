@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 
 from truck_blowout_sim.diagnosis.case.study import Study
-from truck_blowout_sim.diagnosis.locate.comparable import Left, comparable_until_s
+from truck_blowout_sim.diagnosis.case.trust import comparable_until_s
+from truck_blowout_sim.diagnosis.locate.comparable import Left
 from truck_blowout_sim.diagnosis.locate.left_over import mean_squares
 from truck_blowout_sim.diagnosis.locate.wrench import missing_wrench
 from truck_blowout_sim.recordings import Blowout
@@ -32,11 +33,12 @@ def test_a_tire_that_only_training_lost_is_nothing_that_baseline_runs_tell_of(
 ) -> None:
     sound = study_of(baseline=True)
     (train,), (baseline,) = sound.train, sound.baseline
-    assert comparable_until_s(sound, train) == np.inf
+    assert comparable_until_s(sound, sound.runs[train]) == np.inf
     lost = lost_at(sound, 2.0, train)
-    assert comparable_until_s(lost, train) == 2.0
-    assert comparable_until_s(lost_at(lost, 3.0, baseline), train) == np.inf
-    assert comparable_until_s(lost_at(study_of(), 2.0, 0), 0) == np.inf
+    assert comparable_until_s(lost, lost.runs[train]) == 2.0
+    assert comparable_until_s(lost_at(lost, 3.0, baseline), lost.runs[train]) == np.inf
+    alone = lost_at(study_of(), 2.0, 0)
+    assert comparable_until_s(alone, alone.runs[0]) == np.inf
 
 
 def test_what_a_lost_tire_does_is_not_judged(study_of: Studies) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -14,6 +15,7 @@ from truck_blowout_sim.diagnosis.fit.attribute import Ranked
 from truck_blowout_sim.diagnosis.fit.scatter import Chance, Scatter
 from truck_blowout_sim.diagnosis.fit.shown import SCATTERS
 from truck_blowout_sim.diagnosis.fit.support import Beside, supported
+from truck_blowout_sim.recordings import Blowout
 from truck_blowout_sim.vehicle import Packed
 
 Studies = Callable[..., Study]
@@ -69,3 +71,21 @@ def test_what_is_true_is_supported_most_at_its_amount(
     size = 16.0 * effect.strays(truck)[0]
     study = study_of(effect.values(truck, effect.places(truck.vehicle)[0], size), baseline=True)
     assert support_of(study, name, size) > CHANCE.asked
+
+
+def test_a_tire_that_only_training_lost_tells_of_nothing_else(
+    study_of: Studies, truck: Packed
+) -> None:
+    """The brake is applied at 4.8 s; a tire lost before leaves nothing that speaks for it."""
+    study = study_of(weak_brake(truck), baseline=True)
+
+    def lost_at(time_s: float, *roles: str) -> Study:
+        return replace(study, runs=tuple(
+            replace(run, recording=replace(run.recording, blowouts=(
+                Blowout(time_s, ("steer_left",)),))) if run.role in roles else run
+            for run in study.runs))
+
+    whole = support_of(study, "brake_imbalance", -0.5, HUB)
+    assert support_of(lost_at(4.0, "train"), "brake_imbalance", -0.5, HUB) < 0.1 * whole
+    for told in (lost_at(6.9, "train"), lost_at(4.0, "train", "baseline")):
+        assert support_of(told, "brake_imbalance", -0.5, HUB) > CHANCE.asked

@@ -97,7 +97,7 @@ def diagnose(recordings: Sequence[Recording], *, baseline: Sequence[Recording] =
     def searched(gate: GateResult) -> tuple[Study, Found]:
         study = case.study(gate)
         calibrate(study, progress=progress)
-        return study, search(study, progress, effort.most_effects)
+        return study, search(study, progress, effort.most_effects, sound=not gate.findings)
 
     study, found = searched(gate)
     believed = not_taken_back(gate, found)

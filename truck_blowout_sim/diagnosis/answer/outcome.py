@@ -22,7 +22,7 @@ from truck_blowout_sim.diagnosis.locate.left_over import (
 )
 from truck_blowout_sim.diagnosis.locate.posture import Posture
 from truck_blowout_sim.diagnosis.locate.restless import Restless
-from truck_blowout_sim.diagnosis.locate.wrench import Wrenches
+from truck_blowout_sim.diagnosis.locate.wrench import Wrenches, enough
 from truck_blowout_sim.diagnosis.model.law import Law
 from truck_blowout_sim.diagnosis.name.judging import Found
 from truck_blowout_sim.diagnosis.prove.intervals import Timing
@@ -148,8 +148,7 @@ def unexplained(material: Material) -> bool:
     # a faulty instrument, once corrected, leaves more of itself than two models differ by: then
     # only a force counts, and no smaller one than in turns
     sound = not material.gate.findings
-    needed = study.settings.unknown_delta * study.demand * (study.calm if sound else 1.0)
-    return unnamed > max(needed, bought) or (sound and _keeps_more(material, bought))
+    return unnamed > max(enough(study, sound), bought) or (sound and _keeps_more(material, bought))
 
 
 def _keeps_more(material: Material, bought: float) -> bool:

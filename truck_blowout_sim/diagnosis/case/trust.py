@@ -2,7 +2,7 @@
 
 The flat tire widens the difference that good models of one truck are allowed, bin by bin. Hard
 turns ask more of a force that nothing named explains. On a straight course two models differ least:
-there a smaller such force is already one.
+there a smaller such force is already one. Baseline runs on sound tires say nothing of a lost one.
 
 Known limits: lateral acceleration is that of the first unit's yaw rate and speed; without both
 channels no turn counts as hard.
@@ -24,6 +24,7 @@ from truck_blowout_sim.simulation.drive import Drive
 from truck_blowout_sim.vehicle import Packed
 
 if TYPE_CHECKING:
+    from truck_blowout_sim.diagnosis.case.runs import Run
     from truck_blowout_sim.diagnosis.case.study import Study
 
 Floats = NDArray[np.float64]
@@ -53,6 +54,16 @@ def flat_was_braked(recording: Recording, drive: Drive, packed: Packed, edges_s:
             column = INPUT_NAMES.index(f"brake_pressure_{axle.circuit}_pa")
             braked |= (middles > event.time_s) & (drive.inputs[rows, column] > BRAKES_ON_PA)
     return np.asarray(np.maximum.accumulate(braked))
+
+
+def comparable_until_s(study: Study, run: Run) -> float:
+    """Up to when baseline runs tell how well the model describes a run.
+
+    Where no baseline run is, or one lost a tire too, the whole run counts.
+    """
+    if not study.baseline or any(study.runs[k].has_blowout for k in study.baseline):
+        return float("inf")
+    return min((event.time_s for event in run.recording.blowouts), default=float("inf"))
 
 
 def demand(recordings: Sequence[Recording], unit: str, settings: Settings) -> float:

@@ -17,7 +17,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from truck_blowout_sim.diagnosis.case.driven import driven
+from truck_blowout_sim.diagnosis.case.runs import Run
 from truck_blowout_sim.diagnosis.case.study import Study, row_ranges
+from truck_blowout_sim.diagnosis.case.trust import comparable_until_s
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.fit.attribute import Ranked
 from truck_blowout_sim.diagnosis.fit.instants import grid_of
@@ -74,13 +76,14 @@ def supported(study: Study, one: Ranked, beside: Beside, chance: Chance) -> Rank
     rows, residual = row_ranges(study), study.residual(dict(enumerate(models)))
     columns = {i: study.runs[i].change(model, models[i]) / away for i, model in changed.items()}
     parts = [part for i, column in columns.items() for part in parts_of(
-        study.runs[i], rows[i].start, column, i in study.train, study.settings.episode_s,
-        None if h.effect.timed else beside.driven[i])]
-    projector, more = study.projector([*beside.named, h]), list[Part]()
+        study.runs[i], rows[i].start, column * _telling(study, study.runs[i], h),
+        i in study.train, study.settings.episode_s, None if h.effect.timed else beside.driven[i])]
+    projector, more, changes = study.projector([*beside.named, h]), list[Part](), list[Floats]()
     if beside.unseen and not h.effect.timed and not h.effect.met:
-        projector, residual, more = _with_unseen(study, projector, residual, h, beside, away)
+        projector, residual, more, changes = _with_unseen(study, projector, residual, h, beside,
+                                                          away)
     fitted = np.concatenate([study.stack({i: c for i, c in columns.items() if i in study.train}),
-                             *(part.column for part in more)])
+                             *changes])
     removed = projector.remove(residual)
     left = removed - away * projector.remove(fitted)
     shown = Shown.of(projector, removed, [*parts, *more],
@@ -93,19 +96,32 @@ def supported(study: Study, one: Ranked, beside: Beside, chance: Chance) -> Rank
     return replace(one, support=scatter.support(shown, _choices(study, h)))
 
 
+def _telling(study: Study, run: Run, h: Hypothesis) -> Floats:
+    """[rows] 1 where a run can tell of the hypothesis, else 0.
+
+    Not from where only training lost a tire, unless the hypothesis is about what was lost.
+    """
+    if h.effect.timed or h.effect.applies == "blowout":
+        return np.ones(run.measured.size)
+    known = run.edges_s[1:] <= comparable_until_s(study, run)
+    return np.repeat(known, len(run.channels)).astype(np.float64)
+
+
 def _with_unseen(study: Study, seen: Projector, residual: Floats, h: Hypothesis, beside: Beside,
-                 away: float) -> tuple[Projector, Floats, list[Part]]:
+                 away: float) -> tuple[Projector, Floats, list[Part], list[Floats]]:
     """Nuisances and residual of the unseen runs too, and what the hypothesis changes in these."""
     projector = Projector.of(beside.columns, seen.kept.tolist(), beside.gram)
-    first, parts = residual.size, list[Part]()
+    first, parts, changes = residual.size, list[Part](), list[Floats]()
     for run, base, model, manner in zip(
             study.holdout, beside.unseen, _unseen(study, (*beside.named, h)),
             beside.driven[len(study.runs):], strict=True):
         change = run.change(model, base) / away
-        parts += parts_of(run, first, change, True, study.settings.episode_s, manner)
+        parts += parts_of(run, first, change * _telling(study, run, h), True,
+                          study.settings.episode_s, manner)
+        changes.append(change)
         residual = np.concatenate([residual, run.residual(base)])
         first += change.size
-    return projector, residual, parts
+    return projector, residual, parts, changes
 
 
 def _unseen(study: Study, effects: Sequence[Hypothesis]) -> list[Floats]:

@@ -17,20 +17,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from truck_blowout_sim.diagnosis.case.study import Study, row_ranges
+from truck_blowout_sim.diagnosis.case.trust import comparable_until_s
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.fit.linear import Projector
 
 Floats = NDArray[np.float64]
-
-
-def comparable_until_s(study: Study, i: int) -> float:
-    """Up to when baseline runs tell how well the model describes a training run.
-
-    Where no baseline run is, or one lost a tire too, the whole run counts.
-    """
-    if not study.baseline or any(study.runs[k].has_blowout for k in study.baseline):
-        return float("inf")
-    return min((event.time_s for event in study.runs[i].recording.blowouts), default=float("inf"))
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,8 +48,8 @@ class Left:
         seen: Floats = np.ones(residual.size)
         if comparable:
             seen = np.concatenate([
-                np.repeat(run.edges_s[1:] <= comparable_until_s(study, i), len(run.channels))
-                for i, run in enumerate(study.runs)]).astype(np.float64)
+                np.repeat(run.edges_s[1:] <= comparable_until_s(study, run), len(run.channels))
+                for run in study.runs]).astype(np.float64)
         if not seen.all():
             projector = Projector.of(study.columns * seen[:, None], projector.kept.tolist())
         return Left(projector, projector.remove(residual * seen), seen)

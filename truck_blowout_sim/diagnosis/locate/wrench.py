@@ -87,6 +87,14 @@ def missing_wrench(study: Study, i: int, body: str, models: Sequence[Floats],
                         float(gradient @ amounts))
 
 
+def enough(study: Study, sound: bool = True) -> float:
+    """What a force must buy beyond its free amounts, so that two models do not differ by it.
+
+    ``sound``: no instrument was corrected; only then less is enough on a straight.
+    """
+    return study.settings.unknown_delta * study.demand * (study.calm if sound else 1.0)
+
+
 def _as_wrenches(recording: str, body: str, starts: Floats, window: float, amounts: Floats,
                  covariance: Floats, delta: float) -> Wrenches:
     """Split the solution into force histories and a line of action."""

@@ -43,6 +43,8 @@ class Found:
         models_null: training models before anything was named.
         before, after: holdout predictions without and with them.
         chance: what chance reaches in the first round.
+        more_by_chance: chance that training keeps so much more than baseline runs, where what is
+            named rests on that.
     """
 
     named: list[Ranked] = field(default_factory=list)
@@ -54,6 +56,7 @@ class Found:
     before: tuple[Prediction, ...] = ()
     after: tuple[Prediction, ...] = ()
     chance: Chance | None = None
+    more_by_chance: float = 1.0
 
     @property
     def p_value(self) -> float:
@@ -64,7 +67,8 @@ class Found:
         best = max((trial.ranked.support for trial in self.tried
                     if trial.ranked.refitted or trial.ranked.hypothesis.effect.adds_up),
                    default=0.0)
-        return 1.0 if self.chance is None else self.chance.p_value(best)
+        searched = 1.0 if self.chance is None else self.chance.p_value(best)
+        return min(searched, self.more_by_chance)
 
 
 def excess_of(study: Study, found: Found) -> float:
@@ -113,11 +117,17 @@ def weakness(one: Ranked, chance: Chance, strongest: float) -> Fate | None:
         return Fate("refit", one.promise)
     if one.support < chance.asked:
         return Fate("instant" if event else "support", one.support, chance.asked)
-    low, high = h.effect.amount.low, h.effect.amount.high
-    if min(h.amount - low, high - h.amount) < _AT_BOUND * (high - low):
+    if at_bound(h):
+        low, high = h.effect.amount.low, h.effect.amount.high
         return Fate("bound", h.amount, low if h.amount - low < high - h.amount else high)
     least = (_NEXT_EVENT_SHARE if event else _NEXT_SHARE) * strongest
     return Fate("remainder", one.evidence, least) if one.evidence < least else None
+
+
+def at_bound(h: Hypothesis) -> bool:
+    """Whether the amount ran to the end of what is physical."""
+    low, high = h.effect.amount.low, h.effect.amount.high
+    return min(h.amount - low, high - h.amount) < _AT_BOUND * (high - low)
 
 
 def note(found: Found, one: Ranked, fate: Fate) -> None:

@@ -15,6 +15,7 @@ from truck_blowout_sim.diagnosis.case.study import Progress, Study
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.fit.attribute import Ranked
 from truck_blowout_sim.diagnosis.fit.scatter import Chance
+from truck_blowout_sim.diagnosis.locate.left_over import chance_of_more, mean_squares
 from truck_blowout_sim.diagnosis.name.judging import (
     Found,
     can_judge,
@@ -27,6 +28,7 @@ from truck_blowout_sim.diagnosis.name.judging import (
     worth,
 )
 from truck_blowout_sim.diagnosis.name.pairing import Pair, pair_with, settled
+from truck_blowout_sim.diagnosis.name.quieting import MOST, quieting
 from truck_blowout_sim.diagnosis.name.shortlist import Round, shortlist
 from truck_blowout_sim.diagnosis.name.trial import Fate, Trial
 from truck_blowout_sim.diagnosis.prove.holdout import Prediction, predict
@@ -36,8 +38,12 @@ _MOST_EFFECTS = 3
 _MOST = 0.5  # of what a stronger effect left beyond the usual
 
 
-def search(study: Study, progress: Progress | None = None, most: int = _MOST_EFFECTS) -> Found:
-    """Find up to ``most`` effects; leaves the study's training models with them in force."""
+def search(study: Study, progress: Progress | None = None, most: int = _MOST_EFFECTS,
+           sound: bool = True) -> Found:
+    """Find up to ``most`` effects; leaves the study's training models with them in force.
+
+    ``sound``: no instrument was corrected, so that what training keeps can be compared.
+    """
     projector = study.projector()
     found = Found()
     residual = study.residual()
@@ -52,6 +58,8 @@ def search(study: Study, progress: Progress | None = None, most: int = _MOST_EFF
         if not rounds:
             found.tried = [Trial(r, Fate("refit", r.promise)) for r in ranked]
         best, disbelieved = _accept(study, found, this, named)
+        if best is None and sound and not named:  # a law that is named leaves some of its own
+            best = _accept_quieting(study, found, this, named)
         if best is not None:
             rounds.append(ranked)
             settled(study, found)
@@ -115,11 +123,31 @@ def _accept(study: Study, found: Found, this: Round, named: Sequence[Hypothesis]
         return None, disbelieved
     passing += _explaining_more(study, found, this, named, passing)
     best = max(passing, key=lambda p: p.worth)
+    fate = Fate("accepted", best.ranked.support, this.chance.asked)
+    return _named(study, found, best, fate), disbelieved
+
+
+def _accept_quieting(study: Study, found: Found, this: Round, named: Sequence[Hypothesis]
+                     ) -> Ranked | None:
+    """Take what brings training back to what baseline runs keep, if unseen runs agree."""
+    tried = [(_believed(study, found, named, one.ranked)[0], one.share)
+             for one in quieting(study, this.ranked, named)]
+    believed = [(one, share) for one, share in tried if one is not None]
+    if not believed:
+        return None
+    best, share = max(believed, key=lambda pair: pair[0].worth)
+    found.more_by_chance = min(study.settings.alarms_by_rest,  # of either test it may rest on
+                               chance_of_more(study, mean_squares(study, named)))
+    return _named(study, found, best, Fate("quiets", share, MOST))
+
+
+def _named(study: Study, found: Found, best: _Believed, fate: Fate) -> Ranked:
+    """Put it in force."""
     study.models, found.after = best.models, best.after
     found.named.append(best.ranked)
     found.chi2_after -= best.ranked.delta
-    note(found, best.ranked, Fate("accepted", best.ranked.support, this.chance.asked))
-    return best.ranked, disbelieved
+    note(found, best.ranked, fate)
+    return best.ranked
 
 
 def _explaining_more(study: Study, found: Found, this: Round, named: Sequence[Hypothesis],

@@ -124,7 +124,7 @@ def _events(study: Study, beside: Beside, chi2: float, chance: Chance,
     excess = chi2 - study.level * study.columns.shape[0]
     found = [supported(study, _failed(study, named, chi2, tire, times), beside, chance)
              for tire, times in failed_tires(study, study.train).items()]
-    scanned = sorted(_scanned(study, named, places, progress),
+    scanned = sorted(_scanned(study, named, places, chance.asked, progress),
                      key=lambda r: (r.support < chance.asked, -r.delta))
     large = _large([*steady, *scanned], chance)
     worth = max(chance.asked, _HALF * max((r.delta for r in steady if r.refitted), default=0.0))
@@ -150,8 +150,10 @@ def _events(study: Study, beside: Beside, chi2: float, chance: Chance,
 
 
 def _scanned(study: Study, named: Sequence[Hypothesis], places: Sequence[tuple[Effect, Place]],
-             progress: Progress | None) -> list[Ranked]:
+             asked: float, progress: Progress | None) -> list[Ranked]:
     """Each event at its best instants; another form of it only where the plain one is supported.
+
+    Or explains much, however it scatters: a block of the load, not all of it, may have moved.
 
     Forms of one event, as the places where a wind may take hold, share their support: its mean
     odds. Which of them it is, the sum of squares says.
@@ -160,7 +162,8 @@ def _scanned(study: Study, named: Sequence[Hypothesis], places: Sequence[tuple[E
     forms: dict[tuple[str, str], list[Ranked]] = {}
     for k, (effect, place) in enumerate(sorted(places, key=lambda one: one[0].variant)):
         of_event = forms.setdefault((effect.name, str(place)), [])
-        if not of_event or not effect.adds_up or of_event[0].support > 0.0:
+        plain = of_event[0] if of_event and effect.adds_up else None
+        if plain is None or plain.support > 0.0 or plain.delta > _LARGE * asked:
             of_event.append(scan(study, projector, effect, place, named))
         if progress:
             progress("events", (k + 1) / len(places))

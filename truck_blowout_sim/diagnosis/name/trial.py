@@ -10,10 +10,12 @@ from typing import Literal
 
 from truck_blowout_sim.diagnosis.fit.attribute import Ranked
 
-Rule = Literal["accepted", "refit", "support", "instant", "bound", "remainder", "explains",
-               "predicts", "holdout"]
+Rule = Literal["accepted", "quiets", "refit", "support", "instant", "bound", "remainder",
+               "explains", "predicts", "holdout"]
 _WORDS: dict[Rule, str] = {
     "accepted": "accepted",
+    "quiets": "accepted: takes {value:.0%} of what training keeps beyond baseline runs, of "
+              "{limit:.0%} that was asked",
     "refit": "not refitted: others explain more",
     "support": "support {value:.1f} of {limit:.1f} that chance may reach",
     "instant": "support {value:.1f} of {limit:.1f} that chance may reach, its instant searched",
