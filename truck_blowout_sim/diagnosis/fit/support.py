@@ -20,6 +20,7 @@ from truck_blowout_sim.diagnosis.case.driven import driven
 from truck_blowout_sim.diagnosis.case.runs import Run
 from truck_blowout_sim.diagnosis.case.study import Study, row_ranges
 from truck_blowout_sim.diagnosis.case.trust import comparable_until_s
+from truck_blowout_sim.diagnosis.effects.base import axles_at
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.fit.attribute import Ranked
 from truck_blowout_sim.diagnosis.fit.instants import grid_of
@@ -99,12 +100,22 @@ def supported(study: Study, one: Ranked, beside: Beside, chance: Chance) -> Rank
 def _telling(study: Study, run: Run, h: Hypothesis) -> Floats:
     """[rows] 1 where a run can tell of the hypothesis, else 0.
 
-    Not from where only training lost a tire, unless the hypothesis is about what was lost.
+    Not from where only training lost a tire of the axle at which it acts, unless it is about the
+    lost tire: what that tire does differs among good models, and acts at the same place.
     """
-    if h.effect.timed or h.effect.applies == "blowout":
+    if h.effect.timed or h.effect.applies == "blowout" or not _at_lost_tire(study, run, h):
         return np.ones(run.measured.size)
     known = run.edges_s[1:] <= comparable_until_s(study, run)
     return np.repeat(known, len(run.channels)).astype(np.float64)
+
+
+def _at_lost_tire(study: Study, run: Run, h: Hypothesis) -> bool:
+    """Whether the hypothesis acts at an axle, or a hub of it, that loses a tire in the run."""
+    vehicle = study.packed.vehicle
+    own = axles_at(vehicle, h.place) if h.place.axle else ()
+    lost = {vehicle.axle_of_hub(vehicle.hub_of_tire(tire))
+            for event in run.recording.blowouts for tire in event.tires}
+    return bool(lost & set(own))
 
 
 def _with_unseen(study: Study, seen: Projector, residual: Floats, h: Hypothesis, beside: Beside,
