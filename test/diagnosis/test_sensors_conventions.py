@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from types import SimpleNamespace
+from typing import cast
 
 import numpy as np
 import pytest
 from trial_drive import make_run
 from trial_faults import delayed
 
-from truck_blowout_sim.diagnosis.sensors import correct, sensor_gate
+from truck_blowout_sim.diagnosis.sensors import conventions, correct, sensor_gate
 from truck_blowout_sim.diagnosis.sensors.conventions import find_conventions
 from truck_blowout_sim.diagnosis.sensors.geometry import stated_geometry
 from truck_blowout_sim.diagnosis.sensors.signals import read_signals
@@ -112,3 +114,31 @@ def test_how_an_instrument_is_mounted_says_nothing_of_its_sign() -> None:
             for channel, (level, noise) in levels.items()})
 
     assert names(straight("one"), straight("two"), straight("three")) == []
+
+
+class Gained:
+    """A log of which every other reading of one channel gains so much."""
+
+    def __init__(self, gain: float) -> None:
+        self.gain = gain
+        self.signals = SimpleNamespace(values={"trailer_vy_mps": np.zeros(3)})
+
+    def log_ratio(self, convention: object) -> float:
+        return self.gain
+
+    def concerned(self, convention: object) -> set[str]:
+        return set()
+
+
+@pytest.mark.parametrize(("train", "baseline", "is_found"), [
+    ((9.5, 9.5), (-40.0,), True),
+    ((9.5, 9.5), (-40.0, 5.0), False),  # the sound instrument gains half as much on a straight
+    ((30.0, 30.0), (-40.0, 5.0), True),
+    ((9.5, 9.5), (5.0,), True),  # reversed in all runs
+])  # fmt: skip
+def test_what_a_sound_run_gains_too_is_no_sign_of_a_fault(
+    train: tuple[float, ...], baseline: tuple[float, ...], is_found: bool
+) -> None:
+    logs = cast("list[conventions._Log]", [Gained(gain) for gain in (*train, *baseline)])
+    flags = np.array([False] * len(train) + [True] * len(baseline))
+    assert (conventions._best(logs, flags) is not None) == is_found

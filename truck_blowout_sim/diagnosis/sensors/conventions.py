@@ -174,9 +174,12 @@ def _best(logs: Sequence[_Log], is_baseline: NDArray[np.bool_]) -> FoundConventi
     for order, convention in enumerate(tried):
         gains = np.array([log.log_ratio(convention) for log in logs])
         price = _PER_CHANNEL * (len(convention.channels) - 1)
-        here, there = float(gains[~is_baseline].sum()), float(gains[is_baseline].sum())
-        everywhere = there >= 0.0
-        scored.append((here + max(there, 0.0) - price, order, convention, everywhere))
+        there = gains[is_baseline]
+        everywhere = bool(there.sum() >= 0.0)
+        # what even a run of the sound instrument gains, on a straight, is no sign of a fault
+        here = gains[~is_baseline] - (0.0 if everywhere else max(float(there.max()), 0.0))
+        total = float(here.sum()) + max(float(there.sum()), 0.0)
+        scored.append((total - price, order, convention, everywhere))
     if not scored:
         return None
     scored.sort(key=lambda item: (-item[0], item[1]))
