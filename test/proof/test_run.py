@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import json
+import os
 from collections.abc import Callable, Iterator
 from concurrent.futures import ProcessPoolExecutor
 from multiprocessing import get_context
@@ -94,3 +95,14 @@ def test_a_process_that_diagnoses_is_refused_every_answer(
             pool.submit(Path.read_text, answer).result()
     assert not blindfolded()
     assert answer.read_text()
+
+
+def test_one_thread_is_asked_for_only_while_processes_run(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Numba forgets the folder of its cache once its variables have changed."""
+    for name in run.ONE_THREAD:
+        monkeypatch.delenv(name, raising=False)
+    monkeypatch.setenv("OMP_NUM_THREADS", "3")
+    before = dict(os.environ)
+    with run._one_thread():
+        assert (os.environ["NUMBA_NUM_THREADS"], os.environ["OMP_NUM_THREADS"]) == ("1", "3")
+    assert dict(os.environ) == before

@@ -9,6 +9,7 @@ import json
 import os
 from collections.abc import Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor, as_completed
+from contextlib import contextmanager
 from multiprocessing import get_context
 from pathlib import Path
 from typing import Any
@@ -53,9 +54,8 @@ def run_cases(cases: Sequence[Case], out: Path, *, workers: int, step_s: float,
         return
     code = code_hash()
     out.mkdir(parents=True, exist_ok=True)
-    for name in ONE_THREAD:
-        os.environ.setdefault(name, "1")
-    with ProcessPoolExecutor(workers, get_context("spawn"), initializer=blindfold) as pool:
+    with _one_thread(), ProcessPoolExecutor(workers, get_context("spawn"),
+                                            initializer=blindfold) as pool:
         jobs = [pool.submit(attempt, (case, step_s, with_baselines)) for case in mixed(todo)]
         try:
             for job in as_completed(jobs):
@@ -65,6 +65,21 @@ def run_cases(cases: Sequence[Case], out: Path, *, workers: int, step_s: float,
         finally:
             for job in jobs:
                 job.cancel()
+
+
+@contextmanager
+def _one_thread() -> Iterator[None]:
+    """Ask for one thread in processes that start now; as before afterwards.
+
+    Numba reads its settings anew, and forgets where it caches, once such a variable has changed.
+    """
+    missing = [name for name in ONE_THREAD if name not in os.environ]
+    os.environ.update(dict.fromkeys(missing, "1"))
+    try:
+        yield
+    finally:
+        for name in missing:
+            os.environ.pop(name, None)
 
 
 def mixed(cases: Sequence[Case]) -> list[Case]:
