@@ -35,10 +35,10 @@ def found_by_quieting(study: Study, sound: bool = True) -> Found:
 def test_what_takes_most_of_the_mismatch_away_is_found_with_its_share(study_of: Studies) -> None:
     study = study_of(TURNED, baseline=True)
     ranked = shortlist(study, [], None).ranked
-    found = quieting.quieting(study, ranked, [])
+    found = quieting.quieting(study, ranked)
     assert found[0].ranked.hypothesis.key == ("axle_misalignment", "trailer_1")
     assert 0.9 < found[0].share < 1.1
-    assert all(one.share >= quieting.MOST for one in found)
+    assert all(one.share >= quieting.NAMING_SHARE for one in found)
 
 
 def test_a_force_that_two_models_do_not_differ_by_is_reason_enough(
@@ -47,24 +47,24 @@ def test_a_force_that_two_models_do_not_differ_by_is_reason_enough(
     monkeypatch.setattr(quieting, "keeps_more", lambda study, squares: False)
     study = study_of(TURNED, baseline=True)
     ranked = shortlist(study, [], None).ranked
-    assert quieting.quieting(study, ranked, [])
+    assert quieting.quieting(study, ranked)
     monkeypatch.setattr(quieting, "enough", lambda study: float("inf"))
-    assert quieting.quieting(study, ranked, []) == []
+    assert quieting.quieting(study, ranked) == []
 
 
 def test_nothing_is_found_where_training_keeps_no_more_than_baseline(study_of: Studies) -> None:
     study = study_of(baseline=True)
-    assert quieting.quieting(study, shortlist(study, [], None).ranked, []) == []
+    assert quieting.quieting(study, shortlist(study, [], None).ranked) == []
 
 
 def test_without_baseline_runs_no_level_is_known(study_of: Studies) -> None:
     study = study_of(TURNED)
-    assert quieting.quieting(study, shortlist(study, [], None).ranked, []) == []
+    assert quieting.quieting(study, shortlist(study, [], None).ranked) == []
 
 
 def test_a_push_that_no_law_makes_stays_without_a_name(study_of: Studies) -> None:
     study = study_of(PUSHED, baseline=True)
-    assert quieting.quieting(study, shortlist(study, [], None).ranked, []) == []
+    assert quieting.quieting(study, shortlist(study, [], None).ranked) == []
 
 
 def test_the_search_names_it_and_says_why(study_of: Studies) -> None:

@@ -25,7 +25,7 @@ from truck_blowout_sim.diagnosis.locate.lagging import lagging_wheel
 from truck_blowout_sim.diagnosis.locate.periodic import find_beat
 from truck_blowout_sim.diagnosis.locate.posture import turned_body
 from truck_blowout_sim.diagnosis.locate.restless import restless
-from truck_blowout_sim.diagnosis.locate.wrench import Wrenches, missing_wrench
+from truck_blowout_sim.diagnosis.locate.wrench import Wrenches, missing_wrenches
 from truck_blowout_sim.diagnosis.model.law import plainest_law
 from truck_blowout_sim.diagnosis.model.law_check import checked
 from truck_blowout_sim.diagnosis.model.vehicle import (
@@ -166,9 +166,7 @@ def _material(study: Study, found: Found, gate: GateResult, vehicle: str,
 def _wrenches(study: Study, models: Sequence[Floats], named: Sequence[Hypothesis],
               progress: Progress | None) -> tuple[Wrenches, ...]:
     """Missing wrench on each body in the training run that is explained worst."""
-    left = Left.of(study, models, named)
-    return tuple(missing_wrench(study, left.worst(study), body, models, named, progress, left)
-                 for body in study.packed.vehicle.units)
+    return missing_wrenches(study, Left.of(study, models, named), models, named, progress)
 
 
 def _comparable(study: Study, found: tuple[Wrenches, ...], named: Sequence[Hypothesis],
@@ -177,9 +175,7 @@ def _comparable(study: Study, found: tuple[Wrenches, ...], named: Sequence[Hypot
     left = Left.of(study, study.models, named, comparable=True)
     if left.seen.all():
         return found
-    return tuple(missing_wrench(study, left.worst(study), body, study.models, named, progress,
-                                left)
-                 for body in study.packed.vehicle.units)
+    return missing_wrenches(study, left, study.models, named, progress)
 
 
 def _timings(study: Study, found: Found) -> dict[tuple[str, str], Mapping[str, Timing]]:

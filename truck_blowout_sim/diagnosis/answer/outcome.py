@@ -16,6 +16,8 @@ from truck_blowout_sim.diagnosis.fit.quantiles import NINETY
 from truck_blowout_sim.diagnosis.locate.beat import Beat
 from truck_blowout_sim.diagnosis.locate.lagging import Lag
 from truck_blowout_sim.diagnosis.locate.left_over import (
+    NAMING_SHARE,
+    excess,
     expected_squares,
     keeps_more,
     mean_squares,
@@ -144,7 +146,7 @@ def unexplained(material: Material) -> bool:
     """Whether a force is left that nothing named explains, or more than baseline runs keep."""
     study = material.study
     bought = _bought(material)
-    unnamed = max((w.delta - 2.0 * w.degrees for w in material.unnamed), default=0.0)
+    unnamed = max((w.beyond for w in material.unnamed), default=0.0)
     # a faulty instrument, once corrected, leaves more of itself than two models differ by: then
     # only a force counts, and no smaller one than in turns
     sound = not material.gate.findings
@@ -158,8 +160,7 @@ def _keeps_more(material: Material, bought: float) -> bool:
     usual = expected_squares(study, squares)
     if usual is None or not keeps_more(study, squares):
         return False
-    excess = sum((squares[i] - usual) * study.runs[i].measured.size for i in study.train)
-    return bought < 0.5 * (excess + bought)
+    return bought < NAMING_SHARE * (excess(study, squares, usual) + bought)
 
 
 def _bought(material: Material) -> float:

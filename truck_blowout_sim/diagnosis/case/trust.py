@@ -66,6 +66,12 @@ def comparable_until_s(study: Study, run: Run) -> float:
     return min((event.time_s for event in run.recording.blowouts), default=float("inf"))
 
 
+def comparable_rows(study: Study, run: Run) -> Floats:
+    """[rows] 1 up to then, 0 afterwards."""
+    known = run.edges_s[1:] <= comparable_until_s(study, run)
+    return np.repeat(known, len(run.channels)).astype(np.float64)
+
+
 def demand(recordings: Sequence[Recording], unit: str, settings: Settings) -> float:
     """Factor on what a force that nothing explains must buy, by the hardest turn of any recording.
 

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from truck_blowout_sim.diagnosis.case.driven import driven
 from truck_blowout_sim.diagnosis.case.runs import Run
 from truck_blowout_sim.diagnosis.case.study import Study, row_ranges
-from truck_blowout_sim.diagnosis.case.trust import comparable_until_s
+from truck_blowout_sim.diagnosis.case.trust import comparable_rows
 from truck_blowout_sim.diagnosis.effects.base import axles_at
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.fit.attribute import Ranked
@@ -105,8 +105,7 @@ def _telling(study: Study, run: Run, h: Hypothesis) -> Floats:
     """
     if h.effect.timed or h.effect.applies == "blowout" or not _at_lost_tire(study, run, h):
         return np.ones(run.measured.size)
-    known = run.edges_s[1:] <= comparable_until_s(study, run)
-    return np.repeat(known, len(run.channels)).astype(np.float64)
+    return comparable_rows(study, run)
 
 
 def _at_lost_tire(study: Study, run: Run, h: Hypothesis) -> bool:

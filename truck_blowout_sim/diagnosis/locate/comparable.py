@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from truck_blowout_sim.diagnosis.case.study import Study, row_ranges
-from truck_blowout_sim.diagnosis.case.trust import comparable_until_s
+from truck_blowout_sim.diagnosis.case.trust import comparable_rows
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.fit.linear import Projector
 
@@ -47,9 +47,7 @@ class Left:
         residual, projector = study.residual(dict(enumerate(models))), study.projector(named)
         seen: Floats = np.ones(residual.size)
         if comparable:
-            seen = np.concatenate([
-                np.repeat(run.edges_s[1:] <= comparable_until_s(study, run), len(run.channels))
-                for run in study.runs]).astype(np.float64)
+            seen = np.concatenate([comparable_rows(study, run) for run in study.runs])
         if not seen.all():
             projector = Projector.of(study.columns * seen[:, None], projector.kept.tolist())
         return Left(projector, projector.remove(residual * seen), seen)

@@ -25,6 +25,7 @@ from truck_blowout_sim.diagnosis.locate.comparable import Left
 _SCATTER = 0.4  # of the logarithm: what a model leaves differs by half from manoeuvre to manoeuvre
 _RUNS = 6.0  # as many runs is that prior worth: cases seldom have more
 _LEAST = 1e-6
+NAMING_SHARE = 0.5  # of what training keeps more than usual: what explains less is no name for it
 
 
 def mean_squares(study: Study, named: Sequence[Hypothesis] = ()) -> tuple[float, ...]:
@@ -46,6 +47,11 @@ def expected_squares(study: Study, squares: Sequence[float]) -> float | None:
     if not study.baseline:
         return None
     return float(np.exp(np.mean(np.log([squares[i] for i in study.baseline]))))
+
+
+def excess(study: Study, squares: Sequence[float], usual: float) -> float:
+    """Sum of squares that training keeps more than usual."""
+    return sum((squares[i] - usual) * study.runs[i].measured.size for i in study.train)
 
 
 def _test(train: Sequence[float], baseline: Sequence[float]) -> tuple[float, float, float]:

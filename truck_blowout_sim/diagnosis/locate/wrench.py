@@ -48,6 +48,20 @@ class Wrenches:
     x_m: float
     x_sigma_m: float
 
+    @property
+    def beyond(self) -> float:
+        """What it buys beyond twice its free amounts."""
+        return self.delta - 2.0 * self.degrees
+
+
+def missing_wrenches(study: Study, left: Left, models: Sequence[Floats],
+                     named: Sequence[Hypothesis] = (), progress: Progress | None = None
+                     ) -> tuple[Wrenches, ...]:
+    """The wrench on each body in the training run that ``left`` says is explained worst."""
+    worst = left.worst(study)
+    return tuple(missing_wrench(study, worst, body, models, named, progress, left)
+                 for body in study.packed.vehicle.units)
+
 
 def missing_wrench(study: Study, i: int, body: str, models: Sequence[Floats],
                    named: Sequence[Hypothesis] = (), progress: Progress | None = None,

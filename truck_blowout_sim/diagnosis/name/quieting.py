@@ -16,56 +16,63 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from truck_blowout_sim.diagnosis.case.study import Study
-from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.fit.attribute import Ranked
 from truck_blowout_sim.diagnosis.locate.comparable import Left
-from truck_blowout_sim.diagnosis.locate.left_over import expected_squares, keeps_more, mean_squares
-from truck_blowout_sim.diagnosis.locate.wrench import enough, missing_wrench
+from truck_blowout_sim.diagnosis.locate.left_over import (
+    NAMING_SHARE,
+    chance_of_more,
+    excess,
+    expected_squares,
+    keeps_more,
+    mean_squares,
+)
+from truck_blowout_sim.diagnosis.locate.wrench import enough, missing_wrenches
 from truck_blowout_sim.diagnosis.name.judging import at_bound, models_with
 
-MOST = 0.5  # of what training keeps more: what explains less is no name for it
 _TRIED = 3  # the largest; what explains less is no rival of these
 
 
 @dataclass(frozen=True)
 class Quieting:
-    """What takes most of that away: it, and its ``share`` of it."""
+    """What takes most of that away.
+
+    Attributes:
+        ranked: it; ``share`` that it takes.
+        chance: that training keeps so much more where nothing is missing.
+    """
 
     ranked: Ranked
     share: float
+    chance: float
 
 
-def quieting(study: Study, ranked: Sequence[Ranked], named: Sequence[Hypothesis]
-             ) -> list[Quieting]:
+def quieting(study: Study, ranked: Sequence[Ranked]) -> list[Quieting]:
     """What takes away most of what training keeps more than baseline, largest first.
 
-    Nothing where training keeps no more. What is ``named`` is in force in the study's models.
+    Nothing where training keeps no more. Nothing is named yet.
     """
-    squares = mean_squares(study, named)
+    squares = mean_squares(study)
     usual = expected_squares(study, squares)
     strong = [r for r in ranked if r.refitted and not at_bound(r.hypothesis)]
     if usual is None or not strong:
         return []
-    found = [Quieting(one, _taken(study, squares, usual, [*named, one.hypothesis]))
+    # either of two tests says that something is missing, each at this rate of false alarms
+    chance = min(chance_of_more(study, squares), study.settings.alarms_by_rest)
+    found = [Quieting(one, _taken(study, squares, usual, one), chance)
              for one in sorted(strong, key=lambda r: -r.delta)[:_TRIED]]
-    found = [one for one in found if one.share >= MOST]
-    return found if found and (keeps_more(study, squares) or _pushed(study, named)) else []
+    found = [one for one in found if one.share >= NAMING_SHARE]
+    return found if found and (keeps_more(study, squares) or _pushed(study)) else []
 
 
-def _taken(study: Study, before: Sequence[float], usual: float, effects: Sequence[Hypothesis]
-           ) -> float:
-    """Share of what training keeps more than usual that is gone with the effects in force."""
+def _taken(study: Study, before: Sequence[float], usual: float, one: Ranked) -> float:
+    """Share of what training keeps more than usual that is gone with a hypothesis in force."""
+    effects = [one.hypothesis]
     after = mean_squares(replace(study, models=models_with(study, effects)), effects)
-    rows = {i: study.runs[i].measured.size for i in study.train}
-    excess = sum(n * (before[i] - usual) for i, n in rows.items())
-    gone = sum(n * (before[i] - after[i]) for i, n in rows.items())
-    return gone / excess if excess > 0.0 else 0.0
+    more = excess(study, before, usual)
+    return 1.0 - excess(study, after, usual) / more if more > 0.0 else 0.0
 
 
-def _pushed(study: Study, named: Sequence[Hypothesis]) -> bool:
+def _pushed(study: Study) -> bool:
     """Whether a force on one body alone would explain more than models differ by."""
-    left = Left.of(study, study.models, named, comparable=True)
-    worst = left.worst(study)
-    forces = (missing_wrench(study, worst, body, study.models, named, None, left)
-              for body in study.packed.vehicle.units)
-    return any(one.delta - 2.0 * one.degrees > enough(study) for one in forces)
+    forces = missing_wrenches(study, Left.of(study, study.models, comparable=True), study.models)
+    return any(one.beyond > enough(study) for one in forces)

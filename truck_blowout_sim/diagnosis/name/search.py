@@ -15,7 +15,7 @@ from truck_blowout_sim.diagnosis.case.study import Progress, Study
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.fit.attribute import Ranked
 from truck_blowout_sim.diagnosis.fit.scatter import Chance
-from truck_blowout_sim.diagnosis.locate.left_over import chance_of_more, mean_squares
+from truck_blowout_sim.diagnosis.locate.left_over import NAMING_SHARE
 from truck_blowout_sim.diagnosis.name.judging import (
     Found,
     can_judge,
@@ -28,7 +28,7 @@ from truck_blowout_sim.diagnosis.name.judging import (
     worth,
 )
 from truck_blowout_sim.diagnosis.name.pairing import Pair, pair_with, settled
-from truck_blowout_sim.diagnosis.name.quieting import MOST, quieting
+from truck_blowout_sim.diagnosis.name.quieting import quieting
 from truck_blowout_sim.diagnosis.name.shortlist import Round, shortlist
 from truck_blowout_sim.diagnosis.name.trial import Fate, Trial
 from truck_blowout_sim.diagnosis.prove.holdout import Prediction, predict
@@ -59,7 +59,7 @@ def search(study: Study, progress: Progress | None = None, most: int = _MOST_EFF
             found.tried = [Trial(r, Fate("refit", r.promise)) for r in ranked]
         best, disbelieved = _accept(study, found, this, named)
         if best is None and sound and not named:  # a law that is named leaves some of its own
-            best = _accept_quieting(study, found, this, named)
+            best = _accept_quieting(study, found, this)
         if best is not None:
             rounds.append(ranked)
             settled(study, found)
@@ -127,18 +127,16 @@ def _accept(study: Study, found: Found, this: Round, named: Sequence[Hypothesis]
     return _named(study, found, best, fate), disbelieved
 
 
-def _accept_quieting(study: Study, found: Found, this: Round, named: Sequence[Hypothesis]
-                     ) -> Ranked | None:
+def _accept_quieting(study: Study, found: Found, this: Round) -> Ranked | None:
     """Take what brings training back to what baseline runs keep, if unseen runs agree."""
-    tried = [(_believed(study, found, named, one.ranked)[0], one.share)
-             for one in quieting(study, this.ranked, named)]
-    believed = [(one, share) for one, share in tried if one is not None]
+    tried = [(_believed(study, found, (), one.ranked)[0], one)
+             for one in quieting(study, this.ranked)]
+    believed = [(one, quiets) for one, quiets in tried if one is not None]
     if not believed:
         return None
-    best, share = max(believed, key=lambda pair: pair[0].worth)
-    found.more_by_chance = min(study.settings.alarms_by_rest,  # of either test it may rest on
-                               chance_of_more(study, mean_squares(study, named)))
-    return _named(study, found, best, Fate("quiets", share, MOST))
+    best, quiets = max(believed, key=lambda pair: pair[0].worth)
+    found.more_by_chance = quiets.chance
+    return _named(study, found, best, Fate("quiets", quiets.share, NAMING_SHARE))
 
 
 def _named(study: Study, found: Found, best: _Believed, fate: Fate) -> Ranked:
