@@ -189,3 +189,19 @@ def test_what_acts_near_the_limit_strays_more_far_from_it(truck: Packed) -> None
     sizes = [effect.strays(truck, used)[0] for used in (1.0, 0.9, 0.5, 0.2)]
     assert sizes == sorted(sizes)
     assert sizes[0] == pytest.approx(0.5 * effect.amount.material)
+
+
+def _spread_of_slips(used: float) -> float:
+    """1 sigma between four forms of equal slope and peak, at a share of the peak."""
+    forms = (_brush, np.tanh, lambda slip: np.sin(1.3 * np.arctan(slip / 1.3)),
+             lambda slip: np.where(slip < 0.5, slip, 1.0 - 0.25 / np.maximum(slip, 0.5)))
+    slip = np.linspace(0.0, 3.0, 3001)
+    return float(np.std([np.interp(used, form(slip)[:2001], slip[:2001]) for form in forms]))
+
+
+@pytest.mark.parametrize("used", [0.3, 0.4, 0.5, 0.6, 0.8])
+def test_a_tire_of_another_form_looks_like_a_roll_steer(used: float) -> None:
+    """As the effect assumes, with 6/rad of slope over load and 0.1 rad/g of roll."""
+    effect = next(e for e in LIBRARY if e.name == "roll_steer")
+    seems = _spread_of_slips(used) / (6.0 * 0.1 * used)
+    assert seems == pytest.approx(effect.near_limit * used, abs=0.05)

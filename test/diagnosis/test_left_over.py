@@ -9,7 +9,7 @@ from typing import cast
 import numpy as np
 import pytest
 
-from truck_blowout_sim.diagnosis.case.study import Study
+from truck_blowout_sim.diagnosis.case.study import Study, row_ranges
 from truck_blowout_sim.diagnosis.locate.left_over import (
     chance_of_more,
     expected_squares,
@@ -65,3 +65,22 @@ def test_squares_of_a_true_truck_are_alike_in_all_runs(study_of: Studies) -> Non
     baseline, train = mean_squares(study)
     assert 0.3 < train / baseline < 3.0
     assert expected_squares(study, (baseline, train)) == pytest.approx(baseline)
+
+
+def test_what_baseline_and_training_cost_adds_up_and_is_never_negative(study_of: Studies) -> None:
+    """Chain rule: baseline alone, and training beside it, make the sum of squares of both.
+
+    A run that strains the sheet does not make the other look better than it is.
+    """
+    study = study_of(baseline=True)
+    (train,), (baseline,) = study.train, study.baseline
+    run, rows = study.runs[train], row_ranges(study)[train]
+    usual = mean_squares(study)
+    strain = study.columns[rows] @ np.linspace(-9.0, 9.0, study.columns.shape[1])
+    study.models[train] = study.models[train] - run.plain(strain.reshape(run.measured.shape))
+    squares = mean_squares(study)
+    assert squares[train] > 2.0 * usual[train]
+    assert squares[baseline] == pytest.approx(usual[baseline])
+    counts = [int(np.isfinite(one.measured).sum()) for one in study.runs]
+    total = study.projector().chi2(study.residual())
+    assert np.dot(squares, counts) == pytest.approx(total)

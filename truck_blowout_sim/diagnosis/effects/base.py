@@ -33,6 +33,8 @@ class Amount:
             it grows with the vehicle.
         report: value to report from the amount; identity by default.
         grid: where a nonlinear search may start.
+        at_low: what to say at the lower bound, where nature reaches it; ``{percent}`` is the end
+            of the 90 % interval. Empty where the bound is only the end of the search.
     """
 
     name: str
@@ -43,6 +45,7 @@ class Amount:
     material: float
     report: Callable[[float], float] = lambda amount: amount
     grid: tuple[float, ...] = ()
+    at_low: str = ""
 
 
 @dataclass(frozen=True)
@@ -76,6 +79,7 @@ class Effect:
         of_file: scales a number of the vehicle's file that no calibration number stands for.
         far_from_limit: by so much models of equal slope and peak seem to differ in the amount, 1
             sigma, in runs far from the limit of grip; the less, the nearer.
+        near_limit: the same of runs at the limit of grip; the less, the farther.
     """
 
     name: str
@@ -93,6 +97,7 @@ class Effect:
     absorbs: str = ""
     of_file: bool = False
     far_from_limit: float = 0.0
+    near_limit: float = 0.0
     onset_form_s: float = 0.0
     met: bool = False
     variant: bool = False
@@ -108,8 +113,8 @@ class Effect:
 
         ``grip_used``: share of the tires' side grip that the runs ask for.
         """
-        usual = float(np.hypot(0.5 * self.amount.material * self.grows_with(packed),
-                               self.far_from_limit * (1.0 - grip_used)))
+        forms = self.far_from_limit * (1.0 - grip_used) + self.near_limit * grip_used
+        usual = float(np.hypot(0.5 * self.amount.material * self.grows_with(packed), forms))
         stated = (self.absorbs or self.of_file) and not self.met
         return (usual, WRONG_SHEET * usual) if stated else (usual,)
 

@@ -14,14 +14,18 @@ Validated with: test/diagnosis/test_left_over.py.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
+from scipy.linalg import cho_factor, cho_solve
 from scipy.stats import t as student
 
 from truck_blowout_sim.diagnosis.case.study import Study, row_ranges
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.locate.comparable import Left
 
+Floats = NDArray[np.float64]
 _SCATTER = 0.4  # of the logarithm: what a model leaves differs by half from manoeuvre to manoeuvre
 _RUNS = 6.0  # as many runs is that prior worth: cases seldom have more
 _LEAST = 1e-6
@@ -29,17 +33,48 @@ NAMING_SHARE = 0.5  # of what training keeps more than usual: what explains less
 
 
 def mean_squares(study: Study, named: Sequence[Hypothesis] = ()) -> tuple[float, ...]:
-    """Squares a row that each run of the case keeps, in units of the widths.
+    """Squares a row that each run keeps beside the (other) baseline runs, in units of the widths.
 
-    Of a run in which only training lost a tire, the rows up to then.
+    What a run costs more than they do alone, its pull on the sheet's numbers included: by the chain
+    rule of a Gaussian never negative, and one a row where the model is right. Of a run in which
+    only training lost a tire, the rows up to then.
     """
-    residual, left = study.residual(), Left.of(study, study.models, named, comparable=True)
+    left, residual = Left.of(study, study.models, named, comparable=True), study.residual()
+    columns = study.columns[:, left.projector.kept]
+    parts = [_Sums.of(columns[rows] * left.seen[rows, None], residual[rows] * left.seen[rows])
+             for rows in row_ranges(study)]
     found = []
-    for i, (run, rows) in enumerate(zip(study.runs, row_ranges(study), strict=True)):
-        seen = max(int(np.isfinite(run.measured[left.rows_of(study, i)]).sum()), 1)
-        kept = (left.seen[rows] * residual[rows]) @ left.removed[rows]
-        found.append(max(float(kept) / seen, _LEAST))
+    for i, (run, part) in enumerate(zip(study.runs, parts, strict=True)):
+        others = sum((parts[k] for k in study.baseline if k != i), _Sums.none(columns.shape[1]))
+        cost = (others + part).chi2() - others.chi2()
+        rows = max(int(np.isfinite(run.measured[left.rows_of(study, i)]).sum()), 1)
+        found.append(max(cost / rows, _LEAST))
     return tuple(found)
+
+
+@dataclass(frozen=True, eq=False)
+class _Sums:
+    """Of the rows of some runs: products of the nuisances' columns, with the residual, its own."""
+
+    gram: Floats
+    common: Floats
+    own: float
+
+    @staticmethod
+    def of(columns: Floats, residual: Floats) -> _Sums:
+        return _Sums(columns.T @ columns, columns.T @ residual, float(residual @ residual))
+
+    @staticmethod
+    def none(count: int) -> _Sums:
+        return _Sums(np.zeros((count, count)), np.zeros(count), 0.0)
+
+    def __add__(self, other: _Sums) -> _Sums:
+        return _Sums(self.gram + other.gram, self.common + other.common, self.own + other.own)
+
+    def chi2(self) -> float:
+        """What the nuisances, with unit priors, leave of these rows."""
+        factor = cho_factor(np.eye(self.common.size) + self.gram)
+        return self.own - float(self.common @ cho_solve(factor, self.common))
 
 
 def expected_squares(study: Study, squares: Sequence[float]) -> float | None:

@@ -125,9 +125,10 @@ def weakness(one: Ranked, chance: Chance, strongest: float) -> Fate | None:
 
 
 def at_bound(h: Hypothesis) -> bool:
-    """Whether the amount ran to the end of what is physical."""
+    """Whether the amount ran to the end of the search, and not to a limit that nature reaches."""
     low, high = h.effect.amount.low, h.effect.amount.high
-    return min(h.amount - low, high - h.amount) < _AT_BOUND * (high - low)
+    above = np.inf if h.effect.amount.at_low else h.amount - low
+    return bool(min(above, high - h.amount) < _AT_BOUND * (high - low))
 
 
 def note(found: Found, one: Ranked, fate: Fate) -> None:
