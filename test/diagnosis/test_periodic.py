@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
@@ -9,9 +10,17 @@ import pytest
 from numpy.typing import NDArray
 from scipy.signal import lfilter
 
-from truck_blowout_sim.diagnosis.locate.periodic import Lines, clearest, tone_lines, turn_lines
+from truck_blowout_sim.diagnosis.case.study import Study
+from truck_blowout_sim.diagnosis.locate.periodic import (
+    Lines,
+    clearest,
+    find_beat,
+    tone_lines,
+    turn_lines,
+)
 from truck_blowout_sim.recordings import Recording, Series
 
+Studies = Callable[..., Study]
 RATE_HZ = 100.0
 SIGMA = 0.03
 PER_M = np.linspace(0.30, 0.34, 200)
@@ -133,3 +142,15 @@ def test_without_a_speed_nothing_is_said_of_wheel_turns() -> None:
     lines = turn_lines(ride.signals(), Recording("no speed", {}), PER_M)
     assert lines.channels == ()
     assert clearest([lines], 1.0 / PER_M, True, LEAST) is None
+
+
+def test_a_steady_tone_is_asked_beside_baseline_runs_only(study_of: Studies) -> None:
+    """Engine and frame of every sound vehicle have one."""
+    for baseline in (True, False):
+        study = study_of(baseline=baseline)
+        run = study.runs[-1]
+        surge = run.recording["tractor_ax_mps2"]
+        loud = Series(surge.time_s, surge.value + 0.5 * np.sin(2.0 * np.pi * 3.1 * surge.time_s))
+        runs = (*study.runs[:-1], replace(run, recording=Recording(
+            "loud", {**run.recording.channels, "tractor_ax_mps2": loud})))
+        assert (find_beat(replace(study, runs=runs)) is not None) == baseline

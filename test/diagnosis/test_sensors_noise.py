@@ -8,8 +8,8 @@ import pytest
 from scipy.signal import butter, filtfilt
 
 from truck_blowout_sim import read_recording
-from truck_blowout_sim.diagnosis.sensors import channel_noise, series_noise
-from truck_blowout_sim.recordings import Series
+from truck_blowout_sim.diagnosis.sensors import channel_noise, seen_quanta, series_noise
+from truck_blowout_sim.recordings import Recording, Series
 
 TIME = np.arange(0.0, 20.0, 0.01)
 MOTION = 3.0 * np.sin(2 * np.pi * 0.4 * TIME) + np.where(TIME > 10.0, 2.0 * (TIME - 10.0), 0.0)
@@ -38,6 +38,24 @@ def test_a_channel_at_rest_has_the_noise_of_its_rounding() -> None:
     value = np.zeros(TIME.size)
     value[::50] = 0.05
     assert series_noise(Series(TIME, value)).sigma >= 0.05 / np.sqrt(12) * 0.99
+
+
+def test_a_channel_that_hardly_leaves_its_step_knows_it_from_other_runs() -> None:
+    """Ten seconds at one step show no noise at all; the rounding is there all the same."""
+    moving = Series(TIME, np.round((MOTION + 0.02 * white(2)) / 0.14) * 0.14)
+    still = Series(TIME, np.full(TIME.size, 20.42))
+    flips = Series(TIME, 20.42 + 0.14 * (np.arange(TIME.size) % 400 == 7))
+    assert series_noise(flips).quantum == pytest.approx(0.14)
+    runs = [Recording(f"run {k}", {"tractor_vx_mps": s}) for k, s in enumerate((still, moving))]
+    quanta = seen_quanta(runs)
+    assert quanta["tractor_vx_mps"] == pytest.approx(0.14)
+    assert channel_noise(runs[0])["tractor_vx_mps"].sigma < 1e-6
+    known = channel_noise(runs[0], quanta)["tractor_vx_mps"]
+    assert known.sigma == known.floor == pytest.approx(0.14 / np.sqrt(12.0))
+
+
+def test_a_jump_there_and_back_is_no_step_of_the_instrument() -> None:
+    assert series_noise(Series(TIME, 4e5 * ((TIME > 8.0) & (TIME < 12.0)))).quantum == 0.0
 
 
 def test_filtered_noise_is_seen_as_coloured_with_its_full_sigma() -> None:

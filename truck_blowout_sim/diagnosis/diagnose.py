@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from pathlib import Path
 
 import numpy as np
@@ -40,7 +41,13 @@ from truck_blowout_sim.diagnosis.prove.intervals import Timing, time_intervals
 from truck_blowout_sim.diagnosis.prove.next_test import Separation, best_test
 from truck_blowout_sim.diagnosis.prove.profile import Arms, arms_of
 from truck_blowout_sim.diagnosis.result import Diagnosis, Role
-from truck_blowout_sim.diagnosis.sensors import GateResult, correct, sensor_gate, vehicle_geometry
+from truck_blowout_sim.diagnosis.sensors import (
+    GateResult,
+    correct,
+    seen_quanta,
+    sensor_gate,
+    vehicle_geometry,
+)
 from truck_blowout_sim.diagnosis.settings import Settings, load_settings
 from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.recordings import Recording
@@ -138,7 +145,13 @@ class _Case:
     def _cut(self, recording: Recording, role: Role, gate: GateResult) -> Run:
         findings = [f for f in gate.findings if f.in_baseline or role != "baseline"]
         return prepare_run(correct(recording, findings), role, self.packed, self.rules,
-                           step_s=self.effort.step_s, impose_speed=self.impose_speed)
+                           step_s=self.effort.step_s, impose_speed=self.impose_speed,
+                           quanta=self.quanta)
+
+    @cached_property
+    def quanta(self) -> Mapping[str, float]:
+        """Steps in which the channels read."""
+        return seen_quanta([*self.recordings, *self.baseline, *self.holdout])
 
 
 def _material(study: Study, found: Found, gate: GateResult, vehicle: str,
@@ -231,7 +244,7 @@ def _with_truck(told: Diagnosis, material: Material, case: _Case) -> tuple[Diagn
     if runs and not any(r.hypothesis.effect.timed for r in material.found.named):
         told = replace(told, holdout=driven_fit(
             runs, before.packed, case.packed.with_values(after.values),
-            impose_speed=case.impose_speed))
+            impose_speed=case.impose_speed, quanta=case.quanta))
     return replace(told, evidence=evidence), after
 
 

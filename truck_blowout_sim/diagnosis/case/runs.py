@@ -171,10 +171,12 @@ class Run:
 
 
 def prepare_run(recording: Recording, role: Role, packed: Packed, settings: Settings, *,
-                step_s: float, impose_speed: bool | None = None) -> Run:
+                step_s: float, impose_speed: bool | None = None,
+                quanta: Mapping[str, float] | None = None) -> Run:
     """Cut a recording into bins and weigh its channels.
 
-    ``impose_speed``: see :func:`truck_blowout_sim.simulation.replay.drive_from`. ``step_s`` is the
+    ``quanta``: see :func:`truck_blowout_sim.diagnosis.sensors.seen_quanta`; ``impose_speed``: see
+    :func:`truck_blowout_sim.simulation.replay.drive_from`. ``step_s`` is the
     fine step; what is tried is simulated on the settings' coarse one, corrected by the difference.
 
     Raises:
@@ -183,7 +185,7 @@ def prepare_run(recording: Recording, role: Role, packed: Packed, settings: Sett
     fine, drive = (drive_from(recording, packed.vehicle, step_s=step, impose_speed=impose_speed)
                    for step in (step_s, max(step_s, settings.trial_step_s)))
     names = names_of(packed.vehicle)
-    noise = channel_noise(recording)
+    noise = channel_noise(recording, quanta)
     channels = tuple(n for n in names if n in recording and n in noise
                      and settings.rule(n) and not _redundant(n, drive))
     n_bins = int((drive.times_s[-1] - drive.initial.time_s - settings.skip_s) / settings.bin_s)

@@ -8,7 +8,8 @@ n parts' ratios times n: a tone must last through the run.
 References: order tracking (Fyfe and Munck 1997); Fisher's test for a hidden periodicity (1929).
 Known limits: fast channels only (20 Hz and more); once per turn says which unit, not which wheel;
 a steady tone is looked for along the course alone, because a truck rolls and bounces at its own
-frequencies on any road; a run counts up to the first tire blown on command, which beats by itself.
+frequencies on any road, and beside baseline runs only; a run counts up to the first tire blown on
+command, which beats by itself.
 Validated with: test/diagnosis/test_periodic.py (false alarms on noise, lines that were put in).
 """
 
@@ -70,7 +71,10 @@ class Lines:
 
 
 def find_beat(study: Study, named: Sequence[Hypothesis] = ()) -> Beat | None:
-    """The clearest beat in the training runs that the baseline runs do not have."""
+    """The clearest beat in the training runs that the baseline runs do not have.
+
+    Without baseline runs, a steady pace is not asked for.
+    """
     per_m, rules = _turns_per_m(study.packed), study.settings
     turning, steady = [], []
     for run in study.runs:
@@ -80,8 +84,9 @@ def find_beat(study: Study, named: Sequence[Hypothesis] = ()) -> Beat | None:
         about = (run.role == "baseline", run.drive.initial.speed_mps)
         turning.append(_of(turn_lines(signals, run.recording, per_m), *about))
         steady.append(_of(tone_lines(signals, _PACES), *about))
+    # engine and frame of every sound vehicle have a tone: only its baseline tells a new one
     found = (clearest(turning, 1.0 / per_m, True, rules.beat_turn),
-             clearest(steady, 1.0 / _PACES, False, rules.beat_tone))
+             clearest(steady, 1.0 / _PACES, False, rules.beat_tone) if study.baseline else None)
     return max((b for b in found if b), key=lambda b: b.evidence, default=None)
 
 

@@ -26,7 +26,7 @@ from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.fit.linear import Projector
 from truck_blowout_sim.diagnosis.fit.models import with_effects
 from truck_blowout_sim.diagnosis.result import Fit
-from truck_blowout_sim.diagnosis.sensors import channel_noise
+from truck_blowout_sim.diagnosis.sensors import Noise, believable, channel_noise
 from truck_blowout_sim.recordings import Recording
 from truck_blowout_sim.vehicle import Packed
 
@@ -148,26 +148,27 @@ def _joined(first: str | None, second: str) -> str:
 
 def driven_fit(
     recordings: Sequence[Recording], before: Packed, after: Packed, *,
-    impose_speed: bool | None,
+    impose_speed: bool | None, quanta: Mapping[str, float],
 ) -> Fit:  # fmt: skip
     """Rms error of each measured channel, as ``compare`` has it, over the noise seen in it.
 
     Args:
         recordings: unseen runs, instruments corrected.
         before: the calibrated truck without what was named; ``after``: with it.
-        impose_speed: as in ``compare``.
+        impose_speed: as in ``compare``; ``quanta``: steps in which the channels read.
     """
-    sides = [_errors(recordings, truck, impose_speed) for truck in (before, after)]
+    noises = [believable(channel_noise(r, quanta)) for r in recordings]
+    sides = [_errors(recordings, noises, truck, impose_speed) for truck in (before, after)]
     common = sorted(set(sides[0]) & set(sides[1]))
     return Fit(*({name: side[name] for name in common} for side in sides))
 
 
 def _errors(
-    recordings: Sequence[Recording], truck: Packed, impose_speed: bool | None
+    recordings: Sequence[Recording], noises: Sequence[Mapping[str, Noise]], truck: Packed,
+    impose_speed: bool | None,
 ) -> dict[str, float]:
     squares: dict[str, list[float]] = {}
-    for recording in recordings:
-        noise = channel_noise(recording)
+    for recording, noise in zip(recordings, noises, strict=True):
         for name, rms in rms_errors(recording, truck, impose_speed=impose_speed).items():
             if name in noise:
                 squares.setdefault(name, []).append((rms / noise[name].sigma)**2)

@@ -20,6 +20,7 @@ from truck_blowout_sim.diagnosis.sensors.noise import (
     Noise,
     believable,
     channel_noise,
+    seen_quanta,
     series_noise,
 )
 
@@ -34,6 +35,7 @@ __all__ = [
     "believable",
     "channel_noise",
     "correct",
+    "seen_quanta",
     "sensor_gate",
     "series_noise",
     "stated_geometry",

@@ -19,7 +19,7 @@ from truck_blowout_sim.diagnosis.sensors.identities import (
     body_identities,
     hitch_identities,
 )
-from truck_blowout_sim.diagnosis.sensors.noise import Noise, believable, channel_noise
+from truck_blowout_sim.diagnosis.sensors.noise import Noise, believable, channel_noise, seen_quanta
 from truck_blowout_sim.diagnosis.sensors.path import (
     distance_name,
     path_identities,
@@ -101,6 +101,7 @@ def make_case(
 ) -> Case:
     """Read the recordings and list what to ask."""
     everything = [*recordings, *baseline]
+    quanta = seen_quanta(everything)
     signals = tuple(
         with_distance(with_reckoned(read_signals(recording))) for recording in everything
     )
@@ -116,7 +117,8 @@ def make_case(
         signals=signals,
         is_baseline=(False,) * len(recordings) + (True,) * len(baseline),
         noise=tuple(
-            _with_distance_noise(believable(channel_noise(r.only_channels(list(s.values)))))
+            _with_distance_noise(believable(channel_noise(r.only_channels(list(s.values)),
+                                                          quanta)))
             for r, s in zip(everything, signals, strict=True)
         ),
         geometry=lengths,

@@ -14,7 +14,7 @@ Validated with: test/diagnosis/test_sensors_noise.py (stated sigmas of sample re
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
 
@@ -37,6 +37,8 @@ _COMPUTED = 0.02  # of a good instrument's noise: no instrument is that good
 _GOOD_INSTRUMENT = {"_vx_mps": 0.012, "_vy_mps": 0.012, "_mps2": 0.03, "_rate_radps": 3.5e-4,
                     "_yaw_rad": 7e-4, "_roll_rad": 3.5e-4, "_pitch_rad": 3.5e-4,
                     "_x_m": 0.015, "_y_m": 0.015}  # fmt: skip
+_REPEATS = 0.5  # share of samples that differ from the one before, below which most repeat it
+_LEAST_STEPS = 3  # fewer may be one jump there and back
 _CLEAR_COLOUR = 1.5  # times the white sigma, before colour is believed
 _MOST_KNOWN = 2000  # channels whose noise is remembered: that of every run is asked for repeatedly
 
@@ -70,20 +72,44 @@ class Noise:
         return np.asarray(np.hypot(self.floor, self.relative * np.abs(level)), dtype=np.float64)
 
 
-def channel_noise(recording: Recording) -> Mapping[str, Noise]:
+def channel_noise(recording: Recording, quanta: Mapping[str, float] | None = None
+                  ) -> Mapping[str, Noise]:
     """Noise of every channel that has enough samples to show it.
 
     Args:
         recording: any recording; channels shorter than 40 samples are left out.
+        quanta: steps in which channels are known to read, from other runs (:func:`seen_quanta`).
 
     Returns:
         Noise by channel name.
     """
+    known = quanta or {}
     return {
-        name: series_noise(series)
+        name: _rounded(series_noise(series), known.get(name, 0.0))
         for name, series in recording.channels.items()
         if len(series) >= _MIN_SAMPLES
     }
+
+
+def seen_quanta(recordings: Sequence[Recording]) -> Mapping[str, float]:
+    """The step in which each channel reads, as the run tells it in which it is smallest.
+
+    A channel that rests in one run shows there neither its noise nor its step.
+    """
+    found: dict[str, float] = {}
+    for noise in map(channel_noise, recordings):
+        for name, one in noise.items():
+            if one.quantum > 0.0:
+                found[name] = min(one.quantum, found.get(name, np.inf))
+    return found
+
+
+def _rounded(one: Noise, quantum: float) -> Noise:
+    """The same noise, no smaller than rounding to the quantum leaves it."""
+    least = quantum / np.sqrt(12.0)
+    if one.quantum > 0.0 or one.sigma >= least:
+        return one
+    return replace(one, sigma=least, floor=max(one.floor, least), quantum=quantum)
 
 
 def believable(noise: Mapping[str, Noise]) -> Mapping[str, Noise]:
@@ -146,9 +172,12 @@ def _quantum(value: FloatArray) -> float:
     """Largest step of which all differences are multiples; 0 if the values are continuous.
 
     Values printed with few digits are multiples only to within their last digit, hence the slack.
+    Continuous noise does not repeat: where most samples do, the smallest step is the quantum.
     """
     steps = np.abs(np.diff(value))
-    steps = steps[steps > 1e-12 * max(1.0, float(np.abs(value).max()))]
+    every, steps = steps.size, steps[steps > 1e-12 * max(1.0, float(np.abs(value).max()))]
+    if _LEAST_STEPS <= steps.size < _REPEATS * every:
+        return float(steps.min())
     if steps.size < 5:
         return 0.0
     step = float(np.percentile(steps, 1))
