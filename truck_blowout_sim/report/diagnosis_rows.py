@@ -96,7 +96,7 @@ def location_rows(location: Location, labels: Mapping[str, str]) -> list[tuple[s
         rows.append(("Body", location.body))
     if location.line_of_action_x_m is not None:
         bounds = interval_text(location.line_of_action_ci90_m, _placed)
-        text = f"{_placed(location.line_of_action_x_m)} base_link; 90 % interval: {bounds}"
+        text = f"{_placed(location.line_of_action_x_m)} base_link; 90 % interval: {bounds} it"
         rows.append(("Line of action", text))
     if location.wrench is not None:
         wrench = location.wrench
