@@ -31,7 +31,7 @@ _DIFFERENCE_GAIN = np.sqrt(70.0)  # binom(8, 4)
 _MAD_TO_SIGMA = 1.4826
 _STRETCH_S = 0.5
 _LOCAL_CUBIC = 31  # samples of the local cubic whose residual shows coloured noise
-_MIN_SAMPLES = 40
+FEWEST_SAMPLES = 40
 _COMPUTED = 0.02  # of a good instrument's noise: no instrument is that good
 # Single samples of the proving ground's tractor instruments (docs/proving_ground.md).
 _GOOD_INSTRUMENT = {"_vx_mps": 0.012, "_vy_mps": 0.012, "_mps2": 0.03, "_rate_radps": 3.5e-4,
@@ -87,7 +87,7 @@ def channel_noise(recording: Recording, quanta: Mapping[str, float] | None = Non
     return {
         name: _rounded(series_noise(series), known.get(name, 0.0))
         for name, series in recording.channels.items()
-        if len(series) >= _MIN_SAMPLES
+        if len(series) >= FEWEST_SAMPLES
     }
 
 

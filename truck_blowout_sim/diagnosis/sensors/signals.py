@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import gaussian_filter1d, uniform_filter1d
 
+from truck_blowout_sim.diagnosis.sensors.noise import FEWEST_SAMPLES
 from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.recordings import Recording
 
@@ -24,6 +25,7 @@ GRAVITY_MPS2 = 9.81
 _SMOOTH_S = 0.08
 _MAX_GAP_FACTOR = 2.5
 _ASKED = ("tractor_", "trailer_", "hub_speed_", "brake_pressure_", "articulation_")
+_LASTING_SAMPLES = 100
 _WIENER_BINS = 9
 _WIENER_MARGIN = 2.0
 
@@ -125,19 +127,22 @@ def read_signals(recording: Recording) -> Signals:
     """Put a recording on the grid of its most densely sampled motion channel.
 
     Raises:
-        InputError: if no channel of a body has at least 100 samples.
+        InputError: if no channel of a body has samples enough to tell its noise.
     """
-    body = [
+    told = [
         series
         for name, series in recording.channels.items()
-        if name.startswith(("tractor_", "trailer_")) and len(series) >= 100
+        if name.startswith(("tractor_", "trailer_")) and len(series) >= FEWEST_SAMPLES
     ]
-    if not body:
+    if not told:
         raise InputError(
             file=recording.name,
-            problem="no motion channel (tractor_..., trailer_...) with 100 samples or more",
+            problem=f"no motion channel (tractor_..., trailer_...) with {FEWEST_SAMPLES} samples "
+                    "or more",
             expected="at least tractor velocity, yaw rate or acceleration over a second",
         )
+    # a short burst on a fast clock is no grid for the others
+    body = [series for series in told if len(series) >= _LASTING_SAMPLES] or told
     finest = min(body, key=lambda series: (series.period_s, -len(series)))
     period_s = round(finest.period_s, 9)
     start, end = float(finest.time_s[0]), float(finest.time_s[-1])
