@@ -11,18 +11,16 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Callable
-from concurrent.futures import ProcessPoolExecutor
 from dataclasses import replace
+from functools import partial
 from importlib import import_module
-from multiprocessing import get_context
 from pathlib import Path
 from typing import Any
 
 from truck_blowout_sim.diagnosis.settings import Settings
 from truck_blowout_sim.proof.blindfold import blindfold
 from truck_blowout_sim.proof.cases import find_cases
-from truck_blowout_sim.proof.run import RESULTS, append, mixed, read_lines, unfinished
-from truck_blowout_sim.proof.worker import attempt
+from truck_blowout_sim.proof.run import run_cases
 from truck_blowout_sim.vehicle import Packed
 
 # of config/diagnosis/default.yaml: in these, good models differ in form
@@ -30,6 +28,7 @@ FORMS = ("_carcass", "_spring", "steered_friction", "_frame", "rim_radius", "fla
          "deflation", "flat_trail", "flat_relaxation", "gas_exponent", "steering_lag",
          "steering_curve", "brake_curve")  # fmt: skip
 ROOM = "truck_blowout_sim.diagnosis"
+STEP_S = 0.0025  # as `truck-blowout prove`
 
 
 def without_forms() -> None:
@@ -68,13 +67,9 @@ def _begin(part: str) -> None:
 
 def main(cases: str, out: str, part: str, workers: str = "2") -> None:
     """Diagnose every case that has no line yet."""
-    path, found = Path(out) / RESULTS, find_cases(Path(cases))
-    path.parent.mkdir(parents=True, exist_ok=True)
-    todo = unfinished(found, read_lines(path))
-    with ProcessPoolExecutor(int(workers), get_context("spawn"), _begin, (part,)) as pool:
-        for k, line in enumerate(pool.map(attempt, [(c, 0.0025, False) for c in mixed(todo)]), 1):
-            append(path, line)
-            print(f"{k} of {len(todo)}: {line['case']}", flush=True)
+    for line in run_cases(find_cases(Path(cases)), Path(out), workers=int(workers), step_s=STEP_S,
+                          with_baselines=False, begin=partial(_begin, part)):
+        print(line["case"], flush=True)
 
 
 if __name__ == "__main__":

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from contextlib import contextmanager
 from multiprocessing import get_context
@@ -46,8 +46,12 @@ def unfinished(cases: Sequence[Case], lines: dict[str, dict[str, Any]]) -> list[
 
 
 def run_cases(cases: Sequence[Case], out: Path, *, workers: int, step_s: float,
-              with_baselines: bool) -> Iterator[dict[str, Any]]:
-    """Diagnose what has no line yet, append and yield each line as it comes."""
+              with_baselines: bool, begin: Callable[[], None] = blindfold
+              ) -> Iterator[dict[str, Any]]:
+    """Diagnose what has no line yet, append and yield each line as it comes.
+
+    ``begin``: what each process does first; it must leave the process blindfolded.
+    """
     path = out / RESULTS
     todo = unfinished(cases, read_lines(path))
     if not todo:
@@ -55,7 +59,7 @@ def run_cases(cases: Sequence[Case], out: Path, *, workers: int, step_s: float,
     code = code_hash()
     out.mkdir(parents=True, exist_ok=True)
     with _one_thread(), ProcessPoolExecutor(workers, get_context("spawn"),
-                                            initializer=blindfold) as pool:
+                                            initializer=begin) as pool:
         jobs = [pool.submit(attempt, (case, step_s, with_baselines)) for case in mixed(todo)]
         try:
             for job in as_completed(jobs):
