@@ -124,6 +124,14 @@ def test_only_effects_with_an_onset_have_instants(effect: Effect, truck: Packed)
 
 
 @pytest.mark.parametrize("effect", EVERY)
+def test_what_single_vehicles_stray_by_is_above_zero_and_says_where_it_is_from(
+    effect: Effect
+) -> None:
+    assert 0.0 < effect.amount.material < max(effect.amount.high, -effect.amount.low)
+    assert len(effect.amount.source.split()) > 3
+
+
+@pytest.mark.parametrize("effect", EVERY)
 def test_what_a_nuisance_imitates_is_a_nuisance(effect: Effect, truck: Packed) -> None:
     known = {n.name for n in load_settings(truck).nuisances}
     meanings = {h.meaning(truck.vehicle) for h in hypotheses(effect, truck)}

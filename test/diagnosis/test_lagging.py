@@ -13,11 +13,13 @@ from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.fit.attribute import Ranked
 from truck_blowout_sim.diagnosis.fit.models import models_at
 from truck_blowout_sim.diagnosis.fit.refit import refit
+from truck_blowout_sim.diagnosis.fit.scatter import SCATTERS, Scatter
 from truck_blowout_sim.diagnosis.locate.lagging import lagging_wheel
 from truck_blowout_sim.vehicle import Packed
 
 HUB = "trailer_2_left"
 Studies = Callable[..., Study]
+STILL = Scatter(np.eye(SCATTERS.size)[0])  # no amount scatters
 
 
 def in_force(study: Study, amount: float = 0.0) -> Hypothesis:
@@ -42,7 +44,7 @@ def test_the_wheel_that_is_held_back_is_named_and_by_how_much(
     study_of: Studies, truck: Packed
 ) -> None:
     study = held_back(study_of, truck)
-    lag = lagging_wheel(study, [in_force(study)])
+    lag = lagging_wheel(study, [in_force(study)], STILL)
     assert lag is not None
     assert lag.hub == HUB
     assert lag.slip > 5.0 * lag.sigma
@@ -56,15 +58,15 @@ def test_the_wheel_that_is_held_back_is_named_and_by_how_much(
 
 def test_a_drag_that_is_named_rightly_leaves_no_wheel_behind(study_of: Studies) -> None:
     study = study_of({"driveline.drag_extra_n": 3000.0}, baseline=True)
-    assert lagging_wheel(study, [in_force(study, 3000.0)]) is None
+    assert lagging_wheel(study, [in_force(study, 3000.0)], STILL) is None
 
 
 def test_without_a_drag_or_a_baseline_no_wheel_is_accused(
     study_of: Studies, truck: Packed
 ) -> None:
-    assert lagging_wheel(held_back(study_of, truck), []) is None
+    assert lagging_wheel(held_back(study_of, truck), [], STILL) is None
     alone = held_back(study_of, truck, baseline=False)
-    assert lagging_wheel(alone, [in_force(alone)]) is None
+    assert lagging_wheel(alone, [in_force(alone)], STILL) is None
 
 
 def test_a_hub_that_something_named_holds_is_not_asked(study_of: Studies, truck: Packed) -> None:
@@ -72,5 +74,5 @@ def test_a_hub_that_something_named_holds_is_not_asked(study_of: Studies, truck:
     brake = next(e for e in LIBRARY if e.name == "brake_imbalance")
     place = next(p for p in brake.places(truck.vehicle) if p.hub == HUB)
     drag = in_force(study)
-    lag = lagging_wheel(study, [drag, Hypothesis(brake, place, 0.0)])
+    lag = lagging_wheel(study, [drag, Hypothesis(brake, place, 0.0)], STILL)
     assert lag is None or lag.hub != HUB

@@ -27,9 +27,12 @@ def case(train: int, baseline: int) -> Study:
                                        settings=SimpleNamespace(alarms_by_rest=0.02)))
 
 
-def test_without_baseline_runs_no_level_says_that_something_is_missing() -> None:
-    assert chance_of_more(case(2, 0), (1e6, 1e6)) == 1.0
-    assert expected_squares(case(2, 0), (1e6, 1e6)) is None
+def test_without_baseline_runs_only_far_more_than_the_widths_says_that_something_is_missing(
+) -> None:
+    alone = case(2, 0)
+    assert expected_squares(alone, (9.0, 9.0)) == 1.0
+    assert chance_of_more(alone, (1.5, 1.5)) > 0.1
+    assert chance_of_more(alone, (20.0, 20.0)) < 1e-3
 
 
 def test_alarms_are_as_rare_as_stated_where_runs_scatter_as_the_prior_says() -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
 from truck_blowout_sim.diagnosis.case.study import Study
@@ -13,10 +14,12 @@ from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.fit.attribute import Ranked
 from truck_blowout_sim.diagnosis.fit.models import models_at
 from truck_blowout_sim.diagnosis.fit.refit import refit
+from truck_blowout_sim.diagnosis.fit.scatter import SCATTERS, Scatter
 from truck_blowout_sim.diagnosis.locate.posture import postures, turned_body
 from truck_blowout_sim.vehicle import Packed
 
 Studies = Callable[..., Study]
+STILL = Scatter(np.eye(SCATTERS.size)[0])  # no amount scatters
 
 
 def leaning(study_of: Studies, by_rad: float, baseline: bool = True) -> Study:
@@ -34,7 +37,7 @@ def leaning(study_of: Studies, by_rad: float, baseline: bool = True) -> Study:
 def test_a_body_that_stands_turned_is_named_and_by_how_much(
     study_of: Studies, by_rad: float, low: str
 ) -> None:
-    found = turned_body(leaning(study_of, by_rad), [])
+    found = turned_body(leaning(study_of, by_rad), [], STILL)
     assert found is not None
     assert (found.body, found.angle) == ("tractor", "roll")
     assert found.turned_rad == pytest.approx(by_rad, rel=0.15)
@@ -44,13 +47,13 @@ def test_a_body_that_stands_turned_is_named_and_by_how_much(
 
 
 def test_without_a_baseline_the_instrument_may_sit_crooked(study_of: Studies) -> None:
-    assert turned_body(leaning(study_of, 0.02, baseline=False), []) is None
+    assert turned_body(leaning(study_of, 0.02, baseline=False), [], STILL) is None
 
 
 def test_a_truck_that_stands_as_modelled_is_left_alone(study_of: Studies) -> None:
     study = study_of(baseline=True)
-    assert turned_body(study, []) is None
-    assert {(p.body, p.angle) for p in postures(study, [])} == {
+    assert turned_body(study, [], STILL) is None
+    assert {(p.body, p.angle) for p in postures(study, [], STILL)} == {
         (body, "roll") for body in ("tractor", "trailer")}  # the only angles recorded
 
 
@@ -62,4 +65,4 @@ def test_a_bank_that_is_named_turns_nothing(study_of: Studies, truck: Packed) ->
     named = refit(study, Ranked(named, 0.0, 100.0), chi2).hypothesis
     for i, model in models_at(study, [named], ())[0].items():
         study.models[i] = model
-    assert turned_body(study, [named]) is None
+    assert turned_body(study, [named], STILL) is None

@@ -28,7 +28,7 @@ def short_library(monkeypatch: pytest.MonkeyPatch) -> None:
 
 def found_by_quieting(study: Study, sound: bool = True) -> Found:
     """A search in which scatter says of nothing that it is supported."""
-    with patch.object(search, "weakness", lambda one, chance, strongest: Fate("support")):
+    with patch.object(search, "weakness", lambda one, chance: Fate("support")):
         return search.search(study, most=1, sound=sound)
 
 
@@ -39,17 +39,6 @@ def test_what_takes_most_of_the_mismatch_away_is_found_with_its_share(study_of: 
     assert found[0].ranked.hypothesis.key == ("axle_misalignment", "trailer_1")
     assert 0.9 < found[0].share < 1.1
     assert all(one.share >= quieting.NAMING_SHARE for one in found)
-
-
-def test_a_force_that_two_models_do_not_differ_by_is_reason_enough(
-    study_of: Studies, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(quieting, "keeps_more", lambda study, squares: False)
-    study = study_of(TURNED, baseline=True)
-    ranked = shortlist(study, [], None).ranked
-    assert quieting.quieting(study, ranked)
-    monkeypatch.setattr(quieting, "enough", lambda study: float("inf"))
-    assert quieting.quieting(study, ranked) == []
 
 
 def test_nothing_is_found_where_training_keeps_no_more_than_baseline(study_of: Studies) -> None:

@@ -20,6 +20,7 @@ from truck_blowout_sim.diagnosis.case.study import Progress, Study
 from truck_blowout_sim.diagnosis.case.usable import check_each_once, determined
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.effort import USUAL, Effort
+from truck_blowout_sim.diagnosis.fit.scatter import Scatter
 from truck_blowout_sim.diagnosis.fit.threads import one_blas_thread
 from truck_blowout_sim.diagnosis.locate.comparable import Left
 from truck_blowout_sim.diagnosis.locate.lagging import lagging_wheel
@@ -161,15 +162,15 @@ def _material(study: Study, found: Found, gate: GateResult, vehicle: str,
     named = [r.hypothesis for r in found.named]
     before = _wrenches(study, found.models_null, (), progress)
     after = _wrenches(study, study.models, named, progress) if named else before
-    judged = _comparable(study, after, named, progress)
     worst = max(after, key=lambda w: w.delta)
     law = plainest_law(worst, next(r for r in study.runs
                                    if r.recording.name == worst.history.recording))
-    material = Material(study, found, gate, before, judged, law, _timings(study, found), vehicle,
+    scatter = found.chance.scatter if found.chance else Scatter.of(())
+    material = Material(study, found, gate, before, after, law, _timings(study, found), vehicle,
                         _separation(study, found, progress) if effort.next_run else None,
                         _arms(study, found, progress) if effort.profile else {},
-                        find_beat(study, named), lagging_wheel(study, named),
-                        turned_body(study, named) if sound else None,
+                        find_beat(study, named), lagging_wheel(study, named, scatter),
+                        turned_body(study, named, scatter) if sound else None,
                         restless(study, named) if sound else None)
     if unexplained(material):
         material = replace(material, law=checked(study, law, named))
@@ -180,15 +181,6 @@ def _wrenches(study: Study, models: Sequence[Floats], named: Sequence[Hypothesis
               progress: Progress | None) -> tuple[Wrenches, ...]:
     """Missing wrench on each body in the training run that is explained worst."""
     return missing_wrenches(study, Left.of(study, models, named), models, named, progress)
-
-
-def _comparable(study: Study, found: tuple[Wrenches, ...], named: Sequence[Hypothesis],
-                progress: Progress | None) -> tuple[Wrenches, ...]:
-    """The same of what baseline runs tell of: a tire that only training lost is left out."""
-    left = Left.of(study, study.models, named, comparable=True)
-    if left.seen.all():
-        return found
-    return missing_wrenches(study, left, study.models, named, progress)
 
 
 def _timings(study: Study, found: Found) -> dict[tuple[str, str], Mapping[str, Timing]]:

@@ -26,8 +26,8 @@ STATED = "spread in the vehicle file"
 _ONLY = ("", "blowout", "brakes")
 _CHANNELS = tuple(channel.name for channel in channels_for())
 # steps beyond 7.1 ms are not stable for a sound truck; shares end at the whole
-_MOST = {"trial_step_s": 0.0071, "coarsest_step_s": 0.0071, "calm_share": 1.0, "false_alarms": 0.5}
-_MAY_BE_ZERO = ("hard_from_mps2", "hard_demand_s2pm", "calm_below_mps2", "skip_s")
+_MOST = {"trial_step_s": 0.0071, "coarsest_step_s": 0.0071, "false_alarms": 0.5}
+_MAY_BE_ZERO = ("skip_s",)
 _CHANNEL_KEYS = {"floor", "relative", "bias", "gain", "source"}
 _NUMBER_KEYS = {"for", "kind", "step", "sign", "times", "targets", "opposite", "only", "source",
                 "spread_of"}
@@ -58,15 +58,7 @@ class Settings:
         false_alarms: share of cases with nothing missing in which anything may be stated.
         form_share: 1 sigma of what another form of law does to an amount, as a share of it.
         flat_braked: how much wider models differ once a flat tire was braked.
-        hard_from_mps2, hard_demand_s2pm: lateral acceleration from which on ``unknown_delta`` is
-            more, by what factor more with each 1 m/s2.
-        calm_below_mps2, calm_share: on straighter courses less than ``unknown_delta`` is asked
-            for, down to that share where nothing turns.
         forms: by effect, instead of ``form_share``, where laws of its kind differ more.
-        expected_level: sum of squares a row if nothing is missing.
-        unknown_delta: what a wrench that nothing named explains must buy to be a missing effect.
-        lag_delta, posture_delta: what one wheel's lag, a body's stand must buy to be told.
-        beat_turn, beat_tone: score from which on something beats once per wheel turn, or steadily.
         without: names of effects that are not considered; asked for, not read from the file.
     """
 
@@ -80,18 +72,8 @@ class Settings:
     correlation_s: float
     swing_s: float
     false_alarms: float
-    expected_level: float
-    unknown_delta: float
-    lag_delta: float
-    posture_delta: float
-    beat_turn: float
-    beat_tone: float
     form_share: float
     flat_braked: float
-    hard_from_mps2: float
-    hard_demand_s2pm: float
-    calm_below_mps2: float
-    calm_share: float
     forms: Mapping[str, float] = field(default_factory=dict)
     without: tuple[str, ...] = ()
 
@@ -103,7 +85,12 @@ class Settings:
     @property
     def alarms_by_rest(self) -> float:
         """Those that each test of what is left may raise: of all of it, and of one channel."""
-        return 0.25 * self.false_alarms
+        return 0.2 * self.false_alarms
+
+    @property
+    def alarms_by_sign(self) -> float:
+        """Those that each sign may raise: a body's stand, a wheel's lag, two kinds of beat."""
+        return 0.025 * self.false_alarms
 
     def form(self, effect: str) -> float:
         """1 sigma of what another form of law does to an amount, as a share of it."""

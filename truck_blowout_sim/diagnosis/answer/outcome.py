@@ -24,7 +24,7 @@ from truck_blowout_sim.diagnosis.locate.left_over import (
 )
 from truck_blowout_sim.diagnosis.locate.posture import Posture
 from truck_blowout_sim.diagnosis.locate.restless import Restless
-from truck_blowout_sim.diagnosis.locate.wrench import Wrenches, enough
+from truck_blowout_sim.diagnosis.locate.wrench import Wrenches
 from truck_blowout_sim.diagnosis.model.law import Law
 from truck_blowout_sim.diagnosis.name.judging import Found
 from truck_blowout_sim.diagnosis.prove.intervals import Timing
@@ -44,7 +44,6 @@ from truck_blowout_sim.diagnosis.sensors import GateResult
 
 Floats = NDArray[np.float64]
 Key = tuple[str, str]  # of a hypothesis: name and place
-_LEFT_BY_LAW = 0.02  # of what was bought: another tire lost bought 1.7 million and left 93
 _PULLED = 2.9  # prior sigmas beyond which a sheet number is reported
 
 
@@ -53,8 +52,7 @@ class Material:
     """Everything an answer is made of.
 
     Attributes:
-        wrenches: missing on each body before anything was named; ``unnamed``: after, as far as
-            baseline runs tell of it.
+        wrenches: missing on each body before anything was named; ``unnamed``: after.
         law: plainest law of what is left unnamed.
         timings: intervals of each timed effect's onset and duration, by key and run.
         vehicle: name of the model's vehicle.
@@ -114,7 +112,7 @@ def decide(material: Material) -> Verdict:
     """Which of the five verdicts the evidence supports."""
     found, gate = material.found, material.gate
     physics = [r for r in found.named if r.hypothesis.effect.kind == "physics"]
-    if (unexplained(material) or _beats(material) or _stands_turned(material)
+    if (unexplained(material) or _beats(material) or material.posture
             or _moving_on(material) or material.lag):
         return "unknown"
     if physics:
@@ -130,12 +128,6 @@ def _beats(material: Material) -> bool:
     return beat is not None and beat.evidence > _bought(material)
 
 
-def _stands_turned(material: Material) -> bool:
-    """Whether a body stands turned by more than the law of something named leaves."""
-    posture = material.posture
-    return posture is not None and posture.evidence > _LEFT_BY_LAW * _bought(material)
-
-
 def _moving_on(material: Material) -> Restless | None:
     """The restless channel, if more is left of it than everything named explains of all."""
     moving = material.restless
@@ -143,22 +135,16 @@ def _moving_on(material: Material) -> Restless | None:
 
 
 def unexplained(material: Material) -> bool:
-    """Whether a force is left that nothing named explains, or more than baseline runs keep."""
-    study = material.study
-    bought = _bought(material)
-    unnamed = max((w.beyond for w in material.unnamed), default=0.0)
-    # a faulty instrument, once corrected, leaves more of itself than two models differ by: then
-    # only a force counts, and no smaller one than in turns
-    sound = not material.gate.findings
-    return unnamed > max(enough(study, sound), bought) or (sound and _keeps_more(material, bought))
+    """Whether training keeps more than baseline, and what was named explains less than half.
 
-
-def _keeps_more(material: Material, bought: float) -> bool:
-    """Whether training keeps more than baseline, and what was named explains less than half."""
-    study = material.study
+    Not asked beside a faulty instrument: once corrected, it leaves more of itself than models do.
+    """
+    if material.gate.findings:
+        return False
+    study, bought = material.study, _bought(material)
     squares = mean_squares(study, [r.hypothesis for r in material.found.named])
     usual = expected_squares(study, squares)
-    if usual is None or not keeps_more(study, squares):
+    if not keeps_more(study, squares):
         return False
     return bought < NAMING_SHARE * (excess(study, squares, usual) + bought)
 

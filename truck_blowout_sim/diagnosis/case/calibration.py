@@ -42,7 +42,6 @@ def calibrate(study: Study, rounds: int = 2, progress: Progress | None = None) -
     their priors go on counting from the sheet, and what the runs ask for stays open to effects.
     Without baseline runs it stays at the sheet: nothing else tells the truck from what is missing.
     """
-    study.level = study.settings.expected_level
     warm_up(study)
     _drive_all(study)
     _weigh_all(study)
@@ -61,6 +60,7 @@ def calibrate(study: Study, rounds: int = 2, progress: Progress | None = None) -
                           for run, part in zip(study.holdout, study.holdout_columns, strict=True))
     _drive_all(study)
     whiten(study)
+    study.level = resting_level(study)
 
 
 def _drive_all(study: Study) -> None:

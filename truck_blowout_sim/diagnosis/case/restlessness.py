@@ -82,13 +82,14 @@ def _no_calmer_than_guessed(covariance: Floats) -> Color:
 
 
 def resting_level(study: Study) -> float:
-    """Mean square that the fit leaves a row of training once its color is out, 1 at most.
+    """Mean square that the fit leaves a row of the runs that tell, once their color is out.
 
-    Less than 1 where channels are calmer than the guess.
+    1 at most; less where channels are calmer than the guess.
     """
-    residual, projector = study.residual(), study.projector()
+    residual, projector, rows = study.residual(), study.projector(), row_ranges(study)
     left = residual - projector.explained(projector.amounts(residual))
-    return min(float(np.mean(np.square(left))), 1.0)
+    told = np.concatenate([left[rows[i]] for i in study.baseline or study.train])
+    return min(float(np.mean(np.square(told))), 1.0)
 
 
 def whiten(study: Study) -> None:

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from truck_blowout_sim.diagnosis.case.runs import Run, simulate_bins
-from truck_blowout_sim.diagnosis.case.trust import calm, demand, grip_used
+from truck_blowout_sim.diagnosis.case.trust import grip_used
 from truck_blowout_sim.diagnosis.effects import Effect
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.effort import USUAL
@@ -81,18 +81,6 @@ class Study:
     def train(self) -> tuple[int, ...]:
         """Positions of the training runs in ``runs``."""
         return tuple(i for i, run in enumerate(self.runs) if run.role == "train")
-
-    @cached_property
-    def demand(self) -> float:
-        """Factor on what a force that nothing explains must buy in turns so hard."""
-        return demand([self.runs[i].recording for i in self.train], self.packed.vehicle.units[0],
-                      self.settings)
-
-    @cached_property
-    def calm(self) -> float:
-        """Share of what a force that nothing explains must buy in runs so straight."""
-        return calm([self.runs[i].recording for i in self.train], self.packed.vehicle.units[0],
-                    self.settings)
 
     @cached_property
     def grip_used(self) -> float:

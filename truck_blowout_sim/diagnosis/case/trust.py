@@ -1,8 +1,7 @@
 """Where the model is believed less: a flat tire that was braked, turns near the limit of grip.
 
-The flat tire widens the difference that good models of one truck are allowed, bin by bin. Hard
-turns ask more of a force that nothing named explains. On a straight course two models differ least:
-there a smaller such force is already one. Baseline runs on sound tires say nothing of a lost one.
+The flat tire widens the difference that good models of one truck are allowed, bin by bin. Baseline
+runs on sound tires say nothing of a lost one. Near the limit of grip laws of tires differ most.
 
 Known limits: lateral acceleration is that of the first unit's yaw rate and speed; without both
 channels no turn counts as hard.
@@ -11,7 +10,6 @@ Validated with: test/diagnosis/test_trust.py.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -70,36 +68,6 @@ def comparable_rows(study: Study, run: Run) -> Floats:
     """[rows] 1 up to then, 0 afterwards."""
     known = run.edges_s[1:] <= comparable_until_s(study, run)
     return np.repeat(known, len(run.channels)).astype(np.float64)
-
-
-def demand(recordings: Sequence[Recording], unit: str, settings: Settings) -> float:
-    """Factor on what a force that nothing explains must buy, by the hardest turn of any recording.
-
-    Near the limit each model's tire has its own curve.
-    """
-    hardest = _hardest_of_all_mps2(recordings, unit)
-    return 1.0 + settings.hard_demand_s2pm * max(hardest - settings.hard_from_mps2, 0.0)
-
-
-def calm(recordings: Sequence[Recording], unit: str, settings: Settings) -> float:
-    """Share of what a force that nothing explains must buy, by the hardest turn of all."""
-    hardest = _hardest_of_all_mps2(recordings, unit)
-    least = settings.calm_share
-    return min(least + (1.0 - least) * hardest / settings.calm_below_mps2, 1.0)
-
-
-def _hardest_of_all_mps2(recordings: Sequence[Recording], unit: str) -> float:
-    return max((_hardest_mps2(recording, unit) for recording in recordings), default=0.0)
-
-
-def _hardest_mps2(recording: Recording, unit: str) -> float:
-    """Largest lateral acceleration that lasts, from yaw rate and speed; 0 without both."""
-    names = (f"{unit}_yaw_rate_radps", f"{unit}_vx_mps")
-    if not all(name in recording and len(recording[name]) > 1 for name in names):
-        return 0.0
-    rate, speed = (recording[name] for name in names)
-    lateral = np.abs(rate.value * np.interp(rate.time_s, speed.time_s, speed.value))
-    return float(uniform_filter1d(lateral, max(round(_LASTS_S / rate.period_s), 1)).max())
 
 
 def grip_used(study: Study) -> float:

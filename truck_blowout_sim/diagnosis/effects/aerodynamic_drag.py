@@ -13,6 +13,7 @@ from truck_blowout_sim.diagnosis.effects.base import (
 EFFECT = Effect(
     name="aerodynamic_drag",
     amount=Amount("extra_drag_area_m2", "m^2", step=1.0, low=-6.0, high=30.0, material=0.16,
+                  source="a head wind of 1 m/s at 25 m/s alone is 8 % (1 sigma)",
                   grid=(3.0,)),
     places=each_unit,
     values=lambda packed, place, a: added(packed, f"unit.{place.body}.drag_area_extra_m2", a),

@@ -30,7 +30,7 @@ class Amount:
         step: finite difference for its sensitivity.
         low, high: physical bounds.
         material: by so much 19 of 20 trucks of one kind stray from another at most; a share, where
-            it grows with the vehicle.
+            it grows with the vehicle. ``source``: where that is from.
         report: value to report from the amount; identity by default.
         grid: where a nonlinear search may start.
         at_low: what to say at the lower bound, where nature reaches it; ``{percent}`` is the end
@@ -43,6 +43,7 @@ class Amount:
     low: float
     high: float
     material: float
+    source: str
     report: Callable[[float], float] = lambda amount: amount
     grid: tuple[float, ...] = ()
     at_low: str = ""

@@ -11,6 +11,7 @@ from truck_blowout_sim.diagnosis.effects.base import (
 EFFECT = Effect(
     name="friction_change",
     amount=Amount("friction_factor", "1", step=-0.45, low=-0.9, high=0.5, material=0.12,
+                  source="dry asphalt from place to place: 6 % (1 sigma)",
                   report=lambda a: 1.0 + a, grid=(-0.5, -0.7)),
     places=whole_truck,
     values=lambda packed, place, a: {"world.friction_change_scale": 1.0 + a},

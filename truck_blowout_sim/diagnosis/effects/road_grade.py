@@ -13,7 +13,8 @@ from truck_blowout_sim.diagnosis.effects.base import (
 
 EFFECT = Effect(
     name="road_grade",
-    amount=Amount("grade_rad", "rad", step=0.003, low=-0.12, high=0.12, material=0.0012),
+    amount=Amount("grade_rad", "rad", step=0.003, low=-0.12, high=0.12, material=0.0012,
+                  source="a level track's slope, 0.06 % (1 sigma)"),
     places=whole_truck,
     met=True,
     values=lambda packed, place, a: added(packed, "world.road_grade_rad", a),

@@ -12,6 +12,7 @@ from truck_blowout_sim.diagnosis.effects.base import (
 EFFECT = Effect(
     name="steering_lash",
     amount=Amount("extra_lash_rad", "rad", step=0.03, low=0.0, high=0.6, material=0.04,
+                  source="wear by 20 % of a play of 6 deg (1 sigma)",
                   grid=(0.1, 0.25)),
     places=steered_axle,
     values=lambda packed, place, a: added(packed, "steering.lash_extra_rad", a),

@@ -51,6 +51,7 @@ def _less_peak(packed: Packed, place: Place, amount: float) -> Values:
 EFFECT = Effect(
     name="tire_saturation",
     amount=Amount("peak_factor", "1", step=-0.1, low=-0.8, high=0.0, material=0.08,
+                  source="peak friction of tires of one type: 4 % (1 sigma)",
                   report=lambda a: 1.0 + a, grid=(-0.2, -0.4)),
     places=_formula_axles,
     values=_less_peak,

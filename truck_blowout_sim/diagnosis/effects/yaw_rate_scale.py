@@ -14,7 +14,8 @@ from truck_blowout_sim.diagnosis.effects.base import (
 
 EFFECT = Effect(
     name="yaw_rate_scale",
-    amount=Amount("scale_error", "1", 0.02, -0.4, 0.4, 0.03),
+    amount=Amount("scale_error", "1", 0.02, -0.4, 0.4, 0.03,
+                  source="scale of a rate gyro, by data sheets: 1.5 % (1 sigma)"),
     places=each_unit,
     values=lambda packed, place, a: added(packed, f"unit.{place.body}.yaw_rate_gain", a),
     sentence="The yaw rate of the {where} reads {percent} percent too much.",

@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from truck_blowout_sim.diagnosis.case.driven import driven
-from truck_blowout_sim.diagnosis.case.runs import Run
 from truck_blowout_sim.diagnosis.case.study import Progress, Study, row_ranges
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
-from truck_blowout_sim.diagnosis.fit.linear import Projector, Score, score
+from truck_blowout_sim.diagnosis.fit.linear import score
 from truck_blowout_sim.diagnosis.fit.models import models_at, with_effects
 from truck_blowout_sim.diagnosis.fit.scatter import Scatter, independent
 from truck_blowout_sim.diagnosis.fit.shown import Question, parts_of
@@ -151,21 +150,3 @@ def _columns(study: Study, candidates: Sequence[Hypothesis], named: Sequence[Hyp
         if form not in study.quiet:
             study.quiet[form] = {i: found[i] for i in study.baseline}
     return [study.stack({**study.quiet[c.form], **parts[c.form]}) for c in candidates]
-
-
-def score_channel(study: Study, projector: Projector, removed: Floats, channel: str,
-                  change: Callable[[Run, Floats], Floats]) -> Score:
-    """What a change of one channel alone buys in training, where it is recorded.
-
-    ``removed``: what is left, as :meth:`Projector.remove` gives it; ``change``: by run and its bin
-    means of the channel, what these would change by for each unit of the amount.
-    """
-    parts = {}
-    for i in study.train:
-        run = study.runs[i]
-        column = np.zeros(run.measured.shape)
-        if channel in run.channels:
-            k = run.channels.index(channel)
-            column[:, k] = change(run, run.measured[:, k])
-        parts[i] = run.change(column, np.zeros(column.shape))
-    return score(projector, removed, study.stack(parts))

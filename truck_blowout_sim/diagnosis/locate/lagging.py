@@ -5,8 +5,7 @@ What is left of a hub's speed after everything named is fitted with a share of t
 training and while nothing brakes; the gain of its tachometer, which baseline runs hold, and all
 other nuisances are projected out. Hubs that a blown tire or something named holds are not asked.
 
-References: wheel slip under a drive or brake force (Pacejka 2012, chapter 1); the score test of
-`linear.py`.
+References: wheel slip under a drive or brake force (Pacejka 2012, chapter 1); as `scatter.py`.
 Known limits: without baseline runs a lag is a gain of the tachometer, and nothing is said; hubs
 that were not recorded cannot lag.
 Validated with: test/diagnosis/test_lagging.py (a hub that is held back is named, and by how much).
@@ -24,10 +23,14 @@ from truck_blowout_sim.diagnosis.case.runs import Run
 from truck_blowout_sim.diagnosis.case.study import Study
 from truck_blowout_sim.diagnosis.case.trust import BRAKES_ON_PA
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
-from truck_blowout_sim.diagnosis.fit.attribute import score_channel
+from truck_blowout_sim.diagnosis.fit.one_channel import ask_channel, asked_of
 from truck_blowout_sim.diagnosis.fit.quantiles import NINETY
+from truck_blowout_sim.diagnosis.fit.scatter import Scatter
 
 _BRAKES = slice(2, None)  # columns of a drive's inputs
+# 1 sigma of a rolling radius from truck to truck, half of it from day to day: 3 % of load or
+# pressure move a deflection of 25 mm by 0.8 mm, the radius of 0.5 m by a third of that
+_RADIUS = 0.001
 
 
 @dataclass(frozen=True)
@@ -36,7 +39,7 @@ class Lag:
 
     Attributes:
         slip: share of its speed by which it lags; ``sigma`` its standard error.
-        evidence: fall of the sum of squares that the lag buys.
+        evidence: its support, see `scatter.py`.
     """
 
     hub: str
@@ -64,10 +67,10 @@ class Lag:
                 "the others; then turn its wheels by hand, off the ground.")
 
 
-def lagging_wheel(study: Study, named: Sequence[Hypothesis]) -> Lag | None:
-    """The wheel that lags most clearly, where a drag is named and one lags at all.
+def lagging_wheel(study: Study, named: Sequence[Hypothesis], scatter: Scatter) -> Lag | None:
+    """The wheel that lags most clearly, where a drag is named and one lags beyond chance.
 
-    Study's models have ``named`` in force.
+    Study's models have ``named`` in force; ``scatter``: of the case.
     """
     if not any(h.effect.drags for h in named):
         return None
@@ -76,11 +79,12 @@ def lagging_wheel(study: Study, named: Sequence[Hypothesis]) -> Lag | None:
         vehicle.hub_of_tire(tire) for i in study.train
         for event in study.runs[i].recording.blowouts for tire in event.tires}
     removed = projector.remove(study.residual())
-    scores = {hub: score_channel(study, projector, removed, f"hub_speed_{hub}_radps",
-                                 lambda run, mean: mean * _free(run))
-              for hub in vehicle.hubs if hub not in taken}
-    behind = [Lag(hub, -one.amount, one.sigma, one.delta) for hub, one in scores.items()
-              if one.amount < 0.0 and one.delta > study.settings.lag_delta]
+    asked = {hub: one for hub in vehicle.hubs if hub not in taken and (one := ask_channel(
+        study, projector, removed, scatter, f"hub_speed_{hub}_radps",
+        lambda run, mean: mean * _free(run), _RADIUS))}
+    least = asked_of(study.settings.alarms_by_sign, len(asked))
+    behind = [Lag(hub, -one.score.amount, one.score.sigma, one.support)
+              for hub, one in asked.items() if one.score.amount < 0.0 and one.support > least]
     return max(behind, key=lambda lag: lag.evidence, default=None)
 
 

@@ -4,10 +4,12 @@ Two good models of one truck differ more or less, depending on the truck and on 
 no level of what is left says that something is missing. But baseline runs show what this model
 leaves of this truck. The mean squares that each run keeps are compared as logarithms by Student's
 test, all of training and its worst run; runs are few, so their scatter has a prior of its own.
+Without baseline runs, training is held against the widths as they were guessed: these are what good
+models of any such truck differ by.
 
 References: Student 1908; Gelman et al. 2013, ch. 3 (a scaled inverse chi-square prior).
-Known limits: says nothing without baseline runs; a manoeuvre much harder than the baseline's leaves
-more, too.
+Known limits: a maneuver much harder than the baseline's leaves more, too; without baseline runs
+only a gross mismatch shows.
 Validated with: test/diagnosis/test_left_over.py.
 """
 
@@ -29,16 +31,20 @@ Floats = NDArray[np.float64]
 _SCATTER = 0.4  # of the logarithm: what a model leaves differs by half from manoeuvre to manoeuvre
 _RUNS = 6.0  # as many runs is that prior worth: cases seldom have more
 _LEAST = 1e-6
+_GUESSED = 1.0  # squares a row, where the widths are what two good models differ by
 NAMING_SHARE = 0.5  # of what training keeps more than usual: what explains less is no name for it
 
 
 def mean_squares(study: Study, named: Sequence[Hypothesis] = ()) -> tuple[float, ...]:
     """Squares a row that each run keeps beside the (other) baseline runs, in units of the widths.
 
-    What a run costs more than they do alone, its pull on the sheet's numbers included: by the chain
-    rule of a Gaussian never negative, and one a row where the model is right. Of a run in which
-    only training lost a tire, the rows up to then.
+    It is what a run costs more than they do alone, its pull on the sheet's numbers included: by the
+    chain rule of a Gaussian never negative, and one a row where the model is right. Of a run in
+    which only training lost a tire, the rows up to then. Without baseline runs it is what the fit
+    leaves, in the widths as they were guessed.
     """
+    if not study.baseline:
+        return _in_guessed_widths(study, named)
     left, residual = Left.of(study, study.models, named, comparable=True), study.residual()
     columns = study.columns[:, left.projector.kept]
     parts = [_Sums.of(columns[rows] * left.seen[rows, None], residual[rows] * left.seen[rows])
@@ -50,6 +56,15 @@ def mean_squares(study: Study, named: Sequence[Hypothesis] = ()) -> tuple[float,
         rows = max(int(np.isfinite(run.measured[left.rows_of(study, i)]).sum()), 1)
         found.append(max(cost / rows, _LEAST))
     return tuple(found)
+
+
+def _in_guessed_widths(study: Study, named: Sequence[Hypothesis]) -> tuple[float, ...]:
+    residual, projector = study.residual(), study.projector(named)
+    left = residual - projector.explained(projector.amounts(residual))
+    parts = [(run, run.color.colored(left[rows].reshape(run.measured.shape)))
+             for run, rows in zip(study.runs, row_ranges(study), strict=True)]
+    return tuple(max(float(np.mean(np.square(z[np.isfinite(run.measured)]))), _LEAST)
+                 for run, z in parts)
 
 
 @dataclass(frozen=True, eq=False)
@@ -77,11 +92,14 @@ class _Sums:
         return self.own - float(self.common @ cho_solve(factor, self.common))
 
 
-def expected_squares(study: Study, squares: Sequence[float]) -> float | None:
-    """Squares a row that a run with nothing missing keeps; None without baseline runs."""
-    if not study.baseline:
-        return None
-    return float(np.exp(np.mean(np.log([squares[i] for i in study.baseline]))))
+def expected_squares(study: Study, squares: Sequence[float]) -> float:
+    """Squares a row that a run with nothing missing keeps; one where no baseline run tells."""
+    return float(np.exp(np.mean(np.log(_still(study, squares)))))
+
+
+def _still(study: Study, squares: Sequence[float]) -> list[float]:
+    """What baseline runs keep, or one in their stead."""
+    return [squares[i] for i in study.baseline] or [_GUESSED]
 
 
 def excess(study: Study, squares: Sequence[float], usual: float) -> float:
@@ -106,13 +124,8 @@ def most_by_chance(train: Sequence[float], baseline: Sequence[float], rate: floa
 
 
 def chance_of_more(study: Study, squares: Sequence[float]) -> float:
-    """Chance that training, or one run of it, keeps so much more where nothing is missing.
-
-    1 without baseline runs.
-    """
-    if not study.baseline:
-        return 1.0
-    train, baseline = ([squares[i] for i in which] for which in (study.train, study.baseline))
+    """Chance that training, or one run of it, keeps so much more where nothing is missing."""
+    train, baseline = [squares[i] for i in study.train], _still(study, squares)
     mean, spread, degrees = _test(train, baseline)
     all_of_it = float(student.sf((np.mean(np.log(train)) - mean) / spread, degrees))
     return min(2.0 * min(all_of_it, _chance_of_one(train, baseline)), 1.0)

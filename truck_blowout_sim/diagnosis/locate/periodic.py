@@ -2,8 +2,11 @@
 
 Spectra of measured - model, channel by channel, over distance and over time. A line is a frequency
 at which the power stands far above its neighbors', in many channels, harmonics and runs at once.
-Where nothing beats, power over background is exponential with mean one, and so is the smallest of
-n parts' ratios times n: a tone must last through the run.
+Where nothing beats, power over background is exponential with mean one, the sum of n terms follows
+the gamma law, and the smallest of n parts' ratios times n is exponential, too: a tone must last
+through the run. The course itself has slow waves that no model has, in baseline runs as well: of
+the greatest of N exponential powers in training and of N others, the one exceeds c times the other
+with chance N^(1-c) Gamma(1+c), however strong these are.
 
 References: order tracking (Fyfe and Munck 1997); Fisher's test for a hidden periodicity (1929).
 Known limits: fast channels only (20 Hz and more); once per turn says which unit, not which wheel;
@@ -21,6 +24,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import median_filter
+from scipy.optimize import brentq
+from scipy.special import gammaln
+from scipy.stats import gamma
 
 from truck_blowout_sim.diagnosis.case.runs import Run
 from truck_blowout_sim.diagnosis.case.study import Study
@@ -46,6 +52,7 @@ _TRIES = 400  # frequencies tried
 _PACES = np.linspace(1.2, 8.0, _TRIES)  # a second
 _SHAKES = ("_az_mps2",)  # vertical: a wheel shakes the unit that stands on it
 _PARTS = 3
+_CELLS = 32  # paces that a third of a run of 14 s resolves
 _PADDED = 4
 _NEIGHBORS = 30  # resolution cells to either side that make the background
 _MEDIAN_OF_EXPONENTIAL = float(np.log(2.0))
@@ -85,8 +92,9 @@ def find_beat(study: Study, named: Sequence[Hypothesis] = ()) -> Beat | None:
         turning.append(_of(turn_lines(signals, run.recording, per_m), *about))
         steady.append(_of(tone_lines(signals, _PACES), *about))
     # engine and frame of every sound vehicle have a tone: only its baseline tells a new one
-    found = (clearest(turning, 1.0 / per_m, True, rules.beat_turn),
-             clearest(steady, 1.0 / _PACES, False, rules.beat_tone) if study.baseline else None)
+    found = (clearest(turning, 1.0 / per_m, True, rules.alarms_by_sign),
+             clearest(steady, 1.0 / _PACES, False, rules.alarms_by_sign) if study.baseline
+             else None)
     return max((b for b in found if b), key=lambda b: b.evidence, default=None)
 
 
@@ -180,19 +188,26 @@ def _spectrum(x: Floats, y: Floats, noise: float) -> tuple[Floats, Floats, Float
     return frequency, power / background, square
 
 
-def clearest(lines: Sequence[Lines], every: Floats, turning: bool, least: float) -> Beat | None:
-    """The highest score among those tried, if so high, in every training run, and new there."""
+def clearest(lines: Sequence[Lines], every: Floats, turning: bool, rate: float) -> Beat | None:
+    """The highest score among those tried, if in every training run, new there, and no chance.
+
+    ``rate``: how often chance may reach it where nothing beats.
+    """
     train = [part for part in lines if part.channels and not part.baseline]
     if not train:
         return None
     ratios = np.concatenate([part.ratios for part in train])
-    score = _scores(ratios)
+    score, least = _scores(ratios), by_chance(len(ratios), every.size, rate)
     k = int(np.argmax(score))
     excess = float(ratios[:, k].mean()) - 1.0
     if score[k] < least or any(part.ratios[:, k].mean() - 1.0 > _ALWAYS * excess
                                for part in lines if part.channels and part.baseline):
         return None
     if min(_scores(part.ratios)[k] for part in train) < min(_BY_ITSELF, least):
+        return None
+    if not turning and excess + 1.0 < times_as_strong(_CELLS, rate) * max(
+            (float(part.ratios.mean(axis=0).max()) for part in lines
+             if part.channels and part.baseline), default=0.0):
         return None
     channel, amplitude = _shaken_most(train, k, turning)
     r = np.maximum(ratios[:, k], 1.0)
@@ -205,6 +220,18 @@ def clearest(lines: Sequence[Lines], every: Floats, turning: bool, least: float)
 def _scores(ratios: Floats) -> Floats:
     """Standard errors by which the lines [terms, tries] stand above what chance gives."""
     return np.asarray((ratios.sum(axis=0) - len(ratios)) / np.sqrt(len(ratios)))
+
+
+def by_chance(terms: int, tries: int, rate: float) -> float:
+    """Score that the best of so many tries reaches by chance in a share ``rate`` of cases."""
+    return float((gamma.isf(min(rate / tries, 1.0), terms) - terms) / np.sqrt(terms))
+
+
+def times_as_strong(cells: int, rate: float) -> float:
+    """Factor by which the greatest of so many powers exceeds that of as many others by chance."""
+    def above(c: float) -> float:
+        return float((1.0 - c) * np.log(cells) + gammaln(1.0 + c) - np.log(min(rate, 1.0)))
+    return 1.0 if above(1.0) <= 0.0 else float(brentq(above, 1.0, 0.5 * cells))
 
 
 def _shaken_most(lines: Sequence[Lines], k: int, turning: bool) -> tuple[str, float]:

@@ -5,7 +5,7 @@ training runs. Where the gyro sits crooked it does so in the baseline runs too: 
 all other nuisances, are projected out. What stays belongs to the truck: a spring that lost its air
 or broke, a frame that bent. No known effect turns a body without the forces that it would take.
 
-References: score test of `linear.py`.
+References: as `scatter.py`.
 Known limits: without baseline runs a lean is how the instrument is mounted, and nothing is said;
 angles that were not recorded show none; nothing is asked where an instrument was found faulty.
 Validated with: test/diagnosis/test_posture.py (a body that leans is named, and by how much).
@@ -21,8 +21,9 @@ import numpy as np
 
 from truck_blowout_sim.diagnosis.case.study import Study
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
-from truck_blowout_sim.diagnosis.fit.attribute import score_channel
+from truck_blowout_sim.diagnosis.fit.one_channel import ask_channel, asked_of
 from truck_blowout_sim.diagnosis.fit.quantiles import NINETY
+from truck_blowout_sim.diagnosis.fit.scatter import Scatter
 
 _ANGLES = {"roll": ("right", "left"), "pitch": ("nose", "tail")}  # lower where it is positive
 
@@ -33,7 +34,7 @@ class Posture:
 
     Attributes:
         angle: roll or pitch; ``turned_rad`` by how much, ``sigma`` its standard error.
-        evidence: fall of the sum of squares that it buys.
+        evidence: fall of the sum of squares that it buys; ``support``: see `scatter.py`.
     """
 
     body: str
@@ -41,6 +42,7 @@ class Posture:
     turned_rad: float
     sigma: float
     evidence: float
+    support: float
 
     @property
     def equation(self) -> str:
@@ -63,23 +65,33 @@ class Posture:
                 "sides, and the air pressure of its springs.")
 
 
-def turned_body(study: Study, named: Sequence[Hypothesis]) -> Posture | None:
-    """The body that stands turned most clearly, if one does.
+def turned_body(study: Study, named: Sequence[Hypothesis], scatter: Scatter) -> Posture | None:
+    """The body that stands turned most clearly, if one does beyond chance.
 
-    Study's models have ``named`` in force.
+    Study's models have ``named`` in force; ``scatter``: of the case.
     """
-    found = max(postures(study, named), key=lambda p: p.evidence, default=None)
-    return found if found and found.evidence > study.settings.posture_delta else None
+    asked = postures(study, named, scatter)
+    found = max(asked, key=lambda p: p.support, default=None)
+    least = asked_of(study.settings.alarms_by_sign, len(asked))
+    return found if found and found.support > least else None
 
 
-def postures(study: Study, named: Sequence[Hypothesis]) -> list[Posture]:
-    """How each body stands about each axis for which an angle was recorded."""
+def postures(study: Study, named: Sequence[Hypothesis], scatter: Scatter) -> list[Posture]:
+    """How each body stands about each axis for which an angle was recorded.
+
+    One body strays in this from another, and from day to day, as gyros do in how they sit.
+    """
     if not study.baseline:
         return []
-    projector = study.projector(named)
+    projector, found = study.projector(named), []
     removed = projector.remove(study.residual())
-    scores = {(body, angle): score_channel(study, projector, removed, f"{body}_{angle}_rad",
-                                           lambda _, mean: np.ones_like(mean))
-              for body in study.packed.vehicle.units for angle in _ANGLES}
-    return [Posture(*key, one.amount, one.sigma, one.delta) for key, one in scores.items()
-            if np.isfinite(one.sigma)]
+    for body in study.packed.vehicle.units:
+        for angle in _ANGLES:
+            channel = f"{body}_{angle}_rad"
+            rule = study.settings.rule(channel)
+            one = rule and ask_channel(study, projector, removed, scatter, channel,
+                                       lambda _, mean: np.ones_like(mean), rule.bias)
+            if one:
+                found.append(Posture(body, angle, one.score.amount, one.score.sigma,
+                                     one.score.delta, one.support))
+    return found

@@ -23,8 +23,8 @@ from truck_blowout_sim.diagnosis.case.runs import Run
 from truck_blowout_sim.diagnosis.case.study import Study
 from truck_blowout_sim.diagnosis.effects import Effect
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
-from truck_blowout_sim.diagnosis.fit.attribute import score_channel
 from truck_blowout_sim.diagnosis.fit.instants import grid_of
+from truck_blowout_sim.diagnosis.fit.one_channel import score_channel
 
 Floats = NDArray[np.float64]
 

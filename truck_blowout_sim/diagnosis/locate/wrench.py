@@ -48,11 +48,6 @@ class Wrenches:
     x_m: float
     x_sigma_m: float
 
-    @property
-    def beyond(self) -> float:
-        """What it buys beyond twice its free amounts."""
-        return self.delta - 2.0 * self.degrees
-
 
 def missing_wrenches(study: Study, left: Left, models: Sequence[Floats],
                      named: Sequence[Hypothesis] = (), progress: Progress | None = None
@@ -99,14 +94,6 @@ def missing_wrench(study: Study, i: int, body: str, models: Sequence[Floats],
     covariance = cho_solve(factor, np.eye(columns.shape[1]))
     return _as_wrenches(run.recording.name, body, starts, window, amounts, covariance,
                         float(gradient @ amounts))
-
-
-def enough(study: Study, sound: bool = True) -> float:
-    """What a force must buy beyond its free amounts, so that two models do not differ by it.
-
-    ``sound``: no instrument was corrected; only then less is enough on a straight.
-    """
-    return study.settings.unknown_delta * study.demand * (study.calm if sound else 1.0)
 
 
 def _as_wrenches(recording: str, body: str, starts: Floats, window: float, amounts: Floats,

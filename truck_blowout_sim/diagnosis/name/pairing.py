@@ -78,7 +78,7 @@ def pair_with(study: Study, found: Found, disbelieved: Sequence[Ranked], chance:
     study.models = models_with(study, named)
     ranked = shortlist(study, named, progress).ranked
     study.models = before
-    seconds = [one for one in ranked if not weakness(one, chance, 0.0)]
+    seconds = [one for one in ranked if not weakness(one, chance)]
     for second in sorted(seconds, key=worth, reverse=True)[:_SECONDS]:
         pair = _holds(study, found, [*found.named, first, second], ranked, chance)
         if pair is not None:
@@ -90,7 +90,7 @@ def _holds(study: Study, found: Found, named: list[Ranked], ranked: Sequence[Ran
            chance: Chance) -> Pair | None:
     """Everything fitted together, if each stays what it was named and the holdout gains."""
     fitted, chi2 = fit_together(study, named)
-    if any(weakness(one, chance, 0.0) for one in _each_supported(study, fitted, chance)):
+    if any(weakness(one, chance) for one in _each_supported(study, fitted, chance)):
         return None
     models, after = predict_with(study, [one.hypothesis for one in fitted])
     if predicts_better(study, found.after, after) <= 0.0:

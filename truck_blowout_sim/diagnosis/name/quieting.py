@@ -17,7 +17,6 @@ from dataclasses import dataclass, replace
 
 from truck_blowout_sim.diagnosis.case.study import Study
 from truck_blowout_sim.diagnosis.fit.attribute import Ranked
-from truck_blowout_sim.diagnosis.locate.comparable import Left
 from truck_blowout_sim.diagnosis.locate.left_over import (
     NAMING_SHARE,
     chance_of_more,
@@ -26,7 +25,6 @@ from truck_blowout_sim.diagnosis.locate.left_over import (
     keeps_more,
     mean_squares,
 )
-from truck_blowout_sim.diagnosis.locate.wrench import enough, missing_wrenches
 from truck_blowout_sim.diagnosis.name.judging import at_bound, models_with
 
 _TRIED = 3  # the largest; what explains less is no rival of these
@@ -54,14 +52,12 @@ def quieting(study: Study, ranked: Sequence[Ranked]) -> list[Quieting]:
     squares = mean_squares(study)
     usual = expected_squares(study, squares)
     strong = [r for r in ranked if r.refitted and not at_bound(r.hypothesis)]
-    if usual is None or not strong:
+    if not study.baseline or not strong or not keeps_more(study, squares):
         return []
-    # either of two tests says that something is missing, each at this rate of false alarms
-    chance = min(chance_of_more(study, squares), study.settings.alarms_by_rest)
+    chance = chance_of_more(study, squares)
     found = [Quieting(one, _taken(study, squares, usual, one), chance)
              for one in sorted(strong, key=lambda r: -r.delta)[:_TRIED]]
-    found = [one for one in found if one.share >= NAMING_SHARE]
-    return found if found and (keeps_more(study, squares) or _pushed(study)) else []
+    return [one for one in found if one.share >= NAMING_SHARE]
 
 
 def _taken(study: Study, before: Sequence[float], usual: float, one: Ranked) -> float:
@@ -71,8 +67,3 @@ def _taken(study: Study, before: Sequence[float], usual: float, one: Ranked) -> 
     more = excess(study, before, usual)
     return 1.0 - excess(study, after, usual) / more if more > 0.0 else 0.0
 
-
-def _pushed(study: Study) -> bool:
-    """Whether a force on one body alone would explain more than models differ by."""
-    forces = missing_wrenches(study, Left.of(study, study.models, comparable=True), study.models)
-    return any(one.beyond > enough(study) for one in forces)

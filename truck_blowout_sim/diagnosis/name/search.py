@@ -35,7 +35,6 @@ from truck_blowout_sim.diagnosis.prove.holdout import Prediction, predict
 
 Floats = NDArray[np.float64]
 _MOST_EFFECTS = 3
-_MOST = 0.5  # of what a stronger effect left beyond the usual
 
 
 def search(study: Study, progress: Progress | None = None, most: int = _MOST_EFFECTS,
@@ -101,12 +100,9 @@ def _accept(study: Study, found: Found, this: Round, named: Sequence[Hypothesis]
         It, and those that fell only because they do not predict the holdout better.
     """
     disbelieved: list[Ranked] = []
-    strongest = max((r.evidence for r in found.named), default=0.0)
-    excess = excess_of(study, found)
     passing: list[_Believed] = []
     for one in this.ranked:
-        # what explains most of the rest is no leftover of a stronger effect's inexactness
-        fate = weakness(one, this.chance, strongest if one.delta < _MOST * excess else 0.0)
+        fate = weakness(one, this.chance)
         most = max((worth(p.ranked) for p in passing), default=0.0)
         if fate is None and passing and worth(one) < most - slack(passing[0].ranked):
             fate = Fate("explains", worth(one), most)
@@ -158,7 +154,7 @@ def _explaining_more(study: Study, found: Found, this: Round, named: Sequence[Hy
     most = max(worth(p.ranked) for p in passing)
     alone = replace(this.chance, independent=1.0)
     more = [one for one in this.ranked if worth(one) > most and not one.hypothesis.times
-            and weakness(one, alone, 0.0) is None]
+            and weakness(one, alone) is None]
     tried = [_believed(study, found, named, one)[0] for one in more]
     return [one for one in tried if one is not None]
 
