@@ -55,31 +55,44 @@ def predict(study: Study, residual: Floats, named: Sequence[Hypothesis]
     for run, every, null in zip(study.holdout, study.holdout_columns, study.holdout_models,
                                 strict=True):
         columns = every[:, kept]
+        carried = _Carried(columns @ amounts, Projector.of(columns @ spread))
         seen = [h for h in named if run.shows(h.effect.applies)]
-        placed = _locate_events(study, run, columns, amounts, seen)
+        placed = _locate_events(study, run, carried, seen)
         model = null
         if placed:
             model = study.simulate([(run, with_effects(study.packed, placed,
                                                        run.recording.name))])[0]
-        left = run.residual(model) - columns @ amounts
-        chi2 = Projector.of(columns @ spread).chi2(left)
-        found.append(Prediction(run, chi2, left.reshape(run.measured.shape), tuple(placed)))
+        left = run.residual(model) - carried.change
+        found.append(Prediction(run, carried.spread.chi2(left), left.reshape(run.measured.shape),
+                                tuple(placed)))
     return tuple(found)
 
 
-def _locate_events(study: Study, run: Run, columns: Floats, amounts: Floats,
-                   named: Sequence[Hypothesis]) -> list[Hypothesis]:
+@dataclass(frozen=True, eq=False)
+class _Carried:
+    """What the calibration of training does in a run, ``change`` [rows], and how surely."""
+
+    change: Floats
+    spread: Projector
+
+    def left(self, run: Run, model: Floats) -> float:
+        """Sum of squares against prediction uncertainty."""
+        return self.spread.chi2(run.residual(model) - self.change)
+
+
+def _locate_events(study: Study, run: Run, carried: _Carried, named: Sequence[Hypothesis]
+                   ) -> list[Hypothesis]:
     """Give timed effects their instant in this run; leave out those that do not help."""
     placed = [h for h in named if not h.effect.timed]
     for h in (h for h in named if h.effect.timed):
-        best = _place(study, run, columns, amounts, placed, h)
+        best = _place(study, run, carried, placed, h)
         if best is not None:
             placed.append(best)
     return placed
 
 
-def _place(study: Study, run: Run, columns: Floats, amounts: Floats,
-           others: Sequence[Hypothesis], event: Hypothesis) -> Hypothesis | None:
+def _place(study: Study, run: Run, carried: _Carried, others: Sequence[Hypothesis],
+           event: Hypothesis) -> Hypothesis | None:
     """The best instant of one event, coarse to fine; None if the run is better without."""
     name = run.recording.name
     lengths = [end - start for start, end in event.times.values()]
@@ -90,19 +103,19 @@ def _place(study: Study, run: Run, columns: Floats, amounts: Floats,
         return study.simulate([study.job(run, base, replace(event, times={name: (t, t + length)}))
                                for t in times])
 
-    def left(model: Floats) -> float:
-        return float(np.sum((run.residual(model) - columns @ amounts) ** 2))
-
     without = study.simulate([(run, with_effects(study.packed, others, name))])[0]
-    least, bin_s, grid = left(without), study.settings.bin_s, grid_of(run, event.effect)
-    sums = {float(time) + bins * bin_s: left(without + delayed(model - without, bins))
+    least, bin_s = carried.left(run, without), study.settings.bin_s
+    grid = grid_of(run, event.effect)
+    sums = {float(time) + bins * bin_s: carried.left(
+                run, without + delayed(model - without, bins))
             for time, model in zip(grid, models(grid.tolist()), strict=True)
             for bins in bins_between(event.effect, run, bin_s)}
     at = min(sums, key=lambda time: sums[time])
-    best = left(models([at])[0])
+    best = carried.left(run, models([at])[0])
     for width in _REFINE_S:
         either = (at - width, at + width)
-        found = {time: left(model) for time, model in zip(either, models(either), strict=True)}
+        found = {time: carried.left(run, model)
+                 for time, model in zip(either, models(either), strict=True)}
         nearest = min(found, key=lambda time: found[time])
         if found[nearest] < best:
             at, best = nearest, found[nearest]
