@@ -1,4 +1,7 @@
-"""sigma_b of every effect of a generated set of a world, into `sigma_b.json` beside the cases."""
+"""sigma_b of every effect of a generated set of a world, into `sigma_b.json` beside the cases.
+
+With it, how far each is from what sound vehicles differ by in the same number (`spreads.py`).
+"""
 
 from __future__ import annotations
 
@@ -14,9 +17,11 @@ from proving_ground.ensemble import HIGHEST_HZ, RATE_HZ, Nulls
 from proving_ground.representative import representative
 from proving_ground.roughness import Roughness
 from proving_ground.sigma_b import Stack, noise_variance, separation
+from proving_ground.spreads import individual
 from proving_ground.worlds import FIRST_SEED, world_cases
 
 RESULT = "sigma_b.json"
+_MOST = 1e9  # of what no sound vehicle has
 
 
 def measure(out: Path, nulls: Path, trucks: int) -> Iterator[tuple[str, list[float]]]:
@@ -38,7 +43,11 @@ def measure(out: Path, nulls: Path, trucks: int) -> Iterator[tuple[str, list[flo
         world = worlds.setdefault(spread, Nulls(spread, nulls, trucks))
         found = visibility(spec, [e["severity"] for e in told["effects"][:len(spec.effects)]],
                            world)
-        done[answer.stem] = {"sigma_b": found, "trucks": trucks}
+        strengths = [e["strength"] for e in told["effects"][:len(found)]]
+        done[answer.stem] = {
+            "sigma_b": found, "trucks": trucks,
+            "individual": [float(f"{min(individual(one, spread == 'w3'), _MOST):.3g}")
+                           for one in strengths]}
         path.write_text(json.dumps(done, indent=1) + "\n", encoding="utf-8")
         yield answer.stem, found
 

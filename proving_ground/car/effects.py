@@ -132,8 +132,8 @@ def _steering(stages: int) -> Setter:
 
 def _ratio(key: str) -> Setter:
     def setter(s: float, place: Place, sign: float, when: float) -> Active:
-        more = sign * 0.3 * s
-        return Active({key: more}, Strength("road wheels turn more by", more, "1"))
+        more, far = sign * 0.3 * s, ", far out," if key == "ratio_bend" else ""
+        return Active({key: more}, Strength(f"road wheels turn more{far} by", more, "1"))
 
     return setter
 

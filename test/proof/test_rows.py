@@ -5,6 +5,8 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+import pytest
+
 from truck_blowout_sim.proof.cases import read_truth
 from truck_blowout_sim.proof.rows import rows, uniformity, wrong_name
 from truck_blowout_sim.proof.score import CaseScore, score_case
@@ -14,13 +16,15 @@ Maker = Callable[..., dict[str, Any]]
 
 def scored(tmp_path: Path, write_case: Callable[..., Path], name: str, line: dict[str, Any],
            group: str = "null", effects: tuple[dict[str, Any], ...] = (),
-           sigma_b: float | None = None) -> tuple[CaseScore, Any]:
+           sigma_b: float | None = None, individual: float | None = None
+           ) -> tuple[CaseScore, Any]:
     answer = write_case(tmp_path, name, group, effects)
     if sigma_b is not None:
         path, known = tmp_path / "sigma_b.json", {}
         if path.is_file():
             known = json.loads(path.read_text())
-        path.write_text(json.dumps({**known, name: {"sigma_b": [sigma_b]}}))
+        path.write_text(json.dumps({**known, name: {
+            "sigma_b": [sigma_b], **({"individual": [individual]} if individual else {})}}))
     truth = read_truth(answer)
     return score_case(line, truth), truth
 
@@ -36,6 +40,21 @@ def test_only_effects_that_can_be_seen_count(
                       {s.case: t for s, t in (faint, plain, lost)}))
     named = found["effects seen by an ideal detector, among the causes named"]
     assert (named.hits, named.trials) == (1, 2)
+
+
+def test_what_sound_vehicles_differ_by_counts_in_a_row_of_its_own(
+        tmp_path: Path, write_case: Callable[..., Path], line: Maker, cause: Maker, effect: Maker
+) -> None:
+    usual = scored(tmp_path, write_case, "a", line("a", "consistent"), "single", (cause(),),
+                   100.0, 2.0)
+    strong = scored(tmp_path, write_case, "b", line("b", effects=(effect(),)), "single",
+                    (cause(),), 100.0, 50.0)
+    assert usual[1].causes[0].beyond_spread < 2.0
+    assert strong[1].causes[0].beyond_spread == pytest.approx(44.7, abs=0.1)
+    found = dict(rows([usual[0], strong[0]], {s.case: t for s, t in (usual, strong)}))
+    seen = found["effects seen by an ideal detector, among the causes named"]
+    beyond = found["the same, with what sound vehicles differ by included"]
+    assert (seen.hits, seen.trials, beyond.hits, beyond.trials) == (1, 2, 1, 1)
 
 
 def test_a_name_beside_the_true_one_is_wrong_unless_aliased(

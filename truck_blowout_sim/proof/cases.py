@@ -9,6 +9,7 @@ Validated with: test/proof/test_cases.py.
 from __future__ import annotations
 
 import json
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -74,6 +75,7 @@ class Cause:
         where: body, axle, hub, tire; None where it does not apply.
         sigma: how visible it is in the training runs; None if not calibrated.
         sigma_b: how visible to an ideal detector of its world; None if not measured.
+        individual: its strength in standard deviations of what sound vehicles differ by in it.
         onset_s: instant in each run, empty for what is always there.
         strength: (name, value, unit).
     """
@@ -85,6 +87,14 @@ class Cause:
     onset_s: Mapping[str, float]
     strength: tuple[str, float, str]
     sigma_b: float | None = None
+    individual: float | None = None
+
+    @property
+    def beyond_spread(self) -> float | None:
+        """sigma_b, the individual spread of the effect's own number included."""
+        if self.sigma_b is None or self.individual is None:
+            return None
+        return self.sigma_b / math.sqrt(1.0 + (self.sigma_b / max(self.individual, 1e-9))**2)
 
 
 @dataclass(frozen=True)
@@ -139,7 +149,7 @@ def read_truth(path: Path) -> Truth:
         verdicts = tree["verdicts"] if "verdicts" in tree else [tree["verdict"]]
         right = NOTHING_MISSING if group == "null" else tuple(map(str, verdicts))
         seen = _visibility(path)
-        causes = tuple(_cause(entry, seen[k] if k < len(seen) else None)
+        causes = tuple(_cause(entry, *(one[k] if k < len(one) else None for one in seen))
                        for k, entry in enumerate(tree["effects"]))
         return Truth(group, right, causes, tuple(tree.get("missing_channels", ())))
     except (KeyError, TypeError, json.JSONDecodeError) as error:
@@ -147,19 +157,21 @@ def read_truth(path: Path) -> Truth:
                          expected="group, verdicts, effects") from error
 
 
-def _visibility(answer: Path) -> list[float]:
-    """sigma_b of each effect of a case of a world, where it was measured."""
+def _visibility(answer: Path) -> tuple[list[float], list[float]]:
+    """sigma_b of each effect of a case of a world, where it was measured, and its `individual`."""
     path = answer.parents[1] / SIGMA_B
     if not path.is_file():
-        return []
+        return [], []
     found = json.loads(path.read_text(encoding="utf-8")).get(answer.stem, {})
-    return list(map(float, found.get("sigma_b", ())))
+    return (list(map(float, found.get("sigma_b", ()))),
+            list(map(float, found.get("individual", ()))))
 
 
-def _cause(entry: Mapping[str, Any], sigma_b: float | None = None) -> Cause:
+def _cause(entry: Mapping[str, Any], sigma_b: float | None = None,
+           individual: float | None = None) -> Cause:
     strength = entry["strength"] or {"name": "", "value": 0.0, "unit": ""}
     sigma = entry.get("sigma")
     return Cause(str(entry["name"]), str(entry["kind"]), dict(entry["where"]),
                  None if sigma is None else float(sigma), dict(entry.get("onset_s") or {}),
                  (str(strength["name"]), float(strength["value"]), str(strength["unit"])),
-                 sigma_b)
+                 sigma_b, individual)

@@ -1,7 +1,9 @@
 """What must hold in every world, row by row, with Wilson intervals.
 
 An effect counts where an ideal detector sees it: sigma_b of at least 6, from ``sigma_b.json``
-beside the cases (`python -m proving_ground sigma`); without that file every effect counts.
+beside the cases (`python -m proving_ground sigma`); without that file every effect counts. A second
+row includes what sound vehicles differ by in the effect's own number: a road that banks by no more
+than roads do is none that something is missing on.
 
 Validated with: test/proof/test_rows.py.
 """
@@ -39,11 +41,14 @@ def rows(scores: Sequence[CaseScore], truths: Mapping[str, Truth]) -> list[Row]:
     causes = [(c, t) for s in physics for c, t in zip(s.causes, truths[s.case].causes, strict=True)]
     visible = [c.aliased for c, t in causes if t.kind == "physics"
                and (t.sigma_b is None or t.sigma_b >= VISIBLE)]
+    beyond = [c.aliased for c, t in causes if t.kind == "physics"
+              and t.beyond_spread is not None and t.beyond_spread >= VISIBLE]
     intervals = [c.parameter.covered for s in scores for c in s.causes if c.parameter]
     onsets = [c.onset_covered for s in scores for c in s.causes]
     return [
         ("false alarms, nothing missing", share(of("null"), lambda s: s.detected)),
         ("effects seen by an ideal detector, among the causes named", proportion(visible)),
+        ("the same, with what sound vehicles differ by included", proportion(beyond)),
         ("a wrong name stated, something missing",
          share(missing, lambda s: wrong_name(s, truths[s.case]))),
         ("of no list: unknown", share([s for s in of("unknown") if seen(s)],
