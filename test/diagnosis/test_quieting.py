@@ -28,7 +28,7 @@ def short_library(monkeypatch: pytest.MonkeyPatch) -> None:
 
 def found_by_quieting(study: Study, sound: bool = True) -> Found:
     """A search in which scatter says of nothing that it is supported."""
-    with patch.object(search, "weakness", lambda one, chance: Fate("support")):
+    with patch.object(search, "weakness", lambda one, chance, strongest=0.0: Fate("support")):
         return search.search(study, most=1, sound=sound)
 
 

@@ -79,18 +79,18 @@ class Settings:
 
     @property
     def alarms_by_name(self) -> float:
-        """False alarms that the search for names may raise: the other half is for ``unknown``."""
-        return 0.5 * self.false_alarms
+        """False alarms that the search for names may raise: the others are for ``unknown``."""
+        return 0.45 * self.false_alarms
 
     @property
     def alarms_by_rest(self) -> float:
         """Those that each test of what is left may raise: of all of it, and of one channel."""
-        return 0.2 * self.false_alarms
+        return 0.25 * self.false_alarms
 
     @property
     def alarms_by_sign(self) -> float:
-        """Those that each sign may raise: a body's stand, a wheel's lag, two kinds of beat."""
-        return 0.025 * self.false_alarms
+        """Those that each of three signs may raise: a body's stand, and two kinds of beat."""
+        return 0.05 / 3.0 * self.false_alarms
 
     def form(self, effect: str) -> float:
         """1 sigma of what another form of law does to an amount, as a share of it."""

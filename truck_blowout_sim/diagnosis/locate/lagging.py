@@ -31,6 +31,7 @@ _BRAKES = slice(2, None)  # columns of a drive's inputs
 # 1 sigma of a rolling radius from truck to truck, half of it from day to day: 3 % of load or
 # pressure move a deflection of 25 mm by 0.8 mm, the radius of 0.5 m by a third of that
 _RADIUS = 0.001
+_DOUBT = 0.05  # share of drags that may be called a wheel's: asked only where a drag is named
 
 
 @dataclass(frozen=True)
@@ -82,7 +83,7 @@ def lagging_wheel(study: Study, named: Sequence[Hypothesis], scatter: Scatter) -
     asked = {hub: one for hub in vehicle.hubs if hub not in taken and (one := ask_channel(
         study, projector, removed, scatter, f"hub_speed_{hub}_radps",
         lambda run, mean: mean * _free(run), _RADIUS))}
-    least = asked_of(study.settings.alarms_by_sign, len(asked))
+    least = asked_of(_DOUBT, len(asked))
     behind = [Lag(hub, -one.score.amount, one.score.sigma, one.support)
               for hub, one in asked.items() if one.score.amount < 0.0 and one.support > least]
     return max(behind, key=lambda lag: lag.evidence, default=None)

@@ -28,6 +28,8 @@ _ODDS = 2.0 * np.log(20.0)  # support by which an explanation is 20 times as lik
 _ALIKE = 0.4  # less evidence than the best by more than this share is no alias
 _AT_BOUND = 0.002  # of the range
 _EVENT_WORTH = 0.8
+_NEXT_SHARE = 0.08  # of a stronger effect: what its inexact law may leave to another
+_NEXT_EVENT_SHARE = 0.12  # its instant was free to choose
 
 
 @dataclass(eq=False)
@@ -108,7 +110,7 @@ def can_judge(study: Study, hypothesis: Hypothesis) -> bool:
     return any(run.shows(hypothesis.effect.applies) for run in study.holdout)
 
 
-def weakness(one: Ranked, chance: Chance) -> Fate | None:
+def weakness(one: Ranked, chance: Chance, strongest: float = 0.0) -> Fate | None:
     """Why a hypothesis is too weak to name; None if it is not."""
     h, event = one.hypothesis, bool(one.hypothesis.times)
     if not one.refitted:
@@ -118,7 +120,8 @@ def weakness(one: Ranked, chance: Chance) -> Fate | None:
     if at_bound(h):
         low, high = h.effect.amount.low, h.effect.amount.high
         return Fate("bound", h.amount, low if h.amount - low < high - h.amount else high)
-    return None
+    least = (_NEXT_EVENT_SHARE if event else _NEXT_SHARE) * strongest
+    return Fate("remainder", one.evidence, least) if one.evidence < least else None
 
 
 def at_bound(h: Hypothesis) -> bool:

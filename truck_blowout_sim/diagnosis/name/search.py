@@ -35,6 +35,7 @@ from truck_blowout_sim.diagnosis.prove.holdout import Prediction, predict
 
 Floats = NDArray[np.float64]
 _MOST_EFFECTS = 3
+_MOST = 0.5  # of what a stronger effect left beyond the usual
 
 
 def search(study: Study, progress: Progress | None = None, most: int = _MOST_EFFECTS,
@@ -100,9 +101,12 @@ def _accept(study: Study, found: Found, this: Round, named: Sequence[Hypothesis]
         It, and those that fell only because they do not predict the holdout better.
     """
     disbelieved: list[Ranked] = []
+    strongest = max((r.evidence for r in found.named), default=0.0)
+    excess = excess_of(study, found)
     passing: list[_Believed] = []
     for one in this.ranked:
-        fate = weakness(one, this.chance)
+        # what explains most of the rest is no leftover of a stronger effect's inexactness
+        fate = weakness(one, this.chance, strongest if one.delta < _MOST * excess else 0.0)
         most = max((worth(p.ranked) for p in passing), default=0.0)
         if fate is None and passing and worth(one) < most - slack(passing[0].ranked):
             fate = Fate("explains", worth(one), most)
