@@ -33,7 +33,7 @@ _TIMED_SHARE = 0.15  # and the share that freedom of shape costs: steady causes 
 _HOLES = (0.1, 0.3, 1.0)  # of that of a commanded blowout: where to begin
 _HALF = 0.5  # of what the best explains: less is no rival
 _MUCH = 0.5  # of what is unusual: an event that explains it leaves no call for others
-_LARGE = 20.0  # times what is asked: a mismatch from which on a tire may have been lost unseen
+_LARGE = 8.0  # times what is asked: a mismatch from which on a tire may have been lost unseen
 
 
 @dataclass(frozen=True, eq=False)
