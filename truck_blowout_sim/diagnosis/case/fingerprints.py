@@ -8,6 +8,7 @@ from __future__ import annotations
 import hashlib
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import fields
+from functools import lru_cache
 
 import numpy as np
 
@@ -44,10 +45,15 @@ def simulation_key(run: Run, truck: Packed) -> bytes:
 
     A fraction of a millisecond, where the simulation takes tens.
     """
+    return _digest([_driven(run), *_truck(truck)])
+
+
+@lru_cache(maxsize=64)
+def _driven(run: Run) -> bytes:
+    """Hash of what drives a run and how its bins are made; one that is asked again is known."""
     drive, initial = run.drive, run.drive.initial
     parts = [getattr(drive, f.name) for f in fields(drive) if f.name != "initial"]
-    return _digest([*parts, repr(initial), run.edges_s, run.correction, repr(run.columns),
-                    *_truck(truck)])
+    return _digest([*parts, repr(initial), run.edges_s, run.correction, repr(run.columns)])
 
 
 def _truck(packed: Packed) -> tuple[object, ...]:

@@ -92,14 +92,17 @@ def rank_steady(study: Study, candidates: Sequence[Hypothesis],
         trained[rows[i]] = 1.0
     cleaned: dict[str, Floats] = {}  # by the number that is held
     far = _far_columns(study, candidates, named, progress)
-    for candidate, column in zip(candidates, columns, strict=True):
+    acting = [column * trained for column in columns]
+    cleaned_of = _cleaned(study, candidates, named, acting)
+    for candidate, column, acts, clean in zip(candidates, columns, acting, cleaned_of,
+                                              strict=True):
         amount, at = candidate.effect.amount, candidate.amount
         projector = study.projector([*named, candidate])
         held = study.meaning(candidate)
         removed = cleaned[held] if held in cleaned else projector.remove(residual)
         cleaned[held] = removed
-        low, high, clean = amount.low - at, amount.high - at, projector.remove(column * trained)
-        found = max((score(projector, removed, column * trained, low, high, clean),
+        low, high = amount.low - at, amount.high - at
+        found = max((score(projector, removed, acts, low, high, clean),
                      *(score(projector, removed, one, low, high)
                        for one in far.get(candidate.form, ()))), key=lambda s: s.delta)
         fall = max(found.delta - (float(residual @ removed) - free), 0.0)
@@ -114,10 +117,23 @@ def rank_steady(study: Study, candidates: Sequence[Hypothesis],
     scatter = Scatter.of([one for one in shown if one])
     ranked = [replace(r, support=scatter.support(one)) if one else r
               for r, one in zip(ranked, shown, strict=True)]
-    asked = np.stack([c * trained for c in columns], axis=1) if columns else np.zeros((0, 0))
+    asked = np.stack(acting, axis=1) if columns else np.zeros((0, 0))
     return Ranking(tuple(sorted(ranked, key=lambda r: (-r.promise, r.hypothesis.key))), scatter,
                    independent(asked, usual) if columns else 0.0,
                    tuple((key, one) for key, one in questions if one))
+
+
+def _cleaned(study: Study, candidates: Sequence[Hypothesis], named: Sequence[Hypothesis],
+             columns: Sequence[Floats]) -> list[Floats]:
+    """What the nuisances leave of each candidate's column, all that hold one number at once."""
+    found, groups = dict[int, Floats](), dict[str, list[int]]()
+    for k, candidate in enumerate(candidates):
+        groups.setdefault(study.meaning(candidate), []).append(k)
+    for which in groups.values():
+        projector = study.projector([*named, candidates[which[0]]])
+        clean = projector.remove(np.stack([columns[k] for k in which], axis=1))
+        found |= {k: np.ascontiguousarray(clean[:, j]) for j, k in enumerate(which)}
+    return [found[k] for k in range(len(columns))]
 
 
 def _far_columns(study: Study, candidates: Sequence[Hypothesis], named: Sequence[Hypothesis],

@@ -78,8 +78,8 @@ class Projector:
         return found
 
     def explained(self, amounts: Floats) -> Floats:
-        """What the nuisances kept do at these amounts."""
-        everything = np.zeros(self.columns.shape[1])
+        """What the nuisances kept do at these amounts, or at each column of them."""
+        everything = np.zeros((self.columns.shape[1], *amounts.shape[1:]))
         everything[self.kept] = amounts
         return np.asarray(self.columns @ everything)
 
@@ -88,7 +88,7 @@ class Projector:
         return self.solve(np.eye(self.kept.size))
 
     def remove(self, vector: Floats) -> Floats:
-        """C^-1 vector, C being noise plus marginalised nuisances."""
+        """C^-1 vector, or each column of a matrix; C is noise plus marginalized nuisances."""
         return np.asarray(vector - self.explained(self.amounts(vector)))
 
     def chi2(self, vector: Floats) -> float:
