@@ -34,6 +34,7 @@ from truck_blowout_sim.diagnosis.fit.threads import one_blas_thread
 from truck_blowout_sim.diagnosis.sensors import (
     SensorFinding,
     correct,
+    seen_quanta,
     sensor_gate,
     vehicle_geometry,
 )
@@ -177,8 +178,10 @@ def calibrate(
     tell("sensor gate", 0.0)
     found = sensor_gate(list(recordings), (), vehicle_geometry(loaded)).findings
     runs, unseen = ([correct(r, found) for r in group] for group in (recordings, holdout))
+    quanta = seen_quanta([*recordings, *holdout])
     study = Study(
-        tuple(prepare_run(r, "baseline", packed, rules, step_s=step_s, impose_speed=impose_speed)
+        tuple(prepare_run(r, "baseline", packed, rules, step_s=step_s, impose_speed=impose_speed,
+                          quanta=quanta)
               for r in runs), (), packed, rules, workers or os.cpu_count() or 1)  # fmt: skip
     settle(study, progress=progress)
     amounts, spread, told = _posterior(study)

@@ -26,6 +26,7 @@ from truck_blowout_sim.diagnosis.case.runs import Run, prepare_run
 from truck_blowout_sim.diagnosis.case.study import Study, row_ranges
 from truck_blowout_sim.diagnosis.prove.holdout import predict
 from truck_blowout_sim.diagnosis.result import Role
+from truck_blowout_sim.diagnosis.sensors import seen_quanta
 from truck_blowout_sim.diagnosis.settings import load_settings
 from truck_blowout_sim.proof.baselines.features import Stretch, inputs_of, motion_columns
 from truck_blowout_sim.proof.baselines.gaussian_process import predict_residual
@@ -50,8 +51,11 @@ def baseline_errors(train: Sequence[Recording], baseline: Sequence[Recording],
     packed = pack(load_vehicle(VEHICLE))
     rules = load_settings(packed)
 
+    quanta = seen_quanta([*train, *baseline, *holdout])
+
     def runs(recordings: Sequence[Recording], role: Role) -> tuple[Run, ...]:
-        return tuple(prepare_run(r, role, packed, rules, step_s=step_s) for r in recordings)
+        return tuple(prepare_run(r, role, packed, rules, step_s=step_s, quanta=quanta)
+                     for r in recordings)
 
     study = Study((*runs(baseline, "baseline"), *runs(train, "train")), runs(holdout, "holdout"),
                   packed, rules, 1, simulated=(memory or Memory()).simulated)
