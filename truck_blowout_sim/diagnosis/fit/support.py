@@ -80,7 +80,7 @@ def supported(study: Study, one: Ranked, beside: Beside, chance: Chance) -> Rank
         study.runs[i], rows[i].start, column * _telling(study, study.runs[i], h),
         i in study.train, study.settings.episode_s, None if h.effect.timed else beside.driven[i])]
     projector, more, changes = study.projector([*beside.named, h]), list[Part](), list[Floats]()
-    if beside.unseen and not h.effect.timed and not h.effect.met:
+    if beside.unseen and asks_unseen(h, beside.named):
         projector, residual, more, changes = _with_unseen(study, projector, residual, h, beside,
                                                           away)
     fitted = np.concatenate([study.stack({i: c for i, c in columns.items() if i in study.train}),
@@ -95,6 +95,11 @@ def supported(study: Study, one: Ranked, beside: Beside, chance: Chance) -> Rank
     change = away * fitted[:study.columns.shape[0]]
     scatter = chance.beside(h.key, change, study.columns.T @ change, left)
     return replace(one, support=scatter.support(shown, _choices(study, h)))
+
+
+def asks_unseen(h: Hypothesis, named: Sequence[Hypothesis]) -> bool:
+    """Whether the support of a hypothesis beside what is named knows the unseen runs, if any."""
+    return not (h.effect.timed or h.effect.met or any(one.effect.timed for one in named))
 
 
 def _telling(study: Study, run: Run, h: Hypothesis) -> Floats:

@@ -24,7 +24,7 @@ from truck_blowout_sim.diagnosis.sensors import GateResult, SensorFinding
 Floats = NDArray[np.float64]
 _FLAWLESS = 0.25  # of what is usually left: no prediction is better than that
 _LAW = 0.5  # of what is left unexplained: how far inexact laws may change places
-_ODDS = 2.0 * np.log(20.0)  # support by which an explanation is 20 times as likely as another
+ODDS = 2.0 * np.log(20.0)  # support by which an explanation is 20 times as likely as another
 _ALIKE = 0.4  # less evidence than the best by more than this share is no alias
 _AT_BOUND = 0.002  # of the range
 _EVENT_WORTH = 0.8
@@ -101,7 +101,7 @@ def slack(best: Ranked, left: float = 0.0) -> float:
     leave beyond the usual: laws that inexact may change places by half of it, though never with
     what explains less than three fifths.
     """
-    room = _ODDS * max(best.delta / max(best.support, 1.0), 1.0)
+    room = ODDS * max(best.delta / max(best.support, 1.0), 1.0)
     return min(room + _LAW * left, _ALIKE * best.delta)
 
 

@@ -15,8 +15,10 @@ from truck_blowout_sim.diagnosis.case.study import Progress, Study
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.fit.attribute import Ranked
 from truck_blowout_sim.diagnosis.fit.scatter import Chance
+from truck_blowout_sim.diagnosis.fit.support import asks_unseen
 from truck_blowout_sim.diagnosis.locate.left_over import NAMING_SHARE
 from truck_blowout_sim.diagnosis.name.judging import (
+    ODDS,
     Found,
     can_judge,
     excess_of,
@@ -165,10 +167,15 @@ def _explaining_more(study: Study, found: Found, this: Round, named: Sequence[Hy
 
 def _believed(study: Study, found: Found, named: Sequence[Hypothesis], one: Ranked
               ) -> tuple[_Believed | None, float]:
-    """With what it predicts, and by how much better; None where unseen runs speak against it."""
+    """With what it predicts, and by how much better; None where unseen runs speak against it.
+
+    Those of which its support knows nothing must not be predicted worse; of a cause that is always
+    there its support knows them, and only odds of 20 to 1 against it count.
+    """
     models, after = predict_with(study, [*named, one.hypothesis])
     better = predicts_better(study, found.after, after)
-    if study.holdout and better <= 0.0 and can_judge(study, one.hypothesis):
+    least = -ODDS if asks_unseen(one.hypothesis, named) else 0.0
+    if study.holdout and better <= least and can_judge(study, one.hypothesis):
         return None, better
     gain = sum(p.chi2 for p in found.after) - sum(p.chi2 for p in after)
     return _Believed(one, worth(one) + gain, models, after), better
