@@ -103,11 +103,17 @@ def sigma(
     nulls: Annotated[Path, typer.Option(help="folder where trucks with nothing missing are kept, "
                                         "for all sets of the worlds")] = Path("out/nulls"),
     trucks: Annotated[int, typer.Option(help="how many; 100 for a figure to publish")] = 100,
+    spreads_only: Annotated[bool, typer.Option(
+        "--spreads-only", help="only each strength in spreads of sound vehicles: no simulation"
+    )] = False,
 ) -> None:
     """Measure sigma_b of every effect of a set of a world on nulls of that world; resumes."""
-    from proving_ground.visibility import measure
+    from proving_ground.visibility import count_spreads, measure
 
     try:
+        if spreads_only:
+            count_spreads(out)
+            return
         for case, found in measure(out, nulls, trucks):
             typer.echo(f"{case}: {', '.join(f'{value:.3g}' for value in found)}")
     except ValueError as error:

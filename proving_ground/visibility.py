@@ -30,26 +30,44 @@ def measure(out: Path, nulls: Path, trucks: int) -> Iterator[tuple[str, list[flo
     Raises:
         ValueError: a case is of no world.
     """
-    path = out / RESULT
-    done: dict[str, Any] = json.loads(path.read_text()) if path.is_file() else {}
+    done = count_spreads(out)
     worlds: dict[str, Nulls] = {}
     for answer in sorted((out / "answers").glob("*.json")):
         told = json.loads(answer.read_text(encoding="utf-8"))
         spec = spec_of(answer.stem)
-        if answer.stem in done or not spec.effects:
+        if not spec.effects or "sigma_b" in done[answer.stem]:
             continue
         # A detector does not know the form of W1's truth: for it, too, forms are drawn.
         spread = "w3" if spec.truth == "w3" else "w2"
         world = worlds.setdefault(spread, Nulls(spread, nulls, trucks))
         found = visibility(spec, [e["severity"] for e in told["effects"][:len(spec.effects)]],
                            world)
-        strengths = [e["strength"] for e in told["effects"][:len(found)]]
-        done[answer.stem] = {
-            "sigma_b": found, "trucks": trucks,
-            "individual": [float(f"{min(individual(one, spread == 'w3'), _MOST):.3g}")
-                           for one in strengths]}
-        path.write_text(json.dumps(done, indent=1) + "\n", encoding="utf-8")
+        done[answer.stem] |= {"sigma_b": found, "trucks": trucks}
+        _write(out, done)
         yield answer.stem, found
+
+
+def count_spreads(out: Path) -> dict[str, Any]:
+    """Each effect's strength in spreads of sound vehicles, beside the sigma_b known already.
+
+    Raises:
+        ValueError: a case is of no world.
+    """
+    path = out / RESULT
+    done: dict[str, Any] = json.loads(path.read_text()) if path.is_file() else {}
+    for answer in sorted((out / "answers").glob("*.json")):
+        told, spec = json.loads(answer.read_text(encoding="utf-8")), spec_of(answer.stem)
+        if spec.effects:
+            counts = [individual(effect["strength"], spec.truth == "w3")
+                      for effect in told["effects"][:len(spec.effects)]]
+            done[answer.stem] = {**done.get(answer.stem, {}), "individual": [
+                float(f"{min(count, _MOST):.3g}") for count in counts]}
+    _write(out, done)
+    return done
+
+
+def _write(out: Path, done: dict[str, Any]) -> None:
+    (out / RESULT).write_text(json.dumps(done, indent=1) + "\n", encoding="utf-8")
 
 
 def spec_of(name: str) -> CaseSpec:

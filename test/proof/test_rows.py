@@ -19,12 +19,13 @@ def scored(tmp_path: Path, write_case: Callable[..., Path], name: str, line: dic
            sigma_b: float | None = None, individual: float | None = None
            ) -> tuple[CaseScore, Any]:
     answer = write_case(tmp_path, name, group, effects)
-    if sigma_b is not None:
+    if sigma_b is not None or individual is not None:
         path, known = tmp_path / "sigma_b.json", {}
         if path.is_file():
             known = json.loads(path.read_text())
+        measured = {"sigma_b": [sigma_b], "individual": [individual]}
         path.write_text(json.dumps({**known, name: {
-            "sigma_b": [sigma_b], **({"individual": [individual]} if individual else {})}}))
+            key: one for key, one in measured.items() if one[0]}}))
     truth = read_truth(answer)
     return score_case(line, truth), truth
 
@@ -53,8 +54,18 @@ def test_what_sound_vehicles_differ_by_counts_in_a_row_of_its_own(
     assert strong[1].causes[0].beyond_spread == pytest.approx(44.7, abs=0.1)
     found = dict(rows([usual[0], strong[0]], {s.case: t for s, t in (usual, strong)}))
     seen = found["effects seen by an ideal detector, among the causes named"]
-    beyond = found["the same, with what sound vehicles differ by included"]
+    beyond = found["effects beyond six spreads of sound vehicles, among the causes named"]
     assert (seen.hits, seen.trials, beyond.hits, beyond.trials) == (1, 2, 1, 1)
+
+
+def test_without_sigma_b_the_spread_alone_counts_and_no_effect_is_called_seen(
+        tmp_path: Path, write_case: Callable[..., Path], line: Maker, cause: Maker
+) -> None:
+    strong = scored(tmp_path, write_case, "a", line("a", "consistent"), "single", (cause(),),
+                    individual=50.0)
+    found = dict(rows([strong[0]], {strong[0].case: strong[1]}))
+    assert found["effects seen by an ideal detector, among the causes named"].trials == 0
+    assert found["effects beyond six spreads of sound vehicles, among the causes named"].trials == 1
 
 
 def test_a_name_beside_the_true_one_is_wrong_unless_aliased(

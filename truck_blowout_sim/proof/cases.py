@@ -91,10 +91,18 @@ class Cause:
 
     @property
     def beyond_spread(self) -> float | None:
-        """sigma_b, the individual spread of the effect's own number included."""
-        if self.sigma_b is None or self.individual is None:
-            return None
+        """sigma_b, the individual spread of the effect's own number included.
+
+        Where only that spread is known, the most that it can be.
+        """
+        if self.individual is None or self.sigma_b is None:
+            return self.individual
         return self.sigma_b / math.sqrt(1.0 + (self.sigma_b / max(self.individual, 1e-9))**2)
+
+    @property
+    def measured(self) -> bool:
+        """Whether how visible it is can be told: for older sets nothing is known, and it counts."""
+        return self.sigma_b is not None or self.individual is None
 
 
 @dataclass(frozen=True)

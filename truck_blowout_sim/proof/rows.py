@@ -40,7 +40,7 @@ def rows(scores: Sequence[CaseScore], truths: Mapping[str, Truth]) -> list[Row]:
 
     causes = [(c, t) for s in physics for c, t in zip(s.causes, truths[s.case].causes, strict=True)]
     visible = [c.aliased for c, t in causes if t.kind == "physics"
-               and (t.sigma_b is None or t.sigma_b >= VISIBLE)]
+               and t.measured and (t.sigma_b is None or t.sigma_b >= VISIBLE)]
     beyond = [c.aliased for c, t in causes if t.kind == "physics"
               and t.beyond_spread is not None and t.beyond_spread >= VISIBLE]
     intervals = [c.parameter.covered for s in scores for c in s.causes if c.parameter]
@@ -48,7 +48,8 @@ def rows(scores: Sequence[CaseScore], truths: Mapping[str, Truth]) -> list[Row]:
     return [
         ("false alarms, nothing missing", share(of("null"), lambda s: s.detected)),
         ("effects seen by an ideal detector, among the causes named", proportion(visible)),
-        ("the same, with what sound vehicles differ by included", proportion(beyond)),
+        ("effects beyond six spreads of sound vehicles, among the causes named",
+         proportion(beyond)),
         ("a wrong name stated, something missing",
          share(missing, lambda s: wrong_name(s, truths[s.case]))),
         ("of no list: unknown", share([s for s in of("unknown") if seen(s)],
