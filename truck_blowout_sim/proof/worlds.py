@@ -20,6 +20,8 @@ SOUGHT: Mapping[str, tuple[str, str, str, str]] = {
     "false alarms, nothing missing": ("≤ 2 %",) * 4,
     "effects seen by an ideal detector, among the causes named":
         ("≥ 92 %", "≥ 88 %", "≥ 85 %", "≥ 80 %"),
+    "effects beyond six spreads of sound vehicles, among the causes named":
+        ("≥ 92 %", "≥ 88 %", "≥ 85 %", "≥ 80 %"),
     "a wrong name stated, something missing": ("≤ 3 %", "≤ 4 %", "≤ 5 %", "≤ 4 %"),
     "of no list: unknown": ("≥ 85 %", "≥ 80 %", "≥ 70 %", "≥ 60 %"),
     "both of a pair": ("≥ 75 %", "≥ 70 %", "", ""),
