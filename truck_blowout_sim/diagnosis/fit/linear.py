@@ -93,7 +93,8 @@ class Projector:
 
     def chi2(self, vector: Floats) -> float:
         """Vector' C^-1 vector: the sum of squares left, priors included."""
-        return float(vector @ self.remove(vector))
+        common = self.reach(vector)
+        return float(vector @ vector - common @ self.solve(common))
 
 
 @dataclass(frozen=True)
@@ -112,9 +113,7 @@ def score(projector: Projector, removed: Floats, column: Floats, low: float = -n
     The amount is limited to [low, high]; the fall is that of the limited amount. ``clean``: what
     the projector leaves of the column, if known.
     """
-    if clean is None:
-        clean = projector.remove(column)
-    information = float(column @ clean)
+    information = projector.chi2(column) if clean is None else float(column @ clean)
     if information < 1e-12:
         return Score(0.0, np.inf, 0.0)
     gradient = float(column @ removed)
