@@ -2,8 +2,8 @@
 
 Use: python scripts/write_proof_summary.py w1=FOLDER w2=FOLDER ...
 
-Each folder is what `truck-blowout prove -o FOLDER` wrote for the sealed cases of a world. The picture is
-drawn anew where sigma_b was measured in every world; else that of an earlier draw stays.
+Each folder is what `truck-blowout prove -o FOLDER` wrote for the sealed cases of a world. The
+picture is drawn anew where sigma_b was measured in every world; else that of an earlier draw stays.
 """
 
 from __future__ import annotations
