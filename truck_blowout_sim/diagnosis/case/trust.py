@@ -5,7 +5,7 @@ runs on sound tires say nothing of a lost one. Near the limit of grip laws of ti
 
 Known limits: lateral acceleration is that of the first unit's yaw rate and speed; without both
 channels no turn counts as hard.
-Validated with: test/diagnosis/test_trust.py.
+Validated with: test/diagnosis/test_trust.py, test_comparable.py.
 """
 
 from __future__ import annotations
