@@ -1,7 +1,7 @@
 """What single sound vehicles, roads and days differ by, beside what an effect makes of one.
 
 An effect is told from a sound vehicle of the kind by no less than what these differ by in its own
-number: sigma_b with this spread included is 1 / sqrt(1 / sigma_b^2 + (spread / strength)^2).
+number. The scoring joins this with sigma_b (`truck_blowout_sim/proof/cases.py`, `beyond_spread`).
 
 Validated with: test/proving_ground/test_spreads.py.
 """
@@ -36,9 +36,3 @@ def individual(strength: Mapping[str, Any], car: bool = False) -> float:
     away = math.log(max(value, 1e-6) / sound) if known.get("of") == "ratio" else value - sound
     return abs(away) / float(known["car"] if car and "car" in known else known["spread"])
 
-
-def with_spread(sigma_b: float, individuals: float) -> float:
-    """sigma_b, the individual spread of the effect's own number included."""
-    if min(sigma_b, individuals) <= 0.0:
-        return 0.0
-    return 1.0 / math.hypot(1.0 / sigma_b, 1.0 / individuals)

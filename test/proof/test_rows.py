@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from truck_blowout_sim.proof.cases import read_truth
+from truck_blowout_sim.proof.cases import Cause, read_truth
 from truck_blowout_sim.proof.rows import rows, uniformity, wrong_name
 from truck_blowout_sim.proof.score import CaseScore, score_case
 
@@ -56,6 +56,15 @@ def test_what_sound_vehicles_differ_by_counts_in_a_row_of_its_own(
     seen = found["effects seen by an ideal detector, among the causes named"]
     beyond = found["effects beyond six spreads of sound vehicles, among the causes named"]
     assert (seen.hits, seen.trials, beyond.hits, beyond.trials) == (1, 2, 1, 1)
+
+
+@pytest.mark.parametrize(("sigma_b", "individual", "seen"), [
+    (50.0, 1e12, 50.0), (1e9, 7.0, 7.0), (3.0, 4.0, 2.4), (0.0, 4.0, 0.0),
+])
+def test_a_detector_sees_no_more_than_its_own_noise_or_what_vehicles_differ_by(
+        sigma_b: float, individual: float, seen: float) -> None:
+    cause = Cause("brake_lag", "physics", {}, None, {}, ("", 0.0, ""), sigma_b, individual)
+    assert cause.beyond_spread == pytest.approx(seen)
 
 
 def test_without_sigma_b_the_spread_alone_counts_and_no_effect_is_called_seen(

@@ -9,7 +9,7 @@ import yaml
 
 from proving_ground.car.effects import CAR_LISTED
 from proving_ground.effects import LISTED
-from proving_ground.spreads import FILE, individual, with_spread
+from proving_ground.spreads import FILE, individual
 
 NONE_HAS_IT = {"hole area"}  # no tire of a sound vehicle bursts
 
@@ -35,10 +35,3 @@ def test_a_strength_is_counted_in_spreads() -> None:
     assert individual(strength("extra drag area", 0.5), car=True) == pytest.approx(
         10.0 * individual(strength("extra drag area", 0.5)))
     assert math.isinf(individual(strength("hole area", 1e-3)))
-
-
-def test_a_detector_sees_no_more_than_its_own_noise_or_what_vehicles_differ_by() -> None:
-    assert with_spread(50.0, math.inf) == pytest.approx(50.0)
-    assert with_spread(1e9, 7.0) == pytest.approx(7.0)
-    assert with_spread(3.0, 4.0) == pytest.approx(2.4)
-    assert with_spread(0.0, 4.0) == 0.0
