@@ -19,7 +19,7 @@ Validated with: test/diagnosis/test_restlessness.py (noise of known colour; no f
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -28,6 +28,7 @@ from numpy.typing import NDArray
 from truck_blowout_sim.diagnosis.case.color import Color, autocovariance
 from truck_blowout_sim.diagnosis.case.runs import Run
 from truck_blowout_sim.diagnosis.case.study import Study, row_ranges
+from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 
 Floats = NDArray[np.float64]
 _LASTS_S = 1.0  # as far back as a bin is foretold from
@@ -48,10 +49,15 @@ def colors(study: Study) -> Mapping[str, Color]:
             for name, one in _autocovariances(study).items()}
 
 
+def left_by_fit(study: Study, named: Sequence[Hypothesis] = ()) -> Floats:
+    """[rows] whitened residual that the nuisances, at their best amounts, leave."""
+    residual, projector = study.residual(), study.projector(named)
+    return np.asarray(residual - projector.explained(projector.amounts(residual)))
+
+
 def _autocovariances(study: Study) -> Mapping[str, Floats]:
     """[lags + 1] of what is left of each channel in the runs that tell, in widths."""
-    residual, projector = study.residual(), study.projector()
-    left = residual - projector.explained(projector.amounts(residual))
+    left = left_by_fit(study)
     lags, rows = round(_LASTS_S / study.settings.bin_s), row_ranges(study)
     sums, counts = dict[str, Floats](), dict[str, int]()
     for i in study.baseline or study.train:
@@ -86,8 +92,7 @@ def resting_level(study: Study) -> float:
 
     1 at most; less where channels are calmer than the guess.
     """
-    residual, projector, rows = study.residual(), study.projector(), row_ranges(study)
-    left = residual - projector.explained(projector.amounts(residual))
+    left, rows = left_by_fit(study), row_ranges(study)
     told = np.concatenate([left[rows[i]] for i in study.baseline or study.train])
     return min(float(np.mean(np.square(told))), 1.0)
 

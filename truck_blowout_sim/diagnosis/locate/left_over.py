@@ -23,6 +23,7 @@ from numpy.typing import NDArray
 from scipy.linalg import cho_factor, cho_solve
 from scipy.stats import t as student
 
+from truck_blowout_sim.diagnosis.case.restlessness import left_by_fit
 from truck_blowout_sim.diagnosis.case.study import Study, row_ranges
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.locate.comparable import Left
@@ -59,8 +60,7 @@ def mean_squares(study: Study, named: Sequence[Hypothesis] = ()) -> tuple[float,
 
 
 def _in_guessed_widths(study: Study, named: Sequence[Hypothesis]) -> tuple[float, ...]:
-    residual, projector = study.residual(), study.projector(named)
-    left = residual - projector.explained(projector.amounts(residual))
+    left = left_by_fit(study, named)
     parts = [(run, run.color.colored(left[rows].reshape(run.measured.shape)))
              for run, rows in zip(study.runs, row_ranges(study), strict=True)]
     return tuple(max(float(np.mean(np.square(z[np.isfinite(run.measured)]))), _LEAST)
