@@ -13,8 +13,8 @@ import shutil
 import sys
 from pathlib import Path
 
-from truck_blowout_sim.proof.short import put_between
 from truck_blowout_sim.proof.worlds import draw_power_by_world, worlds_table
+from truck_blowout_sim.report.marked import put_on_page
 
 ROOT = Path(__file__).resolve().parents[1]
 PICTURE = "proof_power.png"
@@ -36,9 +36,7 @@ def main(words: list[str]) -> int:
     caption = CAPTION if measured else f"{CAPTION} (an earlier draw)"
     table = worlds_table(figures)
     for page, picture in (("README.md", f"docs/{PICTURE}"), ("docs/proof.md", PICTURE)):
-        path = ROOT / page
-        inside = f"{table}\n\n![{caption}]({picture})"
-        path.write_text(put_between(path.read_text(encoding="utf-8"), inside), encoding="utf-8")
+        put_on_page(ROOT / page, "proof", f"{table}\n\n![{caption}]({picture})")
     return 0
 
 

@@ -1,19 +1,16 @@
 from __future__ import annotations
 
-import re
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import pytest
 
-from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.proof.cases import find_cases
 from truck_blowout_sim.proof.prove import score_run
-from truck_blowout_sim.proof.short import BEGIN, END, put_between, short_table
+from truck_blowout_sim.proof.short import short_table
 
 Maker = Callable[..., dict[str, Any]]
-ROOT = Path(__file__).resolve().parents[2]
 
 
 @pytest.fixture
@@ -40,17 +37,3 @@ def test_the_short_table_says_what_was_sought_and_reached(
     assert "by: everything recalibrated |  | 100 % (1/1; 21–100) |" in table
     assert "sparse regression on residual accelerations |  | 0 % (0/1; 0–79) |" in table
     assert (tmp_path / "out" / "summary.md").read_text() == table + "\n"
-
-
-def test_a_table_goes_between_its_marks() -> None:
-    text = f"above\n{BEGIN}\nold\n{END}\nbelow\n"
-    assert put_between(text, "new") == f"above\n{BEGIN}\nnew\n{END}\nbelow\n"
-    for spoiled in ("nothing", f"{END}{BEGIN}", text + text):
-        with pytest.raises(InputError, match="no place"):
-            put_between(spoiled, "new")
-
-
-def test_the_readme_has_the_place() -> None:
-    readme = (ROOT / "README.md").read_text(encoding="utf-8")
-    assert re.search(f"{BEGIN}.+{END}", readme, re.DOTALL)
-    assert put_between(readme, "new") != readme

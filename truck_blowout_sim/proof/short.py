@@ -8,11 +8,9 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.proof.statistics import Proportion
 from truck_blowout_sim.proof.table import RIVAL_WORDS, SOUGHT
 
-BEGIN, END = "<!-- proof: begin -->", "<!-- proof: end -->"
 WORDS: Mapping[str, str] = {
     "effect named at alias-set level": "effect of 10 sigma or more among the causes named",
     "effect named first, raw": "the same, named first",
@@ -45,16 +43,3 @@ def _head(figures: Mapping[str, Any]) -> str:
     text = f"{figures['cases'] + failed} cases" + (f" (`{seals['set']}`)" if seals["set"] else "")
     text += f", {len(seals['holds'])} under a seal that holds"
     return text + (f"; {failed} broke down and are not counted below." if failed else ".")
-
-
-def put_between(text: str, inside: str) -> str:
-    """A document with what stands between its two marks replaced.
-
-    Raises:
-        InputError: the marks are not there, once each and in order.
-    """
-    before, begin, rest = text.partition(BEGIN)
-    _, end, after = rest.partition(END)
-    if not (begin and end) or BEGIN in after or END in after:
-        raise InputError("no place for the table", expected=f"{BEGIN} and {END}, once each")
-    return f"{before}{BEGIN}\n{inside}\n{END}{after}"
