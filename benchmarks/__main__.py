@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from benchmarks.core import main
+from benchmarks.page import start_function
 
 if __name__ == "__main__":
-    main()
+    start_function(main)

@@ -2,22 +2,22 @@
 
 Processor time of the thread is counted, best of several rounds, so that a busy machine disturbs
 little. The peer is the multi-body passenger car of commonroad-vehicle-models (29 states, 4 tires,
-plain Python), stepped by explicit Euler at the same step; install it to see its lines.
+plain Python), stepped by explicit Euler at the same step; install it to see its row.
 """
 
 from __future__ import annotations
 
 import os
-import subprocess
-import sys
-import tempfile
 from collections.abc import Callable
+from functools import partial
 from importlib.metadata import version
 from importlib.util import find_spec
 from time import perf_counter, thread_time
 
 import numpy as np
 
+from benchmarks.first_step import first_step
+from benchmarks.page import Page, Place, Table, number
 from truck_blowout_sim.simulation import (
     InitialState,
     Inputs,
@@ -30,60 +30,64 @@ from truck_blowout_sim.simulation import (
 from truck_blowout_sim.vehicle import load_vehicle, pack
 
 VEHICLE = "international_9400i_trailmobile"
+PEER = "commonroad-vehicle-models"
+PAIR = ("trailer_1_left_outer", "trailer_1_left_inner")
 STEP_S = 0.001
-ROUNDS, STEPS = 10, 2000
-REQUIRED, SOUGHT = 500.0, 650.0
-FIRST_CALL = f"""
-from time import perf_counter
-start = perf_counter()
-from truck_blowout_sim import Truck, load_vehicle
-vehicle = load_vehicle({VEHICLE!r})
-loaded = perf_counter()
-truck = Truck(vehicle)
-from truck_blowout_sim import Inputs
-truck.advance(Inputs(), 1)
-from hashlib import sha256
-print(loaded - start, perf_counter() - loaded, sha256(truck.state.tobytes()).hexdigest())
-"""
+ROUNDS, STEPS = 40, 2000
+SOUGHT = "500, better 650"
+# what, vehicle, its blown tires
+ROWS: tuple[tuple[str, str, tuple[str, ...]], ...] = (
+    ("sound", VEHICLE, ()),
+    ("both duals of a trailer hub blown", VEHICLE, PAIR),
+    ("thesis vehicle (force maps, table of steps), steer tire blown", f"{VEHICLE}_thesis",
+     ("steer_left",)),
+    ("car of four linear tires", "bmw_320i", ()),
+)
 
 
-def best_seconds(work: Callable[[], object]) -> float:
-    """Least processor time of several rounds [s]."""
+def best_seconds(*works: Callable[[], object], clock: Callable[[], float] = thread_time
+                 ) -> list[float]:
+    """Least time of each work in rounds that do all of them in turns; by default processor time."""
     times = []
     for _ in range(ROUNDS):
-        start = thread_time()
-        work()
-        times.append(thread_time() - start)
-    return min(times)
+        edges = [clock()]
+        for work in works:
+            work()
+            edges.append(clock())
+        times.append(np.diff(edges))
+    return [float(seconds) for seconds in np.min(times, axis=0)]
 
 
-def line(what: str, value: str) -> None:
-    print(f"{what:<52}{value:>24}")
-
-
-def core_speed() -> float:
-    """Simulated seconds a second of one core, in a turn with two blown tires."""
-    truck = Truck(load_vehicle(VEHICLE), initial=InitialState(speed_mps=13.9))
+def turning(vehicle: str, blown: tuple[str, ...]) -> tuple[Truck, Inputs]:
+    """A vehicle in a turn at 50 km/h for a second, then with blown tires."""
+    truck = Truck(load_vehicle(vehicle), initial=InitialState(speed_mps=13.9))
     turn = Inputs(1.0, 0.35)
     truck.advance(turn, 1000)
-    for tire in ("trailer_1_left_outer", "trailer_1_left_inner"):
+    for tire in blown:
         truck.blow(tire)
-    seconds = best_seconds(lambda: truck.advance(turn, STEPS)) / STEPS
-    tires = len(truck.vehicle.tires)
-    line(f"{tires}-tire truck, one step of 1 ms", f"{1e6 * seconds:.2f} us")
-    line("  a tire-step", f"{1e6 * seconds / tires:.3f} us")
-    speed = STEP_S / seconds
-    line("  simulated seconds a second, one core", f"{speed:.0f}")
-    line(f"  required {REQUIRED:.0f}, sought {SOUGHT:.0f}",
-         "met" if speed >= REQUIRED else "not met")
-    return seconds / tires
+    return truck, turn
 
 
-def peer_speed() -> float | None:
-    """Processor time a tire-step of the peer [s]; None where it is not installed."""
-    if find_spec("vehiclemodels") is None:
-        line("peer: commonroad-vehicle-models", "not installed")
-        return None
+def speeds() -> Table:
+    """Processor time of a step, a row each vehicle."""
+    cars = [turning(vehicle, blown) for _, vehicle, blown in ROWS]
+    works: list[Callable[[], object]] = [partial(car.advance, turn, STEPS) for car, turn in cars]
+    rows = [(what, len(car.vehicle.tires))
+            for (what, _, _), (car, _) in zip(ROWS, cars, strict=True)]
+    if find_spec("vehiclemodels"):
+        works.append(peer())
+        rows.append((f"{PEER} {version(PEER)} (plain Python, four tires)", 4))
+    table = Table("", "a step", "a tire-step", "times real time")
+    for (what, tires), seconds in zip(rows, best_seconds(*works), strict=True):
+        step_s = seconds / STEPS
+        table.row(what, f"{1e6 * step_s:.2f} µs", f"{1e9 * step_s / tires:,.0f} ns",
+                  number(STEP_S / step_s))
+    table.row("sought for the default truck", "", "", SOUGHT)
+    return table
+
+
+def peer() -> Callable[[], None]:
+    """What takes as many steps with the peer."""
     from vehiclemodels.init_mb import init_mb
     from vehiclemodels.parameters_vehicle2 import parameters_vehicle2
     from vehiclemodels.vehicle_dynamics_mb import vehicle_dynamics_mb
@@ -97,55 +101,26 @@ def peer_speed() -> float | None:
             rate = vehicle_dynamics_mb(state, [0.0, 0.0], parameters)
             state = state + STEP_S * np.array(rate)
 
-    seconds = best_seconds(step) / STEPS
-    line(f"peer: commonroad-vehicle-models {version('commonroad-vehicle-models')}, one step",
-         f"{1e6 * seconds:.2f} us")
-    line("  a tire-step", f"{1e6 * seconds / 4.0:.3f} us")
-    return seconds / 4.0
+    return step
 
 
-def batch_speed() -> None:
-    """Trucks side by side, against one after the other."""
+def batch(table: Table) -> None:
+    """Trucks side by side, against one after the other, by the clock on the wall."""
     packed, drive, _ = prepare(pack(load_vehicle(VEHICLE)), load_scenario("fishhook"))
     trucks = [packed.with_values({"steering.ratio": 20.0 + k}) for k in range(16)]
-    run_drive(trucks[0], drive)  # compiled and loaded
-    start = perf_counter()
     alone = [run_drive(truck, drive) for truck in trucks]
-    one_by_one = perf_counter() - start
-    start = perf_counter()
-    batch = run_batch(trucks, drive)
-    together = perf_counter() - start
-    same = all(np.array_equal(a, b) for a, b in zip(alone, batch, strict=True))
-    line(f"batch of {len(trucks)} on {os.cpu_count()} cores, times as fast",
-         f"{one_by_one / together:.2f}")
-    line("  same bits as single runs", "yes" if same else "NO")
+    same = all(map(np.array_equal, alone, run_batch(trucks, drive)))
+    one_by_one, together = best_seconds(lambda: [run_drive(truck, drive) for truck in trucks],
+                                        lambda: run_batch(trucks, drive), clock=perf_counter)
+    table.row(f"{len(trucks)} trucks in {os.cpu_count()} threads", f"{one_by_one / together:.2f} "
+              f"times the throughput of one, {'same' if same else 'OTHER'} bits")
 
 
-def first_call() -> None:
-    """Seconds until the first step, with an empty cache and with a filled one."""
-    bits = set()
-    with tempfile.TemporaryDirectory() as cache:
-        environment = {**os.environ, "NUMBA_CACHE_DIR": cache}
-        for words in ("compiling (once)", "from the cache"):
-            done = subprocess.run([sys.executable, "-c", FIRST_CALL], env=environment, check=True,
-                                  capture_output=True, text=True)
-            *seconds, state = done.stdout.split()
-            load, first = map(float, seconds)
-            bits.add(state)
-            line(f"first step, {words}", f"{first:.1f} s")
-        line("  same bits after compiling as from the cache", "yes" if len(bits) == 1 else "NO")
-        line("import and vehicle file", f"{load:.1f} s")
-
-
-def main() -> None:
+def main(page: Page = None) -> None:
     """All figures of the core."""
-    ours = core_speed()
-    theirs = peer_speed()
-    if theirs is not None:
-        line("  our tire-step is cheaper by", f"{theirs / ours:.0f} times")
-    batch_speed()
-    first_call()
-
-
-if __name__ == "__main__":
-    main()
+    place = Place(page, "core")
+    table = speeds()
+    others = Table("", "measured")
+    first_step(others, VEHICLE)
+    batch(others)
+    place.put(table, others)

@@ -12,18 +12,21 @@ from __future__ import annotations
 
 import statistics
 import subprocess
-import sys
 import tempfile
 from pathlib import Path
 from time import thread_time
 
-from benchmarks.core import STEP_S, VEHICLE
-from truck_blowout_sim.simulation import InitialState, Inputs, Truck
-from truck_blowout_sim.vehicle import load_vehicle
+from benchmarks.core import PAIR, STEP_S, VEHICLE, turning
+from benchmarks.page import Page, Place, Table, start_function
+from truck_blowout_sim.errors import InputError
+from truck_blowout_sim.simulation import Inputs, Truck
 
 ROUNDS, PART_S = 40, 2.0
-REQUIRED, SOUGHT = 0.65, 0.5
+SOUGHT = "0.65, better 0.5"
 FLAGS = ("-std=c++17", "-O3", "-march=native", "-w")
+ROWS: tuple[tuple[str, tuple[str, ...]], ...] = (
+    ("sound", ()), ("steer tire blown", ("steer_left",)),
+    ("both duals of a trailer hub blown", PAIR))  # fmt: skip
 
 
 def build(checkout: Path, folder: Path) -> list[str]:
@@ -39,9 +42,18 @@ def build(checkout: Path, folder: Path) -> list[str]:
     return [str(program), *parts, str(models / "24dof/data/input/acc10.txt")]
 
 
-def our_seconds(truck: Truck) -> float:
+def commit(checkout: Path) -> str:
+    """Which state of the peer it is, and of which day."""
+    done = subprocess.run(["git", "-C", str(checkout), "log", "-1", "--format=%h of %cs"],
+                          check=False, capture_output=True, text=True)
+    if done.returncode or not (checkout / "wheeled_vehicle_models").is_dir():
+        raise InputError("no checkout of low-fidelity-dynamic-models", file=checkout)
+    return done.stdout.strip()
+
+
+def our_seconds(truck: Truck, turn: Inputs) -> float:
     """Processor time of one of our tire-steps."""
-    steps, turn = round(PART_S / STEP_S), Inputs(1.0, 0.35)
+    steps = round(PART_S / STEP_S)
     start = thread_time()
     truck.advance(turn, steps)
     return (thread_time() - start) / steps / len(truck.vehicle.tires)
@@ -57,24 +69,30 @@ def peer_seconds(peer: subprocess.Popen[str]) -> float:
     return float(seconds) / int(steps) / 4.0
 
 
-def main(checkout: Path) -> None:
-    """Step both in turns; print times and ratios, blown and sound."""
-    for blown in ((), ("steer_left",), ("trailer_1_left_outer", "trailer_1_left_inner")):
-        truck = Truck(load_vehicle(VEHICLE), initial=InitialState(speed_mps=13.9))
-        truck.advance(Inputs(1.0, 0.35), 1000)
-        for tire in blown:
-            truck.blow(tire)
-        with tempfile.TemporaryDirectory() as folder, subprocess.Popen(
-                build(checkout, Path(folder)), stdin=subprocess.PIPE, stdout=subprocess.PIPE,
-                text=True) as peer:
-            pairs = [(our_seconds(truck), peer_seconds(peer)) for _ in range(ROUNDS)]
-            peer.stdin.close() if peer.stdin else None
-        ours, theirs = (min(side) for side in zip(*pairs, strict=True))
-        ratio = statistics.median(a / b for a, b in pairs)
-        print(f"{', '.join(blown) or 'sound':<45} ours {1e9 * ours:6.1f} ns, peer "
-              f"{1e9 * theirs:6.1f} ns a tire-step; ratio of the best {ours / theirs:.2f}, "
-              f"median of {ROUNDS} pairs {ratio:.2f} (required {REQUIRED}, sought {SOUGHT})")
+def in_turns(command: list[str], blown: tuple[str, ...]) -> list[tuple[float, float]]:
+    """Pairs of our processor time and the peer's, a tire-step."""
+    truck, turn = turning(VEHICLE, blown)
+    with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE,
+                          text=True) as peer:
+        pairs = [(our_seconds(truck, turn), peer_seconds(peer)) for _ in range(ROUNDS)]
+        peer.communicate()  # ends at the end of its input
+    return pairs
+
+
+def main(checkout: Path, page: Page = None) -> None:
+    """Step both in turns, blown and sound."""
+    place, which = Place(page, "peer"), commit(checkout)
+    table = Table("", "ours, a tire-step", "peer", "ratio", f"median of {ROUNDS} pairs")
+    with tempfile.TemporaryDirectory() as folder:
+        command = build(checkout.resolve(), Path(folder))
+        for what, blown in ROWS:
+            pairs = in_turns(command, blown)
+            ours, theirs = (min(side) for side in zip(*pairs, strict=True))
+            table.row(what, f"{1e9 * ours:.1f} ns", f"{1e9 * theirs:.1f} ns",
+                      f"{ours / theirs:.2f}", f"{statistics.median(a / b for a, b in pairs):.2f}")
+    table.row("sought", "", "", SOUGHT, "")
+    place.put(f"Peer: commit {which}, `g++ {' '.join(FLAGS)}`.", table)
 
 
 if __name__ == "__main__":
-    main(Path(sys.argv[1]).resolve())
+    start_function(main)

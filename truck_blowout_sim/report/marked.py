@@ -29,17 +29,20 @@ def put_between(text: str, name: str, inside: str) -> str:
     return f"{before}{first}\n{inside}\n{last}{after}"
 
 
-def put_on_page(page: Path, name: str, inside: str) -> None:
-    """Replace what stands between two marks of a file.
+def page_with(page: Path, name: str, inside: str) -> str:
+    """A file's text with what stands between two marks replaced; the file stays.
 
     Raises:
         InputError: no such file, or the marks are not there, once each and in order.
     """
     try:
-        text = page.read_text(encoding="utf-8")
-        new = put_between(text, name, inside)
+        return put_between(page.read_text(encoding="utf-8"), name, inside)
     except FileNotFoundError as error:
         raise InputError("no such page", file=page) from error
     except InputError as error:
         raise InputError(error.problem, file=page, expected=error.expected) from None
-    page.write_text(new, encoding="utf-8")
+
+
+def put_on_page(page: Path, name: str, inside: str) -> None:
+    """Write that text into the file."""
+    page.write_text(page_with(page, name, inside), encoding="utf-8")
