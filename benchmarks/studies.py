@@ -1,4 +1,4 @@
-"""A study of many runs: wall time and memory. `python -m benchmarks.studies [RUNS]`.
+"""A study of many runs: wall time and memory. `python -m benchmarks.studies [RUNS] [-o PAGE]`.
 
 Every run lasts 10 s, at a speed, a load, a tire, and an instant of the blowout of its own, so that
 none is settled or packed from what another left. Three channels at 20 Hz are streamed to Parquet.
@@ -6,14 +6,17 @@ none is settled or packed from what another left. Three channels at 20 Hz are st
 
 from __future__ import annotations
 
-import os
-import sys
+import math
 import tempfile
+from collections import Counter
 from pathlib import Path
 from time import perf_counter, process_time
+from typing import Annotated
 
 import psutil
+import typer
 
+from benchmarks.page import Page, Place, start_function
 from truck_blowout_sim.simulation import simulate_batch
 from truck_blowout_sim.simulation.studies import parse_axis, sample
 
@@ -25,37 +28,53 @@ CHANNELS = ("tractor_yaw_rate_radps", "trailer_roll_rad", "articulation_rad")
 RATE_HZ = 20.0
 
 
-def main(runs: int = RUNS) -> None:
-    """Print wall time, simulated time a wall second, and memory on the way."""
+class Progress:
+    """Memory at each tenth of the way, printed."""
+
+    def __init__(self) -> None:
+        self._process, self._start = psutil.Process(), perf_counter()
+        self._memory_mb: dict[int, float] = {}
+
+    def __call__(self, share: float) -> None:
+        """Note how far it is."""
+        tenth = int(10.0 * share)
+        if tenth not in self._memory_mb:
+            memory_mb = self._memory_mb[tenth] = self._process.memory_info().rss / 1e6
+            print(f"  {share:4.0%} after {perf_counter() - self._start:6.1f} s, "
+                  f"{memory_mb:.0f} MB", flush=True)
+
+    @property
+    def most_mb(self) -> float:
+        """Most memory seen."""
+        return max(self._memory_mb.values())
+
+
+def study(runs: int) -> str:
+    """What the runs took, in two sentences."""
     variants = sample([parse_axis(word) for word in AXES], runs, seed=1)
     simulate_batch(VEHICLE, SCENARIO, variants[:2])  # loads compiled code
-    process, memory = psutil.Process(), {}
-    start, busy = perf_counter(), process_time()
-
-    def note(share: float) -> None:
-        tenth = int(10.0 * share)
-        if tenth not in memory:
-            memory[tenth] = process.memory_info().rss / 1e6
-            print(f"  {share:4.0%} after {perf_counter() - start:6.1f} s, {memory[tenth]:.0f} MB",
-                  flush=True)
-
+    progress, start, busy = Progress(), perf_counter(), process_time()
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "runs.parquet"
         batch = simulate_batch(VEHICLE, SCENARIO, variants, channels=CHANNELS, rate_hz=RATE_HZ,
-                               output=path, progress=note)
+                               output=path, progress=progress)
         wall, busy = perf_counter() - start, process_time() - busy
-        size = path.stat().st_size / 1e6
-        status = batch.column("status")
-    print(f"{runs} runs of 10 s on {os.cpu_count()} cores (load {os.getloadavg()[0]:.1f}): "
-          f"{wall:.1f} s, {1e3 * wall / runs:.1f} ms a run, "
-          f"{10.0 * runs / wall:.0f} simulated seconds a second")
-    print(f"processor time {1e3 * busy / runs:.1f} ms a run: {RUNS} runs take "
-          f"{RUNS * busy / runs / 2.0:.0f} s of two free cores")
-    counts = {word: status.count(word) for word in dict.fromkeys(status)}
-    print(f"table {size:.1f} MB; {', '.join(f'{n} {word}' for word, n in counts.items())}")
-    late = [mb for tenth, mb in memory.items() if tenth >= 1]
-    print(f"memory from a tenth of the way on: {min(late):.0f} to {max(late):.0f} MB")
+        size_mb = path.stat().st_size / 1e6
+        counts = Counter(map(str, batch.column("status")))
+    ends = ", ".join(f"{count:,} {word}" for word, count in counts.most_common())
+    return (f"{runs:,} runs of 10 s took {wall:.0f} s: {1e3 * wall / runs:.1f} ms a run, "
+            f"{10.0 * runs / wall:,.0f} simulated seconds a second, {1e3 * busy / runs:.0f} ms of "
+            f"processor time a run. Memory stayed below {math.ceil(progress.most_mb)} MB; the "
+            f"table has {size_mb:.1f} MB ({ends}).")
+
+
+def main(runs: Annotated[int, typer.Argument()] = RUNS, page: Page = None) -> None:
+    """Wall time, simulated time a wall second, and memory on the way."""
+    place = Place(page, "studies")
+    said = study(runs)
+    print(said)
+    place.put(said)
 
 
 if __name__ == "__main__":
-    main(int(sys.argv[1]) if len(sys.argv) > 1 else RUNS)
+    start_function(main)
