@@ -65,7 +65,7 @@ endif
 
 bench: .venv/ready-for-bench
 	$(BIN)/python -m benchmarks
-	$(BIN)/python -m benchmarks.nodes
+	$(BIN)/python -m benchmarks.nodes both
 
 docs: .venv/ready
 	$(BIN)/python scripts/draw_architecture.py

@@ -1,9 +1,10 @@
-"""`python -m benchmarks.nodes.lockstep`: periods a second that the service `step` takes."""
+"""`python -m benchmarks.nodes.lockstep [-o PAGE]`: how fast the service `step` is."""
 
 from __future__ import annotations
 
 import os
 import time
+from typing import Any
 
 import rclpy
 from rcl_interfaces.msg import Parameter, ParameterType, ParameterValue
@@ -12,12 +13,14 @@ from rclpy.node import Node
 from std_srvs.srv import Trigger
 
 from benchmarks.nodes.harness import ENVIRONMENT, Measured, simulator
+from benchmarks.page import Page, Place, Table, load, number, start_function
 from truck_blowout_sim.nodes.runtime import new_executor
 
 _CALLS = {1: 300, 100: 10, 2000: 2}
 
 
-def measure(node: Measured) -> None:
+def measure(node: Measured) -> Table:
+    """A row each number of periods that a call advances; nobody reads."""
     me = Node("benchmark_stepper")
     executor = new_executor()
     executor.add_node(me)
@@ -30,9 +33,8 @@ def measure(node: Measured) -> None:
         while not future.done():
             executor.spin_once(timeout_sec=5.0)
 
-    clients: dict[str, object] = {}
-    print("| periods a call | periods a second | simulated s a second | simulated s a CPU second |")
-    print("|---|---|---|---|")
+    clients: dict[str, Any] = {}
+    table = Table("periods a call", "factor", "simulated s a CPU second", "load average")
     for periods, calls in _CALLS.items():
         value = ParameterValue(type=ParameterType.PARAMETER_INTEGER, integer_value=periods)
         change = SetParameters.Request(parameters=[Parameter(name="step_periods", value=value)])
@@ -40,17 +42,26 @@ def measure(node: Measured) -> None:
         begin_s, cpu_s = time.monotonic(), node.cpu_s()
         for _ in range(calls):
             call(Trigger, "/truck/step", Trigger.Request())
-        rate = periods * calls / (time.monotonic() - begin_s)
-        share = periods * calls * 0.01 / (node.cpu_s() - cpu_s)
-        print(f"| {periods} | {rate:.0f} | {rate * 0.01:.3g} | {share:.3g} |", flush=True)
+        simulated_s = periods * calls * 0.01
+        factor = simulated_s / (time.monotonic() - begin_s)
+        table.row(str(periods), number(factor), number(simulated_s / (node.cpu_s() - cpu_s)),
+                  f"{load():.1f}")
+    table.row("sought", "60", "60", "")
     executor.shutdown()
     me.destroy_node()
+    return table
 
 
-if __name__ == "__main__":
+def main(page: Page = None) -> None:
+    """Step a paused node."""
+    place = Place(page, "step")
     os.environ.update(ENVIRONMENT)
     with simulator("--initial-speed-mps", 20, "--start-paused") as running:
         rclpy.init()
-        measure(running)
+        table = measure(running)
         rclpy.shutdown()
-    print(f"load average {os.getloadavg()[0]:.1f}")
+    place.put(table)
+
+
+if __name__ == "__main__":
+    start_function(main)

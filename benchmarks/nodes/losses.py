@@ -1,4 +1,4 @@
-"""`python -m benchmarks.nodes.losses [KILLS]`: what is left of a bag after a kill and a full disk.
+"""`python -m benchmarks.nodes.losses [KILLS] [-o PAGE]`: a bag after kills and a full disk.
 
 The disk is a file system in memory of 4 MB, which needs the right to mount; without it, that part
 is left out.
@@ -16,21 +16,24 @@ import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from typing import Annotated
 
 import rclpy
+import typer
 from diagnostic_msgs.msg import DiagnosticArray
 from rclpy.node import Node
 from rosgraph_msgs.msg import Clock
 
 from benchmarks.nodes.harness import ENVIRONMENT, Measured, simulator
-from benchmarks.nodes.rows import HEAD, row
+from benchmarks.nodes.rows import Figures
+from benchmarks.page import Page, Place, start_function
 from truck_blowout_sim import read_recording
 from truck_blowout_sim.nodes.runtime import new_executor
 from truck_blowout_sim.recordings.recover import recover
 
 _KILLS = 10
 _SHORTEST_S, _LONGEST_S = 3.0, 6.0
-_DISK = "4m"
+_DISK_MB = 4
 
 
 class Listener:
@@ -62,7 +65,7 @@ class Listener:
                 self.factor = float(values["real_time_factor"])
 
 
-def kills(listener: Listener, count: int) -> None:
+def kills(table: Figures, listener: Listener, count: int) -> None:
     """Kill a recording node at random instants; what is read back against what was heard."""
     lost_s, recovered = [], 0
     for number in range(count):
@@ -75,12 +78,13 @@ def kills(listener: Listener, count: int) -> None:
             lost_s.append(listener.now_s - read_recording(bag).end_s)
             recover(bag)
             recovered += read_recording(bag).end_s > listener.now_s - 1.0
-    row(f"kill -9, {count} times: lost of the bag, median", statistics.median(lost_s), "s", "0.5")
-    row("kill -9: lost, worst", max(lost_s), "s", "1")
-    row("kill -9: bags whole after `recover`", recovered, f"of {count}", str(count))
+    median_s = statistics.median(lost_s)
+    table.figure(f"`kill -9`, {count} times: lost of the bag, median", median_s, "s", "0.5 s")
+    table.figure("the same, worst", max(lost_s), "s", "1 s")
+    table.figure("whole again after `truck-blowout recover`", recovered, f"of {count}", str(count))
 
 
-def full_disk(listener: Listener) -> None:
+def full_disk(table: Figures, listener: Listener) -> None:
     """Let the disk fill while the node records; the simulation goes on."""
     with _small_disk() as folder:
         if folder is None:
@@ -93,24 +97,25 @@ def full_disk(listener: Listener) -> None:
             filled_s, at_s = time.monotonic() - begin_s, listener.now_s
             listener.spin(3.0)
             after_s, factor = listener.now_s, listener.factor
-            _end(node)
+            status = _end(node)
         read = read_recording(bag)
-        row(f"disk of {_DISK}: full after", filled_s, "s", "")
-        row("full disk: simulated time that goes on in the next 3 s", after_s - at_s, "s", "3")
-        row("full disk: factor after it", factor, "", "1")
-        row("full disk: length of the bag that is left", read.end_s - read.start_s, "s", "")
+        table.figure(f"a disk of {_DISK_MB} MB: full after", filled_s, "s")
+        table.figure("simulated in the next 3 s", after_s - at_s, "s", "3 s")
+        table.figure("factor afterwards", factor, "", "1")
+        table.figure("exit status of the node", status, "", "0")
+        table.figure("length of the bag that is left", read.end_s - read.start_s, "s")
 
 
-def _end(node: Measured) -> None:
+def _end(node: Measured) -> int:
+    """Exit status of a node that is asked to end."""
     node.process.terminate()
-    status = node.process.wait(30)
-    row("full disk: exit status of the node", status or 0, "", "0")
+    return node.process.wait(30) or 0
 
 
 @contextmanager
 def _small_disk() -> Iterator[Path | None]:
     with tempfile.TemporaryDirectory() as folder:
-        options = ["mount", "-t", "tmpfs", "-o", f"size={_DISK}", "tmpfs", folder]
+        options = ["mount", "-t", "tmpfs", "-o", f"size={_DISK_MB}m", "tmpfs", folder]
         mounted = subprocess.run(options, capture_output=True, check=False).returncode == 0
         if not mounted:
             print("no right to mount: the full disk is left out", file=sys.stderr)
@@ -121,11 +126,18 @@ def _small_disk() -> Iterator[Path | None]:
                 subprocess.run(["umount", folder], check=False)
 
 
-if __name__ == "__main__":
+def main(count: Annotated[int, typer.Argument(metavar="KILLS")] = _KILLS,
+         page: Page = None) -> None:
+    """Kill a recording node, and let a disk fill."""
+    place, table = Place(page, "losses"), Figures()
     os.environ.update(ENVIRONMENT)
     rclpy.init()
     hearing = Listener()
-    print(HEAD, flush=True)
-    kills(hearing, int(sys.argv[1]) if len(sys.argv) > 1 else _KILLS)
-    full_disk(hearing)
+    kills(table, hearing, count)
+    full_disk(table, hearing)
     rclpy.shutdown()
+    place.put(table)
+
+
+if __name__ == "__main__":
+    start_function(main)

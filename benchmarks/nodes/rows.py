@@ -1,13 +1,16 @@
-"""A row of the printed table; the machine's load stands in it, because it changes every figure."""
+"""The figures of a node in a table; each row states the machine's load, which changes them."""
 
 from __future__ import annotations
 
-import os
-
-HEAD = "| figure | measured | sought | load average |\n|---|---|---|---|"
+from benchmarks.page import Table, load, number
 
 
-def row(name: str, value: float, unit: str, sought: str) -> None:
-    """Print one row."""
-    load = os.getloadavg()[0]
-    print(f"| {name} | {value:.6g} {unit} | {sought} | {load:.1f} |", flush=True)
+class Figures(Table):
+    """Figures one below the other, beside what is sought."""
+
+    def __init__(self) -> None:
+        super().__init__("", "measured", "sought", "load average")
+
+    def figure(self, name: str, value: float, unit: str = "", sought: str = "") -> None:
+        """Add one row."""
+        self.row(name, f"{number(value)} {unit}".strip(), sought, f"{load():.1f}")
