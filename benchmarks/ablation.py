@@ -1,26 +1,35 @@
 """What parts of the diagnosis are worth.
 
-    python -m benchmarks.ablation CASES OUT WITHOUT [WORKERS]
+    python -m benchmarks.ablation run CASES OUT WITHOUT [WORKERS]
+    python -m benchmarks.ablation table whole=FOLDER WITHOUT=FOLDER … [-o docs/proof.md]
 
 WITHOUT is `forms` (numbers by which good models differ in form), `noise` (widths as stated, not as
 the runs show them) or `laws` (one law an effect). OUT gets the lines that `truck-blowout prove
---cases CASES -o OUT` then scores like any others.
+--cases CASES -o OUT` then scores like any others; `table` joins such folders, all of the same
+cases.
+
+Validated with: test/benchmarks/test_ablation.py.
 """
 
 from __future__ import annotations
 
-import sys
-from collections.abc import Callable
+import json
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from functools import partial
 from importlib import import_module
 from pathlib import Path
-from typing import Any
+from typing import Annotated, Any
 
+import typer
+
+from benchmarks.page import Page, Table, start
 from truck_blowout_sim.diagnosis.settings import Settings
+from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.proof.blindfold import blindfold
 from truck_blowout_sim.proof.cases import find_cases
 from truck_blowout_sim.proof.run import run_cases
+from truck_blowout_sim.report.marked import put_on_page
 from truck_blowout_sim.vehicle import Packed
 
 # of config/diagnosis/default.yaml: in these, good models differ in form
@@ -29,6 +38,19 @@ FORMS = ("_carcass", "_spring", "steered_friction", "_frame", "rim_radius", "fla
          "steering_curve", "brake_curve")  # fmt: skip
 ROOM = "truck_blowout_sim.diagnosis"
 STEP_S = 0.0025  # as `truck-blowout prove`
+# rows of proof/rows.py, and the heads of their columns
+COUNTS: Mapping[str, str] = {
+    "false alarms, nothing missing": "false alarms",
+    "effects seen by an ideal detector, among the causes named": "visible effects named",
+    "effects beyond six spreads of sound vehicles, among the causes named":
+        "effects beyond six spreads named",
+    "a wrong name stated, something missing": "wrong names",
+}
+WORDS: Mapping[str, str] = {
+    "whole": "whole", "noise": "widths as stated, not estimated", "laws": "one law an effect",
+    "forms": "no numbers for the form of a model",
+}  # fmt: skip
+app = typer.Typer(no_args_is_help=True, add_completion=False, help=__doc__)
 
 
 def without_forms() -> None:
@@ -65,14 +87,60 @@ def _begin(part: str) -> None:
     blindfold()
 
 
-def main(cases: str, out: str, part: str, workers: str = "2") -> None:
+@app.command()
+def run(cases: Path, out: Path, without: str,
+        workers: Annotated[int, typer.Argument(help="processes")] = 2) -> None:
     """Diagnose every case that has no line yet."""
-    for line in run_cases(find_cases(Path(cases)), Path(out), workers=int(workers), step_s=STEP_S,
-                          with_baselines=False, begin=partial(_begin, part)):
+    if without not in PARTS:
+        raise InputError(f"{without!r}", file="WITHOUT", expected=f"one of {', '.join(PARTS)}")
+    for line in run_cases(find_cases(cases), out, workers=workers, step_s=STEP_S,
+                          with_baselines=False, begin=partial(_begin, without)):
         print(line["case"], flush=True)
 
 
+@app.command()
+def table(runs: list[str], page: Page = None) -> None:
+    """Counts of each run side by side; RUNS: PART=FOLDER, as `truck-blowout prove` wrote it."""
+    figures = {}
+    for word in runs:
+        part, _, folder = word.partition("=")
+        if part not in WORDS:
+            raise InputError(f"{part!r}", file=word, expected=f"one of {', '.join(WORDS)}")
+        figures[part] = _figures(Path(folder))
+    made = ablation_table(figures)
+    if page is not None:
+        put_on_page(page, "ablation", str(made))
+
+
+def _figures(folder: Path) -> dict[str, Any]:
+    path = folder / "proof.json"
+    if not path.is_file():
+        raise InputError("no such file", file=path, expected="what `truck-blowout prove -o` wrote")
+    return dict(json.loads(path.read_text(encoding="utf-8")))
+
+
+def _cases(figures: Mapping[str, Any]) -> list[str]:
+    return [*(one["case"] for one in figures["each"]), *figures["failed"]]
+
+
+def ablation_table(figures: Mapping[str, Mapping[str, Any]]) -> Table:
+    """A row each part that was left out.
+
+    Args:
+        figures: of ``proof.json``, by part.
+
+    Raises:
+        InputError: the runs are not of the same cases.
+    """
+    if len({frozenset(_cases(one)) for one in figures.values()}) > 1:
+        raise InputError("runs of different cases", expected="the same cases in every folder")
+    reached = {part: {row["row"]: row for row in one["rows"]} for part, one in figures.items()}
+    shown = [row for row in COUNTS if any(one[row]["trials"] for one in reached.values())]
+    made = Table("", *(COUNTS[row] for row in shown))
+    for part, one in reached.items():
+        made.row(WORDS[part], *(f"{one[row]['hits']} of {one[row]['trials']}" for row in shown))
+    return made
+
+
 if __name__ == "__main__":
-    if len(sys.argv) < 4 or sys.argv[3] not in PARTS:
-        sys.exit(str(__doc__))
-    main(*sys.argv[1:])
+    start(app)
