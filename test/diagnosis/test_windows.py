@@ -5,20 +5,21 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from truck_blowout_sim.diagnosis.effects.base import Timing
 from truck_blowout_sim.diagnosis.fit.windows import Windows
 
 SECONDS = 14
 RUNS = 5  # the first two are training
 
 
-def windows(amounts: np.ndarray, sigma: float = 0.5, ends: bool = True, ambient: float = 0.5,
+def windows(amounts: np.ndarray, sigma: float = 0.5, timing: Timing = "pulse", ambient: float = 0.5,
             low: float = -40.0) -> Windows:
     """Seconds [runs, seconds] that show independent amounts, with the same standard error."""
     runs, seconds = amounts.shape
     information = np.eye(amounts.size) / sigma**2
     run = np.repeat(np.arange(runs), seconds)
     return Windows(information, information @ amounts.ravel(), run,
-                   np.tile(np.arange(float(seconds)), runs), run < 2, ends, (low, 40.0), ambient,
+                   np.tile(np.arange(float(seconds)), runs), run < 2, timing, (low, 40.0), ambient,
                    10.0)
 
 
@@ -66,11 +67,11 @@ def test_what_acts_all_the_time_is_no_event() -> None:
     rng = np.random.default_rng(7)
     steady = noise(rng, 0.5)
     steady[:2] += 8.0
-    assert windows(steady, ends=False).support() < 5.0
+    assert windows(steady, timing="step").support() < 5.0
     lasting = noise(rng, 0.5)
     lasting[0, 5:] += 8.0
     lasting[1, 9:] += 8.0
-    assert windows(lasting, ends=False).support() > 20.0
+    assert windows(lasting, timing="step").support() > 20.0
 
 
 def test_an_amount_beyond_its_bounds_is_no_event() -> None:

@@ -12,7 +12,7 @@ Floats = NDArray[np.float64]
 _GRID_S = 1.0
 _MOST_INSTANTS = 20
 _MARGIN_S = 0.5
-_FINER = 0.2  # of the distance between two instants
+PARTS = 5  # of the distance between two instants
 _DELAYED_OVER = 3  # instants: so long, what a ramp does hardly depends on when it begins
 
 
@@ -42,12 +42,5 @@ def bins_between(effect: Effect, run: Run, bin_s: float) -> range:
     if effect.timing != "ramp":
         return range(1)
     apart = spacing_s(run) / bin_s
-    return range(0, round(_DELAYED_OVER * apart), max(round(_FINER * apart), 1))
+    return range(0, round(_DELAYED_OVER * apart), max(round(apart / PARTS), 1))
 
-
-def every_instant(effect: Effect, run: Run, bin_s: float) -> range:
-    """By how many bins to delay the response to one instant tried, to have all of the grid."""
-    if effect.timing != "ramp":
-        return range(1)
-    step = max(round(spacing_s(run) / bin_s), 1)
-    return range(0, _DELAYED_OVER * step, step)

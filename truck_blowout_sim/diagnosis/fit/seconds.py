@@ -12,7 +12,13 @@ from scipy.linalg import block_diag
 from truck_blowout_sim.diagnosis.case.study import Study, row_ranges
 from truck_blowout_sim.diagnosis.effects import Effect
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
-from truck_blowout_sim.diagnosis.fit.instants import delayed, every_instant, grid_of, spacing_s
+from truck_blowout_sim.diagnosis.fit.instants import (
+    PARTS,
+    bins_between,
+    delayed,
+    grid_of,
+    spacing_s,
+)
 from truck_blowout_sim.diagnosis.fit.linear import Projector
 from truck_blowout_sim.diagnosis.fit.windows import Windows
 from truck_blowout_sim.diagnosis.result.parts import Place
@@ -49,7 +55,7 @@ def windows_of(study: Study, projector: Projector, effect: Effect, place: Place,
     amount = effect.amount
     return Windows(
         block_diag(*own) - shared.T @ projector.solve(shared), np.concatenate(gradient),
-        np.array(run), np.array(time_s), np.isin(run, study.train), effect.timing == "pulse",
+        np.array(run), np.array(time_s), np.isin(run, study.train), effect.timing,
         (amount.low, amount.high), effect.strays(study.packed)[0], _WIDE * amount.high)
 
 
@@ -76,13 +82,25 @@ def _quiet(study: Study, effect: Effect, place: Place
 def _seconds(study: Study, effect: Effect, i: int, models: Sequence[Floats]
              ) -> list[tuple[float, Floats]]:
     """When each second begins, and the whitened response to the force over that second."""
-    delays = every_instant(effect, study.runs[i], study.settings.bin_s)
-    found = responses(study, effect, i, models, delays)
+    if effect.timing == "ramp":
+        return _creeping(study, effect, i, models)
+    found = responses(study, effect, i, models, range(1))
     if effect.timing == "pulse":
         return found
     # what lasts is the sum of all seconds from its instant on
     later = [column for _, column in found[1:]] + [np.zeros_like(found[-1][1])]
     return [(time, column - rest) for (time, column), rest in zip(found, later, strict=True)]
+
+
+def _creeping(study: Study, effect: Effect, i: int, models: Sequence[Floats]
+              ) -> list[tuple[float, Floats]]:
+    """The same of what is aside during a second, moved there bit by bit in the second before."""
+    delays = bins_between(effect, study.runs[i], study.settings.bin_s)
+    fine = responses(study, effect, i, models, delays)
+    moved = [(time, np.mean([column for _, column in fine[k:k + PARTS]], axis=0))
+             for k, (time, _) in enumerate(fine) if k % PARTS == 0]
+    later = [column for _, column in moved[1:]] + [np.zeros_like(moved[-1][1])]
+    return [(time, column - rest) for (time, column), rest in zip(moved, later, strict=True)]
 
 
 def responses(study: Study, effect: Effect, i: int, models: Sequence[Floats], delays: range

@@ -22,11 +22,13 @@ from truck_blowout_sim.diagnosis.fit.linear import Projector, score
 from truck_blowout_sim.diagnosis.fit.models import models_at, with_effects
 from truck_blowout_sim.diagnosis.fit.refit import chi2_of
 from truck_blowout_sim.diagnosis.fit.seconds import responses, windows_of
+from truck_blowout_sim.diagnosis.fit.stretches import of_stretches, parts_of, stretches
 from truck_blowout_sim.diagnosis.result.parts import Place
 
 Floats = NDArray[np.float64]
 Times = Mapping[str, tuple[float, float]]
 _REFINE_S = (0.5, 0.25, 0.12)
+_DIM = 1e-12  # information on an amount: less shows nothing
 
 
 def scan(study: Study, projector: Projector, effect: Effect, place: Place,
@@ -91,28 +93,23 @@ def _responses(study: Study, effect: Effect, i: int, results: Mapping[tuple[int,
 def _best_span(study: Study, projector: Projector, effect: Effect, i: int, grid: Floats,
                single: Sequence[Floats], removed: Floats, low: float, high: float
                ) -> tuple[float, tuple[float, float], Floats]:
-    """Best instant (or interval, for pulses) in one run."""
+    """Best instant, or interval of what ends or grows, in one run."""
     rows = row_ranges(study)[i]
     part = removed[rows]
     matrix = np.stack(single, axis=1)
     reach = projector.reach(matrix, rows)
     gram = matrix.T @ matrix - reach.T @ cho_solve(projector.factor, reach)
-    gradient = matrix.T @ part
-    best = (0.0, (float(grid[0]), np.inf), matrix[:, 0])
-    for first in range(grid.size):
-        lasts = range(first, grid.size) if effect.timing == "pulse" else (first,)
-        for last in lasts:
-            pick = np.arange(first, last + 1)
-            information = float(gram[np.ix_(pick, pick)].sum())
-            slope = float(gradient[pick].sum())
-            if information < 1e-12:
-                continue
-            amount = float(np.clip(slope / information, low, high))
-            delta = 2.0 * amount * slope - amount**2 * information
-            if delta > best[0]:
-                end = effect.end_s(float(grid[last]), spacing_s(study.runs[i]))
-                best = (delta, (float(grid[first]), end), matrix[:, pick].sum(axis=1))
-    return best
+    first, end = stretches(effect.timing, grid.size)
+    slope, information = of_stretches(effect.timing, matrix.T @ part, gram, first, end)
+    shown = information > _DIM
+    amount = np.clip(slope / np.where(shown, information, 1.0), low, high)
+    fall = np.where(shown, 2.0 * amount * slope - amount**2 * information, 0.0)
+    k = int(np.argmax(fall))
+    if fall[k] <= 0.0:
+        return 0.0, (float(grid[0]), np.inf), matrix[:, 0]
+    span = (float(grid[first[k]]), effect.end_s(float(grid[end[k] - 1]), spacing_s(study.runs[i])))
+    parts = matrix[:, first[k]:end[k]].sum(axis=1)
+    return float(fall[k]), span, parts * parts_of(effect.timing, first, end)[k]
 
 
 def refine_times(study: Study, start: Ranked, chi2_null: float,

@@ -33,6 +33,9 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import logsumexp
 
+from truck_blowout_sim.diagnosis.effects.base import Timing
+from truck_blowout_sim.diagnosis.fit.stretches import lasting, of_stretches, stretches
+
 Floats = NDArray[np.float64]
 # tau in standard errors of one second, from none to more than any model is off
 _SIZES: Floats = np.concatenate([[0.0], 2.0 ** np.arange(-4.0, 7.0)])
@@ -52,7 +55,7 @@ class Windows:
             [n] w_i' C^-1 r.
         run: [n] position of the run; ``time_s``: [n] when the second begins.
         trained: [n] whether the event may act in the run.
-        ends: whether the event ends again; if not, it lasts to the end of the run.
+        timing: of the event: a pulse ends again, a step lasts, a ramp grows and lasts.
         bounds: between which the amount lies; ``ambient``: its everyday size, 1 sigma; ``wide``: 1
             sigma of what an event may be.
     """
@@ -62,7 +65,7 @@ class Windows:
     run: NDArray[np.int64]
     time_s: Floats
     trained: NDArray[np.bool_]
-    ends: bool
+    timing: Timing
     bounds: tuple[float, float]
     ambient: float
     wide: float
@@ -128,14 +131,10 @@ class Windows:
 
     def _stretches(self, slope: Floats, bend: Floats) -> tuple[Floats, Floats]:
         """Slope and bend of every stretch of one run that begins after its first second."""
-        n = slope.size
-        sums = np.concatenate([[0.0], np.cumsum(slope)])
-        both = np.zeros((n + 1, n + 1))
-        both[1:, 1:] = np.cumsum(np.cumsum(bend, axis=0), axis=1)
-        first, end = np.array([(a, b) for a in range(1, n - 1) for b in (
-            range(a + 1, n + 1) if self.ends else (n,))], dtype=np.int64).reshape(-1, 2).T
-        return (sums[end] - sums[first],
-                both[end, end] - both[first, end] - both[end, first] + both[first, first])
+        if self.timing != "pulse":
+            slope, bend = lasting(slope, bend)
+        return of_stretches(self.timing, slope, bend,
+                            *stretches(self.timing, slope.size, 1, slope.size - 1))
 
     @staticmethod
     def _over(amounts: Floats, gained: Floats, sigma: float) -> float:

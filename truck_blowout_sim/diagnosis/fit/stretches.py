@@ -1,0 +1,60 @@
+"""Stretches of time that an event may take, and what each of them shows of its amount.
+
+What ends is the sum of its parts. What grows and stays, as a load that creeps aside, is the mean of
+moves at once, one at each instant of the stretch.
+
+Validated with: test/diagnosis/test_stretches.py.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from truck_blowout_sim.diagnosis.effects.base import Timing
+
+Floats = NDArray[np.float64]
+Integers = NDArray[np.int64]
+
+
+def stretches(timing: Timing, count: int, earliest: int = 0, latest: int | None = None
+              ) -> tuple[Integers, Integers]:
+    """First instant and end of every stretch among so many instants, the first ones in order.
+
+    A ``step`` has one end, and only its first instant is free: its stretches are as long as one
+    instant.
+    """
+    last = count if latest is None else latest
+    pairs = [(first, end) for first in range(earliest, last)
+             for end in ((first + 1,) if timing == "step" else range(first + 1, count + 1))]
+    first, end = np.array(pairs, dtype=np.int64).reshape(-1, 2).T
+    return first, end
+
+
+def of_stretches(timing: Timing, slope: Floats, bend: Floats, first: Integers, end: Integers
+                 ) -> tuple[Floats, Floats]:
+    """Slope and bend of the likelihood in the amount, for each stretch.
+
+    Args:
+        timing: of the event.
+        slope: [n] of the response to an event at each instant; ``bend``: [n, n] of each two.
+        first: [k] first instant of each stretch; ``end``: [k] one past its last.
+    """
+    line = np.concatenate([[0.0], np.cumsum(slope)])
+    area = np.zeros((slope.size + 1, slope.size + 1))
+    area[1:, 1:] = np.cumsum(np.cumsum(bend, axis=0), axis=1)
+    share = parts_of(timing, first, end)
+    return (share * (line[end] - line[first]),
+            np.square(share) * (area[end, end] - area[first, end] - area[end, first]
+                                + area[first, first]))
+
+
+def parts_of(timing: Timing, first: Integers, end: Integers) -> Floats:
+    """What each instant of a stretch adds."""
+    return 1.0 / (end - first) if timing == "ramp" else np.ones(first.size)
+
+
+def lasting(slope: Floats, bend: Floats) -> tuple[Floats, Floats]:
+    """The same of what lasts from each instant on, where given are parts that last one each."""
+    return (slope[::-1].cumsum()[::-1],
+            bend[::-1, ::-1].cumsum(axis=0).cumsum(axis=1)[::-1, ::-1])
