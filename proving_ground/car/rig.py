@@ -57,7 +57,7 @@ def compiled_sample() -> Compiled:
         """Ten steps in place. `now`: time, throttle, steering rate, grade, bank, drag area."""
         x[12] += bump
         now[1] = command[1]
-        for _ in range(STEPS_A_SAMPLE):
+        for k in range(STEPS_A_SAMPLE):
             slope(x, p, acts, now)
             wanted = road_wheel(own, acts, command[0])
             now[2] = (-(wanted + zero) - x[2]) / STEP_S
@@ -68,7 +68,8 @@ def compiled_sample() -> Compiled:
             k3 = rates(x + 0.5 * STEP_S * k2, own, held, acts, now, scale)
             k4 = rates(x + STEP_S * k3, own, held, acts, now, scale)
             x += STEP_S / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4)
-            own[8:] = k1
+            if k == 0:  # of the instant at which the sample is taken
+                own[8:] = k1
             now[0] += STEP_S
 
     return sample
@@ -103,9 +104,9 @@ class CarRig:
             time_s = (k - settle) * SAMPLE_S
             command = np.array(operator.act(time_s, x[0], -x[1], -x[4], -x[5], x[3]))
             bump = 0.004 * rng.standard_normal() if self.car.bumps_seed else 0.0
-            before = x.copy()
+            before, about = x.copy(), np.concatenate([now[3:5], own[2:4]])
             step(x, own, p, slippery, acts, now, command, self.car.brake, self.car.zero_rad, bump)
-            rows.append(np.concatenate([[time_s], command, before, own[8:], now[3:5], own[2:4]]))
+            rows.append(np.concatenate([[time_s], command, before, own[8:], about]))
             if k > settle and x[3] < LOWEST_SPEED_MPS:
                 break
             if not np.all(np.isfinite(x)) or abs(x[6]) > 0.5:
