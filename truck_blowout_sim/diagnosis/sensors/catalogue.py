@@ -19,6 +19,7 @@ from truck_blowout_sim.diagnosis.sensors.distortions import (
     Bias,
     Delay,
     Distortion,
+    LevelAxes,
     LeverArm,
     RollLeak,
     Scale,
@@ -42,6 +43,7 @@ _POSITION_M, _HITCH_M = 0.02, 0.03
 _HEIGHT_M = 0.5
 _HUB_DELAY_S = 0.02  # wheels follow the road with the tire's own lag
 _ROLL_LEAK = 0.02
+_LEVEL = 1.0  # logs seldom say whether a velocity is along level axes or the body's
 _RADIUS_KNOWN, _RADIUS_UNKNOWN = 0.0015, 0.05
 # A turning potentiometer at the kingpin: its zero is set by eye, its gain by its maker.
 _ARTICULATION_ZERO_RAD, _ARTICULATION_SCALE = float(np.radians(0.5)), 0.01
@@ -129,7 +131,8 @@ def _unit_imperfections(unit: str, present: set[str], *, gravity_read: bool) -> 
     found += [Imperfection(bias("angle_bias", key, "rad"), (k * _ANGLE_RAD,))
               for key in ("roll", "pitch", "yaw")]  # fmt: skip
     turn = Turn("velocity_mounting", unit, f"{unit} velocity", (n["vx"], n["vy"]))
-    found.append(Imperfection(turn, (k * _ANGLE_RAD,)))
+    level = LevelAxes("level_axes", unit, f"{unit} velocity", (n["vy"],))
+    found += [Imperfection(turn, (k * _ANGLE_RAD,)), Imperfection(level, (_LEVEL,))]
     found += [
         Imperfection(_scale("yaw_rate_scale", unit, "r"), (_GYRO_SCALE,)),
         Imperfection(_scale("longitudinal_accel_scale", unit, "ax"), (tilted(n["pitch"]),)),

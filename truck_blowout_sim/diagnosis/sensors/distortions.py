@@ -160,6 +160,22 @@ class Turn(Distortion):
 
 
 @dataclass(frozen=True)
+class LevelAxes(Distortion):
+    """Velocity stated along level axes, as many navigation units do, and not along the body's."""
+
+    @property
+    def parameters(self) -> tuple[tuple[str, str], ...]:
+        """Share of the turn from the body's axes to level ones; 1 where they are level."""
+        return (("level", "1"),)
+
+    def slope(self, index: int, channel: str, read: Reader, period_s: float) -> FloatArray:
+        """What a body that is pitched and rolled has of its forward speed along its own y axis."""
+        del index, channel, period_s
+        n = channel_names(self.unit)
+        return np.asarray(-read(n["vx"]) * np.sin(read(n["pitch"])) * np.sin(read(n["roll"])))
+
+
+@dataclass(frozen=True)
 class LeverArm(Distortion):
     """The instrument sits off from where it is said to sit, along the given directions."""
 

@@ -37,6 +37,7 @@ class Geometry:
         trailer_behind_kingpin_m: trailer instruments behind the kingpin; ``None`` if not stated.
         trailer_height_m: trailer instruments above the road.
         track_m: track of each axle by name (the hub's name without its side).
+        driven: names of the driven axles.
         steering_ratio: hand-wheel angle per road-wheel angle.
     """
 
@@ -47,6 +48,7 @@ class Geometry:
     trailer_behind_kingpin_m: float | None = None
     trailer_height_m: float = 1.20
     track_m: Mapping[str, float] = field(default_factory=dict)
+    driven: tuple[str, ...] = ("drive_1", "drive_2")
     steering_ratio: float = 22.0
 
     @property
@@ -75,6 +77,10 @@ class Geometry:
         half = 0.5 * self.track_m.get(axle, _DEFAULT_TRACK_M)
         return half if side == "left" else -half
 
+    def drives(self, hub: str) -> bool:
+        """Whether a hub is driven, so that it slips while the truck speeds up or coasts."""
+        return hub.rpartition("_")[0] in self.driven
+
 
 def vehicle_geometry(vehicle: Vehicle) -> Geometry:
     """Lengths as a vehicle file has them.
@@ -86,6 +92,7 @@ def vehicle_geometry(vehicle: Vehicle) -> Geometry:
     tractor, trailer = vehicle.unit_specs["tractor"], vehicle.unit_specs.get("trailer")
     front_m = min(axle.x_m for axle in axles.values() if axle.unit == "tractor")
     track_m = {name: axle.track_m for name, axle in axles.items()}
+    driven = tuple(name for name, axle in axles.items() if axle.drive_share > 0.0)
     tractor_m = tractor.base_link.x_m - front_m
     ratio = vehicle.spec.steering.ratio if vehicle.spec.steering else Geometry.steering_ratio
     if tractor.hitch is None or trailer is None or trailer.hitch is None:
@@ -93,6 +100,7 @@ def vehicle_geometry(vehicle: Vehicle) -> Geometry:
             tractor_behind_steer_m=tractor_m,
             tractor_height_m=tractor.base_link.z_m,
             track_m=track_m,
+            driven=driven,
             steering_ratio=ratio,
         )
     return Geometry(
@@ -103,6 +111,7 @@ def vehicle_geometry(vehicle: Vehicle) -> Geometry:
         trailer_behind_kingpin_m=trailer.base_link.x_m - trailer.hitch.x_m,
         trailer_height_m=trailer.base_link.z_m,
         track_m=track_m,
+        driven=driven,
         steering_ratio=ratio,
     )
 

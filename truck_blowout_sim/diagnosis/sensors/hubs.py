@@ -34,11 +34,11 @@ _TURN_S = 0.5
 _MODEL_SIGMA_MPS = 0.01
 
 
-def hub_channels(signals: Signals, unit: str) -> tuple[str, ...]:
+def hub_channels(signals: Signals, unit: str, geometry: Geometry) -> tuple[str, ...]:
     """Hub-speed channels of undriven hubs of a unit."""
     names = [n for n in signals.values if n.startswith("hub_speed_")]
     mine = [n for n in names if hub_of(n).startswith("trailer") == (unit == "trailer")]
-    return tuple(n for n in mine if not hub_of(n).startswith("drive"))
+    return tuple(n for n in mine if not geometry.drives(hub_of(n)))
 
 
 def free_rolling(signals: Signals, unit: str) -> BoolArray:
@@ -71,7 +71,7 @@ def rolling_radii(all_signals: Sequence[Signals], geometry: Geometry) -> Mapping
             if n["vx"] not in signals:
                 continue
             free = free_rolling(signals, unit)
-            for channel in hub_channels(signals, unit):
+            for channel in hub_channels(signals, unit, geometry):
                 sound = free & _sound(signals, channel)
                 speed = signals[n["vx"]] - signals[n["r"]] * geometry.hub_left_m(hub_of(channel))
                 usable = sound & (signals[channel] > 1.0) & np.isfinite(speed)
@@ -86,7 +86,7 @@ def hub_identity(
 ) -> Identity | None:
     """Mean of ``radius * hub speed`` equals forward speed at the hubs; ``None`` if not asked."""
     n = channel_names(unit)
-    hubs = tuple(c for c in hub_channels(signals, unit) if c in radii)
+    hubs = tuple(c for c in hub_channels(signals, unit, geometry) if c in radii)
     if not hubs or n["vx"] not in signals:
         return None
     asked = free_rolling(signals, unit) & (signals.time_s < _blown_since(signals, unit))
