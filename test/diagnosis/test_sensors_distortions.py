@@ -9,6 +9,7 @@ from truck_blowout_sim.diagnosis.sensors.distortions import (
     Bias,
     Delay,
     Distortion,
+    LevelAxes,
     LeverArm,
     RollLeak,
     Scale,
@@ -82,3 +83,10 @@ def test_lever_arm_up_is_felt_by_roll_only() -> None:
     arm = LeverArm("lever_arm", "tractor", "", (N["vy"], N["vx"]), ("up",))
     assert arm.slope(0, N["vy"], read, 0.01) == pytest.approx(-EXACT[N["p"]].value)
     assert arm.slope(0, N["vx"], read, 0.01) == pytest.approx(EXACT[N["q"]].value)
+
+
+def test_a_velocity_along_level_axes_lacks_what_a_pitched_body_has_as_it_rolls() -> None:
+    level = LevelAxes("level_axes", "tractor", "", (N["vy"],))
+    along = EXACT[N["vx"]].value * np.cos(EXACT[N["pitch"]].value)
+    body = np.sin(EXACT[N["pitch"]].value) * np.sin(EXACT[N["roll"]].value) * along
+    assert level.slope(0, N["vy"], read, 0.01) == pytest.approx(-body, rel=1e-3)

@@ -60,6 +60,15 @@ def test_lengths_come_from_the_vehicle_file() -> None:
     assert stated_geometry([described(**METADATA)], geometry).trailer_behind_kingpin_m == 5.6132
 
 
+@pytest.mark.parametrize(("vehicle", "driven", "rolling"), [
+    ("international_9400i_trailmobile", "drive_2_left", "steer_left"),
+    ("bmw_320i", "rear_left", "front_right")])
+def test_driven_hubs_are_those_of_the_vehicle_file(vehicle: str, driven: str, rolling: str) -> None:
+    geometry = vehicle_geometry(load_vehicle(vehicle))
+    assert geometry.drives(driven)
+    assert not geometry.drives(rolling)
+
+
 def test_a_car_has_no_hitch() -> None:
     geometry = vehicle_geometry(load_vehicle("ferrari_250lm"))
     assert not geometry.knows_hitch

@@ -74,6 +74,16 @@ def test_what_acts_all_the_time_is_no_event() -> None:
     assert windows(lasting, timing="step").support() > 20.0
 
 
+def test_what_creeps_aside_is_found_as_a_ramp() -> None:
+    rng = np.random.default_rng(9)
+    creeping = noise(rng, 0.5)
+    for run, first in ((0, 4), (1, 6)):
+        creeping[run, first:] += 8.0 * np.clip(np.arange(SECONDS - first) / 4.0, 0.0, 1.0)
+    ramp, step = (windows(creeping, timing=timing).support() for timing in ("ramp", "step"))
+    assert ramp > 20.0
+    assert ramp > step
+
+
 def test_an_amount_beyond_its_bounds_is_no_event() -> None:
     rng = np.random.default_rng(8)
     assert windows(gust(noise(rng, 0.5), -8.0), low=-0.1).support() < 3.0

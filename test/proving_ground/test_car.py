@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -12,7 +14,8 @@ pytest.importorskip("vehiclemodels")
 from proving_ground.car.channels import gyros
 from proving_ground.car.effects import CAR_LISTED, CAR_UNLISTED, combine
 from proving_ground.car.individual import draw, nominal
-from proving_ground.car.manoeuvres import KINDS, make
+from proving_ground.car.manoeuvres import KINDS, CarDriver, make
+from proving_ground.car.rig import CarRig
 from proving_ground.worlds import world_cases
 
 
@@ -64,3 +67,16 @@ def test_gyros_of_a_rolled_car_in_a_steady_turn_show_pitching_too() -> None:
     assert roll_rate[0] == 0.0
     assert pitch_rate[0] == pytest.approx(0.2 * np.sin(0.06))
     assert yaw_rate[0] == pytest.approx(0.2 * np.cos(0.06))
+
+
+def test_rates_belong_to_the_states_of_the_same_row() -> None:
+    """Else accelerometers would be late, or early, beside the speeds."""
+    rig, manoeuvre = CarRig(replace(nominal(), bumps_seed=0)), make("lane_change", 3)
+    truth = rig.drive(manoeuvre, *combine([]), CarDriver(manoeuvre, 3))
+    yaw_rate = truth.states[:, 5]
+    changes = np.gradient(yaw_rate, 0.01)[5:-5]
+    turned = truth.rates[:, 5]
+    before, here, after = (float(np.var(changes - turned[5 + k:len(turned) - 5 + k]))
+                           for k in (-1, 0, 1))
+    best = 0.5 * (before - after) / (before - 2.0 * here + after)  # of the parabola, in samples
+    assert abs(best) < 0.2
