@@ -79,15 +79,22 @@ def wheels(f: FloatArray, x: FloatArray, own: FloatArray, p: Numbers, acts: Acts
 @njit
 def outside(f: FloatArray, x: FloatArray, own: FloatArray, p: Numbers, acts: Acts,
             now: FloatArray) -> None:
-    """Air and slopes. The foreign frame has y to the right and yaw to the right."""
+    """Air and slopes. The foreign frame has y to the right and yaw to the right.
+
+    A slope is a plane of the map, as the angles of `channels.py` have it: what rises along the
+    course before a turn rises across it after.
+    """
     speed = max(x[3], 0.5)
     extra = acts.drag_area * (speed / 25.0) ** (acts.drag_exponent - 2.0)
     corner = acts.corner_n * (speed / 25.0) ** 2
     drag = 0.5 * AIR_DENSITY * speed * speed * (now[5] + extra) + corner
-    f[3] -= drag / p.m + GRAVITY_MPS2 * math.sin(now[3])
+    cos_yaw, sin_yaw = math.cos(x[4]), -math.sin(x[4])
+    along = now[3] * cos_yaw + now[4] * sin_yaw
+    across = now[4] * cos_yaw - now[3] * sin_yaw
+    f[3] -= drag / p.m + GRAVITY_MPS2 * math.sin(along)
     f[5] -= 0.7 * corner / p.I_z
     for k in (10, 15, 20):
-        f[k] += GRAVITY_MPS2 * math.sin(now[4])
+        f[k] += GRAVITY_MPS2 * math.sin(across)
     push = 0.0
     s = (now[0] - acts.gust_s) / acts.gust_length_s
     if 0.0 < s < 1.0:

@@ -13,6 +13,7 @@ pytest.importorskip("vehiclemodels")
 
 from proving_ground.car.channels import gyros
 from proving_ground.car.effects import CAR_LISTED, CAR_UNLISTED, combine
+from proving_ground.car.forces import outside
 from proving_ground.car.individual import draw, nominal
 from proving_ground.car.manoeuvres import KINDS, CarDriver, make
 from proving_ground.car.rig import CarRig
@@ -80,3 +81,16 @@ def test_rates_belong_to_the_states_of_the_same_row() -> None:
                            for k in (-1, 0, 1))
     best = 0.5 * (before - after) / (before - 2.0 * here + after)  # of the parabola, in samples
     assert abs(best) < 0.2
+
+
+def test_a_bank_becomes_a_grade_for_a_car_that_turned() -> None:
+    """As the angles that it reads do."""
+    yaw, bank, acts = 1.2, 0.06, combine([])[0]
+    state, still = np.zeros(29), np.zeros((2, 29))
+    state[3], state[4] = 20.0, -yaw
+    for forces, slope in zip(still, (0.0, bank), strict=True):
+        outside(forces, state, np.zeros(37), nominal().parameters(), acts,
+                np.array([0.0, 0.0, 0.0, 0.0, slope, 0.5]))
+    changed = still[1] - still[0]
+    assert changed[3] == pytest.approx(-9.81 * np.sin(bank * np.sin(yaw)))
+    assert changed[10] == pytest.approx(9.81 * np.sin(bank * np.cos(yaw)))
