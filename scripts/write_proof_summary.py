@@ -1,9 +1,10 @@
-"""Put the proof's table into README.md and docs/proof.md, its picture and cases into docs/.
+"""Put the proof's tables into README.md and docs/proof.md, its picture and cases into docs/.
 
 Use: python scripts/write_proof_summary.py w1=FOLDER w2=FOLDER ...
 
 Each folder is what `truck-blowout prove -o FOLDER` wrote for the sealed cases of a world. The
-picture is drawn anew where sigma_b was measured in every world; else that of an earlier draw stays.
+picture is drawn anew where sigma_b was measured in every world, the table of rivals where they were
+tried in any; else those of an earlier draw stay.
 """
 
 from __future__ import annotations
@@ -13,7 +14,7 @@ import shutil
 import sys
 from pathlib import Path
 
-from truck_blowout_sim.proof.worlds import draw_power_by_world, worlds_table
+from truck_blowout_sim.proof.worlds import draw_power_by_world, rivals_table, worlds_table
 from truck_blowout_sim.report.marked import put_on_page
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -37,6 +38,8 @@ def main(words: list[str]) -> int:
     table = worlds_table(figures)
     for page, picture in (("README.md", f"docs/{PICTURE}"), ("docs/proof.md", PICTURE)):
         put_on_page(ROOT / page, "proof", f"{table}\n\n![{caption}]({picture})")
+    if rivals := rivals_table(figures):
+        put_on_page(ROOT / "docs/proof.md", "rivals", rivals)
     return 0
 
 

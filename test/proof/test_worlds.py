@@ -8,6 +8,7 @@ from truck_blowout_sim.proof.worlds import (
     SOUGHT,
     draw_power_by_world,
     power,
+    rivals_table,
     seen_effects,
     worlds_table,
 )
@@ -29,6 +30,20 @@ def test_each_world_has_what_was_sought_and_reached() -> None:
     assert "| of no list: unknown | ≥ 85 % | – | ≥ 70 % | – |" in table
     assert table.splitlines()[-1].endswith("|  | 0.5 |  | – |")
     assert {line.count("|") for line in table.splitlines()} == {6}
+
+
+def test_rivals_have_columns_in_worlds_where_they_were_tried() -> None:
+    def rows(count: int) -> dict[str, Any]:
+        names = ("no_change", "recalibrated", "gaussian_process", "sparse_regression", "diagnosed")
+        return {name: {"count": count, "median_mean_square": 338.4 if count else None,
+                       "diagnosed_is_better": {"hits": count, "trials": 2 * count}}
+                for name in names}  # fmt: skip
+
+    table = rivals_table({"w1": {"rivals": rows(5)}, "w3": {"rivals": rows(0)}}).splitlines()
+    assert table[0] == "| | W1, 5 cases: median | diagnosed model is better |"
+    assert table[2] == "| no change (sheet values) | 338 | 50 % (5/10; 24–76) |"
+    assert len(table) == 7
+    assert rivals_table({"w3": {"rivals": rows(0)}}) == ""
 
 
 def test_power_is_counted_by_what_an_ideal_detector_sees() -> None:

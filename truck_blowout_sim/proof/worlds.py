@@ -1,4 +1,4 @@
-"""The proof over several worlds side by side: one table, and power against sigma_b.
+"""The proof over several worlds side by side: tables, and power against sigma_b.
 
 Validated with: test/proof/test_worlds.py.
 """
@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from truck_blowout_sim.proof.statistics import Proportion, proportion
+from truck_blowout_sim.proof.table import RIVAL_WORDS
 from truck_blowout_sim.report.style import CYCLE, Picture, new_axes, styled
 
 Figures = Mapping[str, Any]
@@ -53,6 +54,30 @@ def worlds_table(figures: Mapping[str, Figures]) -> str:
     lines.append(f"| {_UNIFORM} | " + " | ".join(
         f" | {'–' if p is None else f'{p:.2g}'}" for p in told) + " |")
     return "\n".join(lines)
+
+
+def rivals_table(figures: Mapping[str, Figures]) -> str:
+    """Errors on unseen runs beside those of the rivals, a Markdown row each.
+
+    Worlds in which no rival was tried have no column; without any, the table is empty.
+    """
+    tried = {world: one["rivals"] for world, one in figures.items()
+             if any(row["count"] for row in one["rivals"].values())}
+    if not tried:
+        return ""
+    heads = (f"{world.upper()}, {max(row['count'] for row in rows.values())} cases: median | "
+             "diagnosed model is better" for world, rows in tried.items())
+    lines = ["| | " + " | ".join(heads) + " |", "|---" * (1 + 2 * len(tried)) + "|"]
+    for name, words in RIVAL_WORDS.items():
+        cells = (f"{rows[name]['median_mean_square']:.3g} | {_better(rows[name])}"
+                 for rows in tried.values())
+        lines.append(f"| {words} | " + " | ".join(cells) + " |")
+    return "\n".join(lines)
+
+
+def _better(row: Mapping[str, Any]) -> str:
+    entry = row["diagnosed_is_better"]
+    return str(Proportion(entry["hits"], entry["trials"]))
 
 
 def power(figures: Mapping[str, Figures]) -> dict[str, list[tuple[float, Proportion]]]:
