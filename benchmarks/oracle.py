@@ -1,0 +1,94 @@
+"""What the search costs: the diagnosis of cases whose true name it is told.
+
+    python -m benchmarks.oracle make CASES OUT
+    truck-blowout prove --cases OUT -o TOLD --no-baselines
+    python -m benchmarks.oracle table w1=WHOLE,TOLD w3=WHOLE,TOLD … [-o docs/proof.md]
+
+`make` copies the cases with an effect of the library; in each, every other name is excluded, as by
+`--without`. Place, amount, instant, and the chance that nothing is missing stay open. What the
+diagnosis then does not name, its runs do not tell from chance, however good a search is. WHOLE is
+what `prove` wrote for all cases.
+
+Validated with: test/benchmarks/test_oracle.py.
+"""
+
+from __future__ import annotations
+
+import json
+import shutil
+from collections.abc import Collection, Mapping
+from pathlib import Path
+from typing import Any
+
+import typer
+
+from benchmarks.page import Page, Table, start
+from truck_blowout_sim.diagnosis.effects import LIBRARY as EFFECTS
+from truck_blowout_sim.errors import InputError
+from truck_blowout_sim.proof.cases import LIBRARY, SIGMA_B, find_cases, read_truth
+from truck_blowout_sim.report.marked import put_on_page
+
+ROW = "effects beyond six spreads of sound vehicles, among the causes named"
+app = typer.Typer(no_args_is_help=True, add_completion=False, help=__doc__)
+
+
+def others(names: Collection[str]) -> list[str]:
+    """Every name of the library but these."""
+    return sorted({effect.name for effect in EFFECTS} - set(names))
+
+
+@app.command()
+def make(cases: Path, out: Path) -> None:
+    """Copy the cases with an effect of the library; all but its name are excluded."""
+    count = 0
+    for case in find_cases(cases):
+        names = {cause.name for cause in read_truth(case.answer).causes if cause.kind == "physics"}
+        if not names:
+            continue
+        folder, count = out / "cases" / case.id, count + 1
+        shutil.copytree(case.folder, folder)
+        (out / "answers").mkdir(exist_ok=True)
+        shutil.copy(case.answer, out / "answers" / case.answer.name)
+        without = sorted({*case.without(), *others(names)})
+        told = {"vehicle": case.vehicle(), "without": without}
+        (folder / LIBRARY).write_text(json.dumps(told), encoding="utf-8")
+    if (cases / SIGMA_B).is_file():
+        shutil.copy(cases / SIGMA_B, out / SIGMA_B)
+    print(f"{count} cases")
+
+
+@app.command()
+def table(runs: list[str], page: Page = None) -> None:
+    """Effects named without and with the true name; RUNS: WORLD=WHOLE,TOLD."""
+    figures = {}
+    for word in runs:
+        world, _, folders = word.partition("=")
+        pair = [Path(folder) for folder in folders.split(",")]
+        if len(pair) != 2 or not all((folder / "proof.json").is_file() for folder in pair):
+            raise InputError(f"{word!r}", expected="WORLD=WHOLE,TOLD, folders of `prove -o`")
+        figures[world] = [json.loads((folder / "proof.json").read_text(encoding="utf-8"))
+                          for folder in pair]
+    made = oracle_table({world: (whole, told) for world, (whole, told) in figures.items()})
+    if page is not None:
+        put_on_page(page, "oracle", str(made))
+
+
+def oracle_table(figures: Mapping[str, tuple[Mapping[str, Any], Mapping[str, Any]]]) -> Table:
+    """A row each world: effects named by the search, and with the name told.
+
+    Args:
+        figures: of ``proof.json``, whole and told, by world.
+    """
+    made = Table("effects beyond six spreads", "named", "named, the true name told")
+    for world, pair in figures.items():
+        made.row(world.upper(), *(_count(one) for one in pair))
+    return made
+
+
+def _count(figures: Mapping[str, Any]) -> str:
+    row = next(row for row in figures["rows"] if row["row"] == ROW)
+    return f"{row['hits']} of {row['trials']}"
+
+
+if __name__ == "__main__":
+    start(app)
