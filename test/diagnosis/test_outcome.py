@@ -17,7 +17,7 @@ from truck_blowout_sim.diagnosis.answer.outcome import (
     locate,
     pulled,
 )
-from truck_blowout_sim.diagnosis.answer.told import alias_set, physics_effect
+from truck_blowout_sim.diagnosis.answer.told import alias_set, physics_effect, sensor_effects
 from truck_blowout_sim.diagnosis.case.study import Study
 from truck_blowout_sim.diagnosis.effects import LIBRARY
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
@@ -34,7 +34,8 @@ from truck_blowout_sim.diagnosis.name.judging import Found
 from truck_blowout_sim.diagnosis.name.trial import Fate, Trial
 from truck_blowout_sim.diagnosis.prove.intervals import Timing
 from truck_blowout_sim.diagnosis.result.evidence import BeatScores, ForceHistory
-from truck_blowout_sim.diagnosis.sensors import GateResult
+from truck_blowout_sim.diagnosis.result.summary import label_of
+from truck_blowout_sim.diagnosis.sensors import GateResult, SensorFinding
 from truck_blowout_sim.vehicle import Packed
 
 Studies = Callable[..., Study]
@@ -244,3 +245,20 @@ def test_what_is_unknown_is_to_be_looked_for(pushed: Study) -> None:
     told = answer(material(pushed, unnamed=1e5))
     assert told.verdict == "unknown"
     assert "the force on the trailer follows speed" in told.next_test
+
+
+def test_one_fault_of_two_amounts_says_which_is_which() -> None:
+    """A gyro's zero that the baseline shows, too, and has moved since."""
+    def finding(everywhere: bool) -> SensorFinding:
+        return cast(SensorFinding, SimpleNamespace(
+            name="yaw_rate_bias", body="tractor", instrument="tractor yaw rate", parameters={},
+            channels=("tractor_yaw_rate_radps",), equation="r_measured = r + bias",
+            sentence="The tractor yaw rate reads off by a constant: bias 0.3 deg/s.",
+            in_baseline=everywhere))
+
+    both = sensor_effects([finding(True), finding(False)])
+    assert [effect.sentence for effect in both] == [
+        "The tractor yaw rate reads off by a constant in every run: bias 0.3 deg/s.",
+        "The tractor yaw rate reads off by a constant beyond that of the baseline: bias 0.3 deg/s."]
+    assert len({label_of(effect, both) for effect in both}) == 2
+    assert sensor_effects([finding(False)])[0].sentence == finding(False).sentence

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from scipy.stats import chi2
 
 from truck_blowout_sim.diagnosis.answer import evidence, words
-from truck_blowout_sim.diagnosis.answer.told import alias_set, physics_effect, sensor_effect
+from truck_blowout_sim.diagnosis.answer.told import alias_set, physics_effect, sensor_effects
 from truck_blowout_sim.diagnosis.case.study import Study
 from truck_blowout_sim.diagnosis.fit.quantiles import NINETY
 from truck_blowout_sim.diagnosis.locate.beat import Beat
@@ -87,7 +87,7 @@ class Material:
 def answer(material: Material) -> Diagnosis:
     """The diagnosis."""
     found, gate = material.found, material.gate
-    effects = [sensor_effect(f) for f in gate.findings]
+    effects = sensor_effects(gate.findings)
     verdict = decide(material)
     # what explains less than half of a mismatch is no name for it; it stays among the candidates
     named = [] if verdict == "unknown" else list(zip(found.named, found.rivals, strict=True))

@@ -5,6 +5,7 @@ Validated with: test/diagnosis/test_outcome.py.
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Collection, Mapping, Sequence
 
 import numpy as np
@@ -69,13 +70,25 @@ def reported(amount: Amount, low: float, high: float) -> Interval:
     return min(told), max(told)
 
 
-def sensor_effect(finding: SensorFinding) -> Effect:
-    """A faulty instrument as the answer gives it."""
+def sensor_effects(findings: Sequence[SensorFinding]) -> list[Effect]:
+    """Faulty instruments as the answer gives them.
+
+    Where one fault has two amounts, one of every run and one of the runs to explain, each says so.
+    """
+    kinds = Counter((one.name, one.instrument) for one in findings)
+    return [_sensor_effect(one, kinds[one.name, one.instrument] > 1) for one in findings]
+
+
+def _sensor_effect(finding: SensorFinding, twice: bool) -> Effect:
+    which = "in every run" if finding.in_baseline else "beyond that of the baseline"
+    fault, colon, amount = finding.sentence.partition(": ")
+    sentence = f"{fault} {which}{colon}{amount}" if twice else finding.sentence
+    instrument = f"{finding.instrument}, {which}" if twice else finding.instrument
     return Effect(name=finding.name, kind="sensor", where=Place(body=finding.body or None),
                   parameters={n: Parameter(a.value, a.unit, a.ci90)
                               for n, a in finding.parameters.items()},
-                  equation=finding.equation, sentence=finding.sentence,
-                  instrument=finding.instrument, channels=finding.channels)
+                  equation=finding.equation, sentence=sentence, instrument=instrument,
+                  channels=finding.channels)
 
 
 def alias_set(rivals: Sequence[Ranked], recorded: Collection[str] = ()) -> AliasSet:

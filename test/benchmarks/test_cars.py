@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from benchmarks.car import SIDEWAYS, YAW_RATE, driven_table, found_table
+from benchmarks.cars.driven import SIDEWAYS, YAW_RATE, driven_table, found_table
 
 
 def comparison(yaw_rate_radps: float, sideways_mps: float) -> dict[str, Any]:
