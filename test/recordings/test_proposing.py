@@ -39,6 +39,7 @@ from truck_blowout_sim.recordings.mapping.vocabulary import channel_hinted
     ("log.trailer.AVz", "trailer_yaw_rate_radps"), ("log.speed.data", "tractor_vx_mps"),
     ("sog", "tractor_vx_mps"), ("course over ground", "tractor_yaw_rad"),
     ("G Force Lat", "tractor_ay_mps2"), ("G Force Long", "tractor_ax_mps2"),
+    ("a_lat", "tractor_ay_mps2"), ("a_long", "tractor_ax_mps2"),
     ("TirePressLF_kPa", "tire_pressure_steer_left_pa"), ("Tyre pressure", ""),
     ("RF Tyre Pressure", "tire_pressure_steer_right_pa"),
     ("Reifendruck VL", "tire_pressure_steer_left_pa"),

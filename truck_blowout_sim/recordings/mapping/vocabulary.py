@@ -19,6 +19,7 @@ EXACT = {
     "roll": "roll_rad", "pitch": "pitch_rad", "yaw": "yaw_rad", "xo": "x_m", "yo": "y_m",
     "steer sw": "steering_wheel_angle_rad", "throttle": "throttle", "velocity": "vx_mps",
     "heading": "yaw_rad", "cog": "yaw_rad", "longacc": "ax_mps2", "latacc": "ay_mps2",
+    "a long": "ax_mps2", "a lon": "ax_mps2", "a lat": "ay_mps2",
     "swa": "steering_wheel_angle_rad", "lws angle": "steering_wheel_angle_rad",
     "speed": "vx_mps", "sog": "vx_mps", "r": "yaw_rate_radps", "pbk con": "brake_pressure_pa",
     "x": "x_m", "y": "y_m", "easting": "x_m", "northing": "y_m",
