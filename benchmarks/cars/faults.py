@@ -22,12 +22,12 @@ import typer
 from benchmarks.page import Page, Place, Table, start_function
 from truck_blowout_sim import Recording, Series, diagnose, read_recording
 from truck_blowout_sim.diagnosis import QUICK
-from truck_blowout_sim.diagnosis.result import Diagnosis, amount_text, label_of
+from truck_blowout_sim.diagnosis.result import Diagnosis, Effect, amount_text, label_of
 
 Change = Callable[[Recording], Recording]
 YAW_RATE, HAND_WHEEL, SPEED = (
     "tractor_yaw_rate_radps", "steering_wheel_angle_rad", "tractor_vx_mps")
-FORWARD, SIDEWAYS = "tractor_ax_mps2", "tractor_ay_mps2"
+AX, AY = "tractor_ax_mps2", "tractor_ay_mps2"
 
 
 def line(channel: str, gain: float, zero: float = 0.0) -> Change:
@@ -54,21 +54,31 @@ FAULTS: Mapping[str, Change] = {
     "yaw rate of the other sign": line(YAW_RATE, -1.0),
     "steering angle off by 1 deg": line(HAND_WHEEL, 1.0, radians(1.0)),
     "speed times 1.05": line(SPEED, 1.05),
-    "lateral acceleration times 1.10": line(SIDEWAYS, 1.10),
-    "lateral acceleration of the other sign": line(SIDEWAYS, -1.0),
-    "accelerations exchanged": exchanged(FORWARD, SIDEWAYS),
+    "lateral acceleration times 1.10": line(AY, 1.10),
+    "lateral acceleration of the other sign": line(AY, -1.0),
+    "accelerations exchanged": exchanged(AX, AY),
 }
 
 
-def said(answer: Diagnosis) -> str:
-    """What was named, with amounts and what explains it as well; else the verdict."""
+def said(answer: Diagnosis, before: Diagnosis | None = None) -> str:
+    """What was named, with amounts and what explains it as well; else the verdict.
+
+    ``before``: of the recordings as they are; what was named of these is left out.
+    """
+    known = {_kind(effect) for effect in before.effects} if before else set()
     words = []
     for effect, aliases in zip(answer.effects, answer.alias_sets, strict=True):
+        if _kind(effect) in known:
+            continue
         amounts = ", ".join(amount_text(*one) for one in effect.parameters.items())
         others = [name for name in dict.fromkeys(aliases.names) if name != effect.name]
-        words.append(f"{label_of(effect, answer.effects)}: {amounts}"
+        words.append(": ".join(filter(None, (label_of(effect, answer.effects), amounts)))
                      + (f" (or {', '.join(others)})" if others else ""))
-    return "; ".join(words) or f"{answer.verdict}, nothing named"
+    return "; ".join(words) or ("nothing" if before else f"{answer.verdict}, nothing named")
+
+
+def _kind(effect: Effect) -> tuple[object, ...]:
+    return effect.name, effect.where, effect.channels
 
 
 def measure(name: str, train: Path, holdout: Path, vehicle: str, settings: str = "default",
@@ -79,11 +89,12 @@ def measure(name: str, train: Path, holdout: Path, vehicle: str, settings: str =
     place = Place(page, f"faults_{name}")
     seen, unseen = (read_recording(path, mapping=mapping) for path in (train, holdout))
     before = [] if baseline is None else [read_recording(baseline, mapping=mapping)]
-    made = Table("put in", "stated")
+    made, as_it_is = Table("put in", "stated; below the first row, besides that"), None
     for words, change in FAULTS.items():
         answer, _ = diagnose([change(seen)], baseline=before, holdout=[change(unseen)],
                              vehicle=vehicle, settings=settings, effort=QUICK)
-        made.row(words, said(answer))
+        made.row(words, said(answer, as_it_is))
+        as_it_is = as_it_is or answer
     place.put(made)
 
 

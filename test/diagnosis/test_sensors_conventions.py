@@ -13,9 +13,10 @@ from trial_faults import delayed
 
 from truck_blowout_sim.diagnosis.sensors import conventions, correct, sensor_gate
 from truck_blowout_sim.diagnosis.sensors.conventions import find_conventions
-from truck_blowout_sim.diagnosis.sensors.geometry import stated_geometry
+from truck_blowout_sim.diagnosis.sensors.geometry import stated_geometry, vehicle_geometry
 from truck_blowout_sim.diagnosis.sensors.signals import read_signals
 from truck_blowout_sim.recordings import Recording, Series
+from truck_blowout_sim.vehicle import load_vehicle
 
 RUN = make_run(20, 15.0)
 WHEEL = "steering_wheel_angle_rad"
@@ -142,3 +143,24 @@ def test_what_a_sound_run_gains_too_is_no_sign_of_a_fault(
     logs = cast("list[conventions._Log]", [Gained(gain) for gain in (*train, *baseline)])
     flags = np.array([False] * len(train) + [True] * len(baseline))
     assert (conventions._best(logs, flags) is not None) == is_found
+
+
+def braking_askew(seed: int) -> Recording:
+    """Straight braking; the trailer crabs by 0.2 deg, and its heading reads 0.4 deg too much."""
+    rng, t, askew = np.random.default_rng(seed), np.arange(0.0, 20.0, 0.01), 0.0035
+    speed, still = 25.0 - t, np.zeros(t.size)
+    meant = {WHEEL: (still, 1e-3), "tractor_vy_mps": (still, 0.02),
+             "trailer_vy_mps": (askew * speed, 0.02), "tractor_yaw_rad": (still, 1e-4),
+             "trailer_yaw_rad": (still + askew, 1e-4)}  # fmt: skip
+    for unit in ("tractor", "trailer"):
+        meant |= {f"{unit}_vx_mps": (speed, 0.02), f"{unit}_yaw_rate_radps": (still, 1e-3)}
+    return Recording(f"straight_{seed}", {
+        name: Series(t, values + sigma * rng.standard_normal(t.size))
+        for name, (values, sigma) in meant.items()})  # fmt: skip
+
+
+def test_an_angle_that_is_mounted_askew_is_not_of_the_other_sign() -> None:
+    """The side speed that it adds falls with the speed; another sign would take it away as well."""
+    runs = [braking_askew(seed) for seed in range(4)]
+    truck = vehicle_geometry(load_vehicle("international_9400i_trailmobile"))
+    assert find_conventions([read_signals(r) for r in runs], [False] * 4, runs, truck) == ()

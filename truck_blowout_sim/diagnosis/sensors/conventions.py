@@ -111,12 +111,16 @@ def find_conventions(
 
 @dataclass(frozen=True)
 class _Log:
-    """One recording with what its identities leave as it stands."""
+    """One recording with what its identities leave as it stands.
+
+    ``mounted``: [windows, k] what errors of mounting add to any of them.
+    """
 
     signals: Signals
     identities: tuple[Identity, ...]
     windows: Windows
     left: dict[str, FloatArray]
+    mounted: FloatArray
 
     @classmethod
     def of(cls, signals: Signals, geometry: Geometry) -> _Log:
@@ -125,7 +129,8 @@ class _Log:
         asked += [*hitch_identities(geometry), *articulation_identities()]
         kept = tuple(i for i in asked if i.available(signals))
         windows = make_windows(signals.period_s)
-        return cls(signals, kept, windows, {i.name: _left(i, signals, windows) for i in kept})
+        left = {i.name: _left(i, signals, windows) for i in kept}
+        return cls(signals, kept, windows, left, _mounted(signals, windows))
 
     def read_as(self, convention: Convention) -> _Log:
         """The log under another reading."""
@@ -143,8 +148,7 @@ class _Log:
     def log_ratio(self, convention: Convention) -> float:
         """Log likelihood of the log so read over that of the log as it stands."""
         signals = convention.read(self.signals)
-        total = sum(_gain(self.left[i.name], _left(i, signals, self.windows), self.windows)
-                    for i in self._touched(convention))  # fmt: skip
+        total = sum(self._gain(i, signals) for i in self._touched(convention))
         return total + _steered(signals) - _steered(self.signals) + (
             _forward(signals) - _forward(self.signals))
 
@@ -162,8 +166,12 @@ class _Log:
             return 0.0
         early = np.concatenate([self.signals[channel][step:], np.full(step, np.nan)])
         signals = self.signals.with_values({channel: early})
-        return sum(_gain(self.left[i.name], _left(i, signals, self.windows), self.windows)
-                   for i in self._touched(convention) if channel in i.channels)  # fmt: skip
+        return sum(self._gain(i, signals) for i in self._touched(convention)
+                   if channel in i.channels)  # fmt: skip
+
+    def _gain(self, identity: Identity, signals: Signals) -> float:
+        after = _left(identity, signals, self.windows)
+        return _gain(self.left[identity.name], after, self.mounted, self.windows)
 
 
 def _best(logs: Sequence[_Log], is_baseline: NDArray[np.bool_]) -> FoundConvention | None:
@@ -247,15 +255,24 @@ def _left(identity: Identity, signals: Signals, windows: Windows) -> FloatArray:
     return out
 
 
-def _gain(before: FloatArray, after: FloatArray, windows: Windows) -> float:
+def _mounted(signals: Signals, windows: Windows) -> FloatArray:
+    """A constant, and the forward speed: an angle that is off by one adds it to a side speed."""
+    speed = channel_names("tractor")["vx"]
+    some = [windows.mean(signals[speed])] if speed in signals else []
+    constant = np.ones_like(windows.mean(signals.time_s))
+    return np.stack([constant, *some], axis=1)
+
+
+def _gain(before: FloatArray, after: FloatArray, mounted: FloatArray, windows: Windows) -> float:
     """Log likelihood ratio of two residuals, each with its own variance.
 
-    About its own mean: a constant is how an instrument is mounted, and says nothing of its sign.
+    Without what errors of mounting add to them, which says nothing of a sign.
     """
-    both = np.isfinite(before) & np.isfinite(after)
+    both = np.isfinite(before) & np.isfinite(after) & np.isfinite(mounted).all(axis=1)
     if both.sum() < 10:
         return 0.0
-    old, new = before[both], after[both]
+    basis, _ = np.linalg.qr(mounted[both])
+    old, new = (v[both] - basis @ (basis.T @ v[both]) for v in (before, after))
     bump_s = windows.step * windows.period_s
     count = min(_independent(old, bump_s), _independent(new, bump_s))
     tiny = 1e-12
