@@ -9,7 +9,7 @@ from typing import cast
 import numpy as np
 import pytest
 from trial_drive import make_run
-from trial_faults import delayed
+from trial_faults import delayed, leaking
 
 from truck_blowout_sim.diagnosis.sensors import conventions, correct, sensor_gate
 from truck_blowout_sim.diagnosis.sensors.conventions import find_conventions
@@ -140,9 +140,24 @@ class Gained:
 def test_what_a_sound_run_gains_too_is_no_sign_of_a_fault(
     train: tuple[float, ...], baseline: tuple[float, ...], is_found: bool
 ) -> None:
-    logs = cast("list[conventions._Log]", [Gained(gain) for gain in (*train, *baseline)])
+    logs = cast("list[conventions.Reading]", [Gained(gain) for gain in (*train, *baseline)])
     flags = np.array([False] * len(train) + [True] * len(baseline))
     assert (conventions._best(logs, flags) is not None) == is_found
+
+
+TRACTOR = RUN.only_channels([name for name in RUN.channels if not name.startswith("trailer")])
+
+
+def test_a_share_of_gravity_is_no_other_treatment_of_it() -> None:
+    """A sideways accelerometer that misses 70 % of it is not one that is free of gravity."""
+    assert names(leaking("tractor", -0.7)(TRACTOR)) == []
+    assert names(gravity(TRACTOR)) == [("gravity_convention", (
+        "tractor_ax_mps2", "tractor_ay_mps2"))]  # fmt: skip
+
+
+def test_all_of_gravity_through_roll_may_be_another_treatment_of_it() -> None:
+    (finding,) = sensor_gate([leaking("tractor", -1.0)(TRACTOR)]).findings
+    assert {"gravity_convention", "lateral_accel_roll"} <= set(finding.aliases)
 
 
 def braking_askew(seed: int) -> Recording:

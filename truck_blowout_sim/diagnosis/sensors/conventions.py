@@ -7,8 +7,7 @@ by a clear likelihood ratio is taken; then the next is sought in the log so read
 join the identities, which a mirrored instrument satisfies: a truck turns to the side to which its
 hand wheel is turned, and it drives forward.
 
-References: likelihood ratio of Gaussian residuals with their variance estimated (profile
-likelihood); the number of independent residuals from their long-run variance (Bartlett window).
+References: see `reading.py`.
 Known limits: the instruments of one truck all mirrored, hand wheel included, are consistent.
 Validated with: test/diagnosis/test_sensors_conventions.py.
 """
@@ -16,7 +15,7 @@ Validated with: test/diagnosis/test_sensors_conventions.py.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -28,28 +27,17 @@ from truck_blowout_sim.diagnosis.sensors.distortions import (
     Swap,
 )
 from truck_blowout_sim.diagnosis.sensors.geometry import Geometry
-from truck_blowout_sim.diagnosis.sensors.identities import (
-    Identity,
-    articulation_identities,
-    body_identities,
-    channel_names,
-    hitch_identities,
-)
-from truck_blowout_sim.diagnosis.sensors.signals import Signals, read_wheel, smoothed
-from truck_blowout_sim.diagnosis.sensors.windows import Windows, make_windows
+from truck_blowout_sim.diagnosis.sensors.gravity import look_alikes
+from truck_blowout_sim.diagnosis.sensors.identities import channel_names
+from truck_blowout_sim.diagnosis.sensors.reading import WHEEL, Reading
+from truck_blowout_sim.diagnosis.sensors.signals import Signals, read_wheel
 from truck_blowout_sim.recordings import Recording
 
-FloatArray = NDArray[np.float64]
-
-WHEEL = "steering_wheel_angle_rad"
 _FAMILY_P = 1e-4
 _PER_CHANNEL = 2.0  # log odds that one more channel of an instrument is wired the other way
 _ALIAS = 4.5  # log likelihood ratio within which two readings cannot be told apart
 _MOST = 6
-_LONGEST_S = 2.0  # of the correlation of a residual
 _DELAYS_S = np.arange(0.05, 0.65, 0.05)  # a late channel must not pass for an inverted one
-_DRIVES_MPS = 5.0  # no truck reverses faster
-_BACKWARD = 20.0  # log odds against one that does, over a whole recording
 _WORDS = {"x": "x position", "y": "y position", "yaw": "heading", "roll": "roll", "pitch": "pitch",
           "vx": "forward speed", "vy": "lateral speed", "r": "yaw rate", "p": "roll rate",
           "q": "pitch rate", "ax": "longitudinal acceleration",
@@ -75,6 +63,7 @@ class FoundConvention:
         log_ratio: log likelihood ratio against the log as stated.
         tests: how many readings were tried.
         rivals: readings that fit as well.
+        amounts: names of faults with an amount that do.
     """
 
     convention: Convention
@@ -82,6 +71,7 @@ class FoundConvention:
     log_ratio: float
     tests: int
     rivals: tuple[Convention, ...]
+    amounts: tuple[str, ...] = ()
 
 
 def find_conventions(
@@ -96,7 +86,8 @@ def find_conventions(
         recordings: the same, for the hand wheel.
         geometry: lengths, for what both units share.
     """
-    logs = [_Log.of(_with_wheel(s, r), geometry) for s, r in zip(signals, recordings, strict=True)]
+    logs = [Reading.of(_with_wheel(s, r), geometry)
+            for s, r in zip(signals, recordings, strict=True)]  # fmt: skip
     flags = np.array(is_baseline)
     found: list[FoundConvention] = []
     while len(found) < _MOST:
@@ -109,72 +100,7 @@ def find_conventions(
     return tuple(found)
 
 
-@dataclass(frozen=True)
-class _Log:
-    """One recording with what its identities leave as it stands.
-
-    ``mounted``: [windows, k] what errors of mounting add to any of them.
-    """
-
-    signals: Signals
-    identities: tuple[Identity, ...]
-    windows: Windows
-    left: dict[str, FloatArray]
-    mounted: FloatArray
-
-    @classmethod
-    def of(cls, signals: Signals, geometry: Geometry) -> _Log:
-        """Every identity that the recording has the channels for."""
-        asked = [i for unit in ("tractor", "trailer") for i in body_identities(unit)]
-        asked += [*hitch_identities(geometry), *articulation_identities()]
-        kept = tuple(i for i in asked if i.available(signals))
-        windows = make_windows(signals.period_s)
-        left = {i.name: _left(i, signals, windows) for i in kept}
-        return cls(signals, kept, windows, left, _mounted(signals, windows))
-
-    def read_as(self, convention: Convention) -> _Log:
-        """The log under another reading."""
-        signals = convention.read(self.signals)
-        touched = self._touched(convention)
-        left = {i.name: _left(i, signals, self.windows) if i in touched else self.left[i.name]
-                for i in self.identities}  # fmt: skip
-        return replace(self, signals=signals, left=left)
-
-    def _touched(self, convention: Convention) -> list[Identity]:
-        if isinstance(convention, GravityConvention):
-            return [i for i in self.identities if "acceleration" in i.name]
-        return [i for i in self.identities if set(i.channels) & set(convention.channels)]
-
-    def log_ratio(self, convention: Convention) -> float:
-        """Log likelihood of the log so read over that of the log as it stands."""
-        signals = convention.read(self.signals)
-        total = sum(self._gain(i, signals) for i in self._touched(convention))
-        return total + _steered(signals) - _steered(self.signals) + (
-            _forward(signals) - _forward(self.signals))
-
-    def concerned(self, convention: Convention) -> set[str]:
-        """Recorded channels of all identities that another reading changes."""
-        return {c for i in self._touched(convention) for c in i.channels if c in self.signals}
-
-    def late_gain(self, channel: str, delay_s: float, convention: Convention) -> float:
-        """Log likelihood ratio with a channel read that much earlier.
-
-        Of the identities that the other reading changes.
-        """
-        step = round(delay_s / self.signals.period_s)
-        if step == 0:
-            return 0.0
-        early = np.concatenate([self.signals[channel][step:], np.full(step, np.nan)])
-        signals = self.signals.with_values({channel: early})
-        return sum(self._gain(i, signals) for i in self._touched(convention)
-                   if channel in i.channels)  # fmt: skip
-
-    def _gain(self, identity: Identity, signals: Signals) -> float:
-        after = _left(identity, signals, self.windows)
-        return _gain(self.left[identity.name], after, self.mounted, self.windows)
-
-
-def _best(logs: Sequence[_Log], is_baseline: NDArray[np.bool_]) -> FoundConvention | None:
+def _best(logs: Sequence[Reading], is_baseline: NDArray[np.bool_]) -> FoundConvention | None:
     """The reading that fits best, if it fits clearly better than the log as it stands."""
     present = set.intersection(*(set(log.signals.values) for log in logs))
     tried = _readings(present)
@@ -197,11 +123,17 @@ def _best(logs: Sequence[_Log], is_baseline: NDArray[np.bool_]) -> FoundConventi
               if everywhere or not baseline]
     if ratio < needed or _merely_late(faulty, convention):
         return None
+    names: tuple[str, ...] = ()
+    if isinstance(convention, GravityConvention):
+        found = look_alikes(faulty, convention, _ALIAS)
+        if found is None:
+            return None
+        names = found
     rivals = tuple(c for r, _, c, _ in scored[1:] if ratio - r < _ALIAS)
-    return FoundConvention(convention, everywhere, ratio, len(tried), rivals)
+    return FoundConvention(convention, everywhere, ratio, len(tried), rivals, names)
 
 
-def _merely_late(logs: Sequence[_Log], convention: Convention) -> bool:
+def _merely_late(logs: Sequence[Reading], convention: Convention) -> bool:
     """Whether a delay of one channel does as well as another sign or axis, over all logs."""
     here = sum(log.log_ratio(convention) for log in logs)
     channels = sorted(set.union(*(log.concerned(convention) for log in logs)))
@@ -247,80 +179,6 @@ def _unlike(found: Sequence[Convention]) -> list[Convention]:
     return list(seen.values())
 
 
-def _left(identity: Identity, signals: Signals, windows: Windows) -> FloatArray:
-    """What the identity leaves under each bump; NaN where it cannot be asked."""
-    out = windows.mean(identity.algebraic(signals))
-    for channel, factor in identity.rates:
-        out = out - factor * windows.derivative(signals[channel])
-    return out
-
-
-def _mounted(signals: Signals, windows: Windows) -> FloatArray:
-    """A constant, and the forward speed: an angle that is off by one adds it to a side speed."""
-    speed = channel_names("tractor")["vx"]
-    some = [windows.mean(signals[speed])] if speed in signals else []
-    constant = np.ones_like(windows.mean(signals.time_s))
-    return np.stack([constant, *some], axis=1)
-
-
-def _gain(before: FloatArray, after: FloatArray, mounted: FloatArray, windows: Windows) -> float:
-    """Log likelihood ratio of two residuals, each with its own variance.
-
-    Without what errors of mounting add to them, which says nothing of a sign.
-    """
-    both = np.isfinite(before) & np.isfinite(after) & np.isfinite(mounted).all(axis=1)
-    if both.sum() < 10:
-        return 0.0
-    basis, _ = np.linalg.qr(mounted[both])
-    old, new = (v[both] - basis @ (basis.T @ v[both]) for v in (before, after))
-    bump_s = windows.step * windows.period_s
-    count = min(_independent(old, bump_s), _independent(new, bump_s))
-    tiny = 1e-12
-    ratio = (float(np.var(old)) + tiny) / (float(np.var(new)) + tiny)
-    return 0.5 * count * float(np.log(ratio))
-
-
-def _independent(values: FloatArray, spacing_s: float) -> float:
-    """Number of independent values, by the long-run variance over two seconds."""
-    moved = values - values.mean()
-    power = float(moved @ moved)
-    if power <= 0.0:
-        return float(values.size)
-    lags = min(max(round(_LONGEST_S / spacing_s), 1), values.size - 1)
-    weights = 1.0 - np.arange(1, lags + 1) / (lags + 1.0)
-    shared = np.array([float(moved[k:] @ moved[:-k]) for k in range(1, lags + 1)]) / power
-    # overlapping bumps share half a second: never more than two independent ones in a second
-    longest = max(1.0 + 2.0 * float(weights @ shared), 0.5 / spacing_s)
-    return float(values.size / longest)
-
-
 def _with_wheel(signals: Signals, recording: Recording) -> Signals:
     wheel = read_wheel(signals, recording)
     return signals if wheel is None else signals.with_values({WHEEL: wheel})
-
-
-def _steered(signals: Signals) -> float:
-    """Log likelihood of the yaw rate given that the truck turns where the hand wheel points."""
-    rate = channel_names("tractor")["r"]
-    if WHEEL not in signals or rate not in signals:
-        return 0.0
-    width = 0.2 / signals.period_s
-    wheel, turning = smoothed(signals[WHEEL], width), smoothed(signals[rate], width)
-    first = min(signals.blown_since_s.values(), default=np.inf)
-    used = np.isfinite(wheel) & np.isfinite(turning) & (signals.time_s < first)
-    if used.sum() * signals.period_s < 3.0:
-        return 0.0
-    a, b = wheel[used] - wheel[used].mean(), turning[used] - turning[used].mean()
-    size = float(np.sqrt((a @ a) * (b @ b)))
-    alike = float(a @ b) / size if size > 0.0 else 0.0
-    every = max(1, round(0.1 / signals.period_s))
-    count = _independent(b[::every], every * signals.period_s)
-    # noise of both instruments bounds what a correlation can promise
-    return -0.5 * count * float(np.log1p(-min(alike, 0.99) ** 2)) if alike > 0.0 else 0.0
-
-
-def _forward(signals: Signals) -> float:
-    """Log odds against a truck that reverses fast."""
-    return sum(-_BACKWARD for unit in ("tractor", "trailer")
-               for speed in (channel_names(unit)["vx"],) if speed in signals
-               and float(np.nan_to_num(np.nanmedian(signals[speed]))) < -_DRIVES_MPS)  # fmt: skip

@@ -62,7 +62,8 @@ def sensor_gate(
     result = search(case, false_alarms)
     findings = [*stated]
     findings += [
-        _finding(found, knows_roll=_has_roll(case, found.hypothesis.distortion.unit))
+        _finding(found, case.signals[0].gravity,
+                 knows_roll=_has_roll(case, found.hypothesis.distortion.unit))
         for found in result.found
     ]
     signals = [
@@ -106,7 +107,8 @@ def _as_meant(
 
 def _convention(found: FoundConvention) -> SensorFinding:
     kind = found.convention
-    names = tuple(dict.fromkeys([kind.name, *(rival.name for rival in found.rivals)]))
+    names = tuple(dict.fromkeys([kind.name, *(rival.name for rival in found.rivals),
+                                 *found.amounts]))
     return SensorFinding(
         name=kind.name,
         body=kind.unit,
@@ -125,13 +127,17 @@ def _convention(found: FoundConvention) -> SensorFinding:
     )
 
 
-def _finding(found: Found, *, knows_roll: bool) -> SensorFinding:
+def _finding(found: Found, gravity: float, *, knows_roll: bool) -> SensorFinding:
     distortion = found.hypothesis.distortion
     names = tuple(dict.fromkeys([distortion.name, *[h.distortion.name for h, _ in found.rivals]]))
     if distortion.name == "lateral_accel_scale" and not knows_roll:
         # Roll follows lateral acceleration: without its channel a leak looks like a gain.
         names = tuple(dict.fromkeys([*names, "lateral_accel_roll"]))
     sigmas = np.sqrt(np.diag(found.covariance))
+    if distortion.name == "lateral_accel_roll" and np.isclose(
+            found.amounts[0], 1.0 - 2.0 * gravity, atol=3.0 * sigmas[0]):
+        # all of gravity, which the recording says is read or is not
+        names = tuple(dict.fromkeys([*names, "gravity_convention"]))
     shown = determined(found.amounts, sigmas)
     parameters = {
         name: Amount(value, unit, (value - NINETY * sigma, value + NINETY * sigma))

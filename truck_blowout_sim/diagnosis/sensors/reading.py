@@ -1,0 +1,179 @@
+"""One recording read in another way: what the kinematic identities gain by it.
+
+References: likelihood ratio of Gaussian residuals with their variance estimated (profile
+likelihood); the number of independent residuals from their long-run variance (Bartlett window).
+Known limits: residuals of different identities count as independent.
+Validated with: test/diagnosis/test_sensors_conventions.py.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from truck_blowout_sim.diagnosis.sensors.distortions import Convention, GravityConvention
+from truck_blowout_sim.diagnosis.sensors.geometry import Geometry
+from truck_blowout_sim.diagnosis.sensors.identities import (
+    Identity,
+    articulation_identities,
+    body_identities,
+    channel_names,
+    hitch_identities,
+)
+from truck_blowout_sim.diagnosis.sensors.signals import Signals, smoothed
+from truck_blowout_sim.diagnosis.sensors.windows import Windows, make_windows
+
+FloatArray = NDArray[np.float64]
+
+WHEEL = "steering_wheel_angle_rad"
+_LONGEST_S = 2.0  # of the correlation of a residual
+_DRIVES_MPS = 5.0  # no truck reverses faster
+_BACKWARD = 20.0  # log odds against one that does, over a whole recording
+
+
+@dataclass(frozen=True)
+class Reading:
+    """One recording with what its identities leave as it stands.
+
+    ``mounted``: [windows, k] what errors of mounting add to any of them.
+    """
+
+    signals: Signals
+    identities: tuple[Identity, ...]
+    windows: Windows
+    left: dict[str, FloatArray]
+    mounted: FloatArray
+
+    @classmethod
+    def of(cls, signals: Signals, geometry: Geometry) -> Reading:
+        """Every identity that the recording has the channels for."""
+        asked = [i for unit in ("tractor", "trailer") for i in body_identities(unit)]
+        asked += [*hitch_identities(geometry), *articulation_identities()]
+        kept = tuple(i for i in asked if i.available(signals))
+        windows = make_windows(signals.period_s)
+        left = {i.name: _left(i, signals, windows) for i in kept}
+        return cls(signals, kept, windows, left, _mounted(signals, windows))
+
+    def read_as(self, convention: Convention) -> Reading:
+        """The log under another reading."""
+        signals = convention.read(self.signals)
+        touched = self._touched(convention)
+        left = {i.name: _left(i, signals, self.windows) if i in touched else self.left[i.name]
+                for i in self.identities}  # fmt: skip
+        return replace(self, signals=signals, left=left)
+
+    def _touched(self, convention: Convention) -> list[Identity]:
+        if isinstance(convention, GravityConvention):
+            return [i for i in self.identities if "acceleration" in i.name]
+        return [i for i in self.identities if set(i.channels) & set(convention.channels)]
+
+    def log_ratio(self, convention: Convention, of: str = "") -> float:
+        """Log likelihood of the log so read over that of the log as it stands.
+
+        ``of``: a word in the names of the identities that are asked alone.
+        """
+        signals = convention.read(self.signals)
+        total = sum(self._gain(i, signals) for i in self._touched(convention) if of in i.name)
+        return total + _steered(signals) - _steered(self.signals) + (
+            _forward(signals) - _forward(self.signals))
+
+    def concerned(self, convention: Convention) -> set[str]:
+        """Recorded channels of all identities that another reading changes."""
+        return {c for i in self._touched(convention) for c in i.channels if c in self.signals}
+
+    def late_gain(self, channel: str, delay_s: float, convention: Convention) -> float:
+        """Log likelihood ratio with a channel read that much earlier.
+
+        Of the identities that the other reading changes.
+        """
+        step = round(delay_s / self.signals.period_s)
+        if step == 0:
+            return 0.0
+        early = np.concatenate([self.signals[channel][step:], np.full(step, np.nan)])
+        signals = self.signals.with_values({channel: early})
+        return sum(self._gain(i, signals) for i in self._touched(convention)
+                   if channel in i.channels)  # fmt: skip
+
+    def gain_of(self, signals: Signals) -> float:
+        """The same for other signals, by the identities of accelerations."""
+        return sum(self._gain(i, signals) for i in self.identities if "acceleration" in i.name)
+
+    def _gain(self, identity: Identity, signals: Signals) -> float:
+        after = _left(identity, signals, self.windows)
+        return _gain(self.left[identity.name], after, self.mounted, self.windows)
+
+
+def _left(identity: Identity, signals: Signals, windows: Windows) -> FloatArray:
+    """What the identity leaves under each bump; NaN where it cannot be asked."""
+    out = windows.mean(identity.algebraic(signals))
+    for channel, factor in identity.rates:
+        out = out - factor * windows.derivative(signals[channel])
+    return out
+
+
+def _mounted(signals: Signals, windows: Windows) -> FloatArray:
+    """A constant, and the forward speed: an angle that is off by one adds it to a side speed."""
+    speed = channel_names("tractor")["vx"]
+    some = [windows.mean(signals[speed])] if speed in signals else []
+    constant = np.ones_like(windows.mean(signals.time_s))
+    return np.stack([constant, *some], axis=1)
+
+
+def _gain(before: FloatArray, after: FloatArray, mounted: FloatArray, windows: Windows) -> float:
+    """Log likelihood ratio of two residuals, each with its own variance.
+
+    Without what errors of mounting add to them, which says nothing of a sign.
+    """
+    both = np.isfinite(before) & np.isfinite(after) & np.isfinite(mounted).all(axis=1)
+    if both.sum() < 10:
+        return 0.0
+    basis, _ = np.linalg.qr(mounted[both])
+    old, new = (v[both] - basis @ (basis.T @ v[both]) for v in (before, after))
+    bump_s = windows.step * windows.period_s
+    count = min(_independent(old, bump_s), _independent(new, bump_s))
+    tiny = 1e-12
+    ratio = (float(np.var(old)) + tiny) / (float(np.var(new)) + tiny)
+    return 0.5 * count * float(np.log(ratio))
+
+
+def _independent(values: FloatArray, spacing_s: float) -> float:
+    """Number of independent values, by the long-run variance over two seconds."""
+    moved = values - values.mean()
+    power = float(moved @ moved)
+    if power <= 0.0:
+        return float(values.size)
+    lags = min(max(round(_LONGEST_S / spacing_s), 1), values.size - 1)
+    weights = 1.0 - np.arange(1, lags + 1) / (lags + 1.0)
+    shared = np.array([float(moved[k:] @ moved[:-k]) for k in range(1, lags + 1)]) / power
+    # overlapping bumps share half a second: never more than two independent ones in a second
+    longest = max(1.0 + 2.0 * float(weights @ shared), 0.5 / spacing_s)
+    return float(values.size / longest)
+
+
+def _steered(signals: Signals) -> float:
+    """Log likelihood of the yaw rate given that the truck turns where the hand wheel points."""
+    rate = channel_names("tractor")["r"]
+    if WHEEL not in signals or rate not in signals:
+        return 0.0
+    width = 0.2 / signals.period_s
+    wheel, turning = smoothed(signals[WHEEL], width), smoothed(signals[rate], width)
+    first = min(signals.blown_since_s.values(), default=np.inf)
+    used = np.isfinite(wheel) & np.isfinite(turning) & (signals.time_s < first)
+    if used.sum() * signals.period_s < 3.0:
+        return 0.0
+    a, b = wheel[used] - wheel[used].mean(), turning[used] - turning[used].mean()
+    size = float(np.sqrt((a @ a) * (b @ b)))
+    alike = float(a @ b) / size if size > 0.0 else 0.0
+    every = max(1, round(0.1 / signals.period_s))
+    count = _independent(b[::every], every * signals.period_s)
+    # noise of both instruments bounds what a correlation can promise
+    return -0.5 * count * float(np.log1p(-min(alike, 0.99) ** 2)) if alike > 0.0 else 0.0
+
+
+def _forward(signals: Signals) -> float:
+    """Log odds against a truck that reverses fast."""
+    return sum(-_BACKWARD for unit in ("tractor", "trailer")
+               for speed in (channel_names(unit)["vx"],) if speed in signals
+               and float(np.nan_to_num(np.nanmedian(signals[speed]))) < -_DRIVES_MPS)  # fmt: skip
