@@ -11,6 +11,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from truck_blowout_sim.physics.choose import where
 from truck_blowout_sim.physics.jit import core
 from truck_blowout_sim.physics.layout import ABS, ABS_AT, HUB_S
 
@@ -20,13 +21,12 @@ Floats = NDArray[np.float64]
 @core
 def decide(x: Floats, s: int, p: Floats, slip: float, speed_mps: float, dt: float) -> None:
     """Set or clear the release flag of the hub at state ``s`` from the sensed ``slip``."""
-    if p[ABS_AT + ABS.mode] == 0.0 or speed_mps < p[ABS_AT + ABS.cutout_speed_mps]:
-        x[s + HUB_S.released] = 0.0
-        return
-    if x[s + HUB_S.released] > 0.0:
-        x[s + HUB_S.hold_s] += dt
-        if slip < p[ABS_AT + ABS.slip_on] and x[s + HUB_S.hold_s] >= p[ABS_AT + ABS.hold_s]:
-            x[s + HUB_S.released] = 0.0
-    elif slip > p[ABS_AT + ABS.slip_off]:
-        x[s + HUB_S.released] = 1.0
-        x[s + HUB_S.hold_s] = 0.0
+    off = (p[ABS_AT + ABS.mode] == 0.0) | (speed_mps < p[ABS_AT + ABS.cutout_speed_mps])
+    released = x[s + HUB_S.released] > 0.0
+    held_s = x[s + HUB_S.hold_s] + dt
+    ends = (slip < p[ABS_AT + ABS.slip_on]) & (held_s >= p[ABS_AT + ABS.hold_s])
+    slips = slip > p[ABS_AT + ABS.slip_off]
+    held_s = where(released, held_s, where(slips, 0.0, x[s + HUB_S.hold_s]))
+    release = where(released, where(ends, 0.0, 1.0), where(slips, 1.0, 0.0))
+    x[s + HUB_S.hold_s] = where(off, x[s + HUB_S.hold_s], held_s)
+    x[s + HUB_S.released] = where(off, 0.0, release)

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from truck_blowout_sim.physics.body import add_force
+from truck_blowout_sim.physics.choose import any_of, where
 from truck_blowout_sim.physics.jit import core
 from truck_blowout_sim.physics.layout import UNIT, UNIT_S, UNIT_W, WORLD, WORLD_AT
 from truck_blowout_sim.physics.scalar import ramp
@@ -25,11 +26,10 @@ Floats = NDArray[np.float64]
 def add_air(x: Floats, s: int, p: Floats, a: int, work: Floats, w: int) -> None:
     """Add drag and side force of the unit whose state, parameters, work start at s, a, w."""
     gust, side_x = p[a + UNIT.gust_mps], p[a + UNIT.side_x_m]
-    if gust != 0.0:
+    if any_of(gust != 0.0):
         gust *= ramp(x[0], p[a + UNIT.gust_start_s], p[a + UNIT.gust_end_s],
                      p[a + UNIT.gust_ramp_s])
-        if gust != 0.0:
-            side_x += p[a + UNIT.gust_ahead_m]
+        side_x += where(gust != 0.0, p[a + UNIT.gust_ahead_m], 0.0)
     wind_x = p[WORLD_AT + WORLD.wind_x_mps]
     wind_y = p[WORLD_AT + WORLD.wind_y_mps] + gust
     cy, sy = work[w + UNIT_W.cos_yaw], work[w + UNIT_W.sin_yaw]

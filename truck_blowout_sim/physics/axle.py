@@ -21,6 +21,7 @@ from truck_blowout_sim.physics.body import (
     add_moment,
     add_rotary_inertia,
 )
+from truck_blowout_sim.physics.choose import any_of, shared
 from truck_blowout_sim.physics.fifth_wheel import point_velocity
 from truck_blowout_sim.physics.jit import core
 from truck_blowout_sim.physics.layout import (
@@ -116,7 +117,7 @@ def place_axle(x: Floats, p: Floats, topo: Integers, i: int, first: int, work: F
     us, a, s = unit_state(unit_of(topo, i)), axle_params(topo, i), axle_state(topo, i)
     left, right = travels(x, us, work, w, p, a, s)
     steer = axle_steer_rad(p, a, left, right)
-    if p[a + AXLE.lateral_compliance_radpn] != 0.0:
+    if any_of(p[a + AXLE.lateral_compliance_radpn] != 0.0):
         steer += p[a + AXLE.lateral_compliance_radpn] * _axle_lateral(x, topo, i)
     x[s + AXLE_S.steer_rad] = steer
     rx, rz = p[a + AXLE.x_m], p[a + AXLE.roll_centre_z_m]
@@ -151,10 +152,16 @@ def tires_of_hub(topo: Integers, first: int, hub: int) -> int:
 
 
 @core
+def frame_end(p: Floats, a: int) -> int:
+    """Which end of the twisting frame an axle carries: 0 the front, 1 the rear."""
+    return 0 if shared(p[a + AXLE.x_m]) > 0.0 else 1
+
+
+@core
 def travels(x: Floats, us: int, work: Floats, w: int, p: Floats, a: int, s: int
             ) -> tuple[float, float]:
     """Compression [m] of the springs of the axle at ``a`` and ``s``, left and right."""
-    twist = x[us + UNIT_S.twist_front_rad + (0 if p[a + AXLE.x_m] > 0.0 else 1)]
+    twist = x[us + UNIT_S.twist_front_rad + frame_end(p, a)]
     return (suspension.travel_m(x, us, work, w, p, a, s, 1.0, twist),
             suspension.travel_m(x, us, work, w, p, a, s, -1.0, twist))
 
@@ -179,7 +186,7 @@ def move_axle(x: Floats, p: Floats, topo: Integers, i: int, first: int, work: Fl
     """
     unit = unit_of(topo, i)
     us, a, s = unit_state(unit), axle_params(topo, i), axle_state(topo, i)
-    end = 0 if p[a + AXLE.x_m] > 0.0 else 1
+    end = frame_end(p, a)
     high = _roll_centre_z(x, us, p, a, work, w)
     first, force, kingpin = _collect(x, p, topo, i, first, a, s, high, kingpin_axis, drive_n, lanes,
                                      dt)

@@ -14,6 +14,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from truck_blowout_sim.physics.choose import any_of, where
 from truck_blowout_sim.physics.jit import core
 from truck_blowout_sim.physics.layout import UNIT, UNIT_S, UNIT_W
 from truck_blowout_sim.physics.scalar import clip, smooth, smooth_slopes
@@ -103,9 +104,10 @@ def shift_payload(x: Floats, s: int, p: Floats, a: int, work: Floats, w: int) ->
     """Move the payload: first moment, inertia and weight moment of the displaced mass."""
     time = (x[0] - p[a + UNIT.shift_start_s]) / p[a + UNIT.shift_duration_s]
     share = smooth(time)
-    if share <= 0.0 or p[a + UNIT.payload_kg] <= 0.0:
+    # a load that is not there, or has not begun to move, adds zeros
+    m = max(p[a + UNIT.payload_kg], 0.0)
+    if not any_of((share > 0.0) & (m > 0.0)):
         return
-    m = p[a + UNIT.payload_kg]
     dx, dy = share * p[a + UNIT.shift_x_m], share * p[a + UNIT.shift_y_m]
     x0, y0, z0 = p[a + UNIT.payload_x_m], p[a + UNIT.payload_y_m], p[a + UNIT.payload_z_m]
     x1, y1 = x0 + dx, y0 + dy
@@ -133,7 +135,7 @@ def shift_payload(x: Floats, s: int, p: Floats, a: int, work: Floats, w: int) ->
     work[w + UNIT_W.fx_n] -= pr * dot - w2 * sx
     work[w + UNIT_W.fy_n] -= qr * dot - w2 * sy
     work[w + UNIT_W.fz_n] -= rr * dot
-    if time < 1.0:
+    if any_of(time < 1.0):
         _push_back(x, s, p, a, work, w, smooth_slopes(time), (x1, y1, z0))
 
 
@@ -141,7 +143,7 @@ def shift_payload(x: Floats, s: int, p: Floats, a: int, work: Floats, w: int) ->
 def _push_back(x: Floats, s: int, p: Floats, a: int, work: Floats, w: int,
                slopes: tuple[float, float], at: tuple[float, float, float]) -> None:
     """What moving the load pushes its unit back with: -m (a_rel + 2 omega x v_rel) where it is."""
-    m, duration = p[a + UNIT.payload_kg], p[a + UNIT.shift_duration_s]
+    m, duration = max(p[a + UNIT.payload_kg], 0.0), p[a + UNIT.shift_duration_s]
     rate, bend = slopes[0] / duration, slopes[1] / (duration * duration)
     dx, dy = p[a + UNIT.shift_x_m], p[a + UNIT.shift_y_m]
     pr, qr, rr = x[s + UNIT_S.p_radps], x[s + UNIT_S.q_radps], x[s + UNIT_S.r_radps]
@@ -168,11 +170,12 @@ def twist_frame(x: Floats, s: int, p: Floats, a: int, work: Floats, w: int, dt: 
     """Twist the massless ends of the frame: c dtau/dt = moment - k tau, implicit in all springs."""
     for end in range(2):
         k = p[a + UNIT.torsion_front_nmprad + end]
-        if k > 0.0:
+        if any_of(k > 0.0):
             twist = x[s + UNIT_S.twist_front_rad + end]
             rate = (work[w + UNIT_W.front_nm + end] - k * twist) / (
                 k * p[a + UNIT.torsion_damping_s] + dt * (k + work[w + UNIT_W.front_nmprad + end]))
-            x[s + UNIT_S.twist_front_rad + end] = clip(twist + dt * rate, -0.3, 0.3)
+            x[s + UNIT_S.twist_front_rad + end] = where(
+                k > 0.0, clip(twist + dt * rate, -0.3, 0.3), twist)
 
 
 @core

@@ -11,6 +11,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from truck_blowout_sim.physics.choose import pick, shared, where, whole
 from truck_blowout_sim.physics.jit import core
 from truck_blowout_sim.physics.layout import (
     CIRCUIT,
@@ -34,7 +35,7 @@ Integers = NDArray[np.int64]
 def write_lines(x: Floats, topo: Integers, inputs: Floats) -> None:
     """Put the control pressures of this step into the delay lines."""
     n = topo[TOPOLOGY.line_length]
-    position = int(x[GLOBAL_S.line_position]) + 1
+    position = int(shared(x[GLOBAL_S.line_position])) + 1
     if position >= n:
         position = 0
     x[GLOBAL_S.line_position] = position
@@ -50,12 +51,12 @@ def delayed_pa(x: Floats, p: Floats, topo: Integers, circuit: int, dt: float) ->
     at = CIRCUIT_AT + circuit * CIRCUIT_SIZE
     delay = (p[at + CIRCUIT.delay_s] + p[at + CIRCUIT.delay_extra_s]) / dt
     back = x[GLOBAL_S.line_position] - clip(delay, 0.0, n - 2.0)
-    if back < 0.0:
-        back += n
-    i = int(back)
-    j = i + 1 if i + 1 < n else 0
+    back = where(back < 0.0, back + n, back)
+    i = whole(back)
+    j = where(i + 1 < n, i + 1, 0)
     line = brake_line(topo, circuit)
-    return x[line + i] + (back - i) * (x[line + j] - x[line + i])
+    before = pick(x, line + i)
+    return before + (back - i) * (pick(x, line + j) - before)
 
 
 @core
@@ -63,7 +64,7 @@ def advance_chamber(x: Floats, s: int, p: Floats, circuit: int, control_pa: floa
                     dt: float) -> None:
     """First-order lag of a chamber towards the control pressure, or zero while released."""
     at = CIRCUIT_AT + circuit * CIRCUIT_SIZE
-    target = 0.0 if x[s + HUB_S.released] > 0.0 else control_pa
+    target = where(x[s + HUB_S.released] > 0.0, 0.0, control_pa)
     lag = max(p[at + CIRCUIT.lag_s] + p[at + CIRCUIT.lag_extra_s], 1e-6)
     x[s + HUB_S.chamber_pa] += (target - x[s + HUB_S.chamber_pa]) * dt / (lag + dt)
 
@@ -72,12 +73,11 @@ def advance_chamber(x: Floats, s: int, p: Floats, circuit: int, control_pa: floa
 def torque_nm(x: Floats, s: int, p: Floats, h: int, circuit: int) -> float:
     """Brake torque [N m] of a hub at its chamber pressure and heat."""
     at = CIRCUIT_AT + circuit * CIRCUIT_SIZE
-    if p[h + HUB.brake_enabled] == 0.0 or p[at + CIRCUIT.enabled] == 0.0:
-        return 0.0
+    off = (p[h + HUB.brake_enabled] == 0.0) | (p[at + CIRCUIT.enabled] == 0.0)
     over = max(x[s + HUB_S.chamber_pa] - p[h + HUB.brake_pushout_pa], 0.0)
     torque = p[h + HUB.brake_linear_nmppa] * over - p[h + HUB.brake_quadratic_nmppa2] * over * over
     fade = 1.0 + p[at + CIRCUIT.fade_per_j] * x[s + HUB_S.heat_j]
-    return max(torque, 0.0) * p[h + HUB.brake_gain] / max(fade, 0.05)
+    return where(off, 0.0, max(torque, 0.0) * p[h + HUB.brake_gain] / max(fade, 0.05))
 
 
 @core
@@ -86,12 +86,9 @@ def advance_spin(x: Floats, s: int, inertia: float, free_nm: float, brake_nm: fl
     """Advance a hub's spin; the brake stops it but never drives it. Returns the torque used."""
     free = x[s + HUB_S.spin_radps] + dt * free_nm / inertia
     bite = dt * brake_nm / inertia
-    if free > bite:
-        spin, used = free - bite, brake_nm
-    elif free < -bite:
-        spin, used = free + bite, -brake_nm
-    else:
-        spin, used = 0.0, free * inertia / dt
+    forward, backward = free > bite, free < -bite
+    spin = where(forward, free - bite, where(backward, free + bite, 0.0))
+    used = where(forward, brake_nm, where(backward, -brake_nm, free * inertia / dt))
     x[s + HUB_S.heat_j] += dt * used * 0.5 * (spin + x[s + HUB_S.spin_radps])
     x[s + HUB_S.spin_radps] = spin
     x[s + HUB_S.angle_rad] += dt * spin

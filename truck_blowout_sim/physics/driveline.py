@@ -11,6 +11,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from truck_blowout_sim.physics.choose import where
 from truck_blowout_sim.physics.jit import core
 from truck_blowout_sim.physics.layout import DRIVE, DRIVE_AT
 from truck_blowout_sim.physics.scalar import clip
@@ -23,12 +24,11 @@ def net_force_n(p: Floats, time_s: float, throttle: float, speed_mps: float) -> 
     """Net force [N] at the driven wheels, forward positive."""
     creep = p[DRIVE_AT + DRIVE.creep_speed_mps]
     fade = clip(speed_mps / creep, -1.0, 1.0)
-    if time_s >= p[DRIVE_AT + DRIVE.clutch_open_time_s]:
-        return -p[DRIVE_AT + DRIVE.clutch_open_drag_n] * fade
     pull = throttle * p[DRIVE_AT + DRIVE.power_w] / max(abs(speed_mps), creep)
     pull = min(pull, p[DRIVE_AT + DRIVE.max_force_n])
     drag = (p[DRIVE_AT + DRIVE.drag_n] + p[DRIVE_AT + DRIVE.drag_extra_n]
             + p[DRIVE_AT + DRIVE.drag_extra_nspm] * abs(speed_mps))
     closed = max(1.0 - throttle / p[DRIVE_AT + DRIVE.retarder_throttle], 0.0)
     drag = drag * (1.0 - throttle) + p[DRIVE_AT + DRIVE.retarder_n] * closed
-    return pull - drag * fade
+    return where(time_s >= p[DRIVE_AT + DRIVE.clutch_open_time_s],
+                 -p[DRIVE_AT + DRIVE.clutch_open_drag_n] * fade, pull - drag * fade)

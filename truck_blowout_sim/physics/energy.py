@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from truck_blowout_sim.physics import road, suspension
-from truck_blowout_sim.physics.axle import heading_axes
+from truck_blowout_sim.physics.axle import frame_end, heading_axes
 from truck_blowout_sim.physics.fifth_wheel import point_velocity
 from truck_blowout_sim.physics.jit import core, entry
 from truck_blowout_sim.physics.layout import (
@@ -111,7 +111,7 @@ def _travels(x: Floats, p: Floats, topo: Integers, i: int, work: Floats
     unit = unit_of(topo, i)
     us, w = unit_state(unit), unit_work(unit)
     a, s = axle_params(topo, i), axle_state(topo, i)
-    twist = x[us + UNIT_S.twist_front_rad + (0 if p[a + AXLE.x_m] > 0.0 else 1)]
+    twist = x[us + UNIT_S.twist_front_rad + frame_end(p, a)]
     left = suspension.travel_m(x, us, work, w, p, a, s, 1.0, twist)
     right = suspension.travel_m(x, us, work, w, p, a, s, -1.0, twist)
     lean = 0.5 * (left - right) / p[a + AXLE.half_spacing_m]

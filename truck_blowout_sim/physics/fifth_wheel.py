@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from truck_blowout_sim.physics.body import add_force, add_moment
+from truck_blowout_sim.physics.choose import where
 from truck_blowout_sim.physics.jit import core
 from truck_blowout_sim.physics.layout import (
     COUPLING,
@@ -48,11 +49,9 @@ def roll_moment_nm(p: Floats, angle_rad: float, load_n: float) -> float:
     lift = max(load_n, 0.0) * p[COUPLING_AT + COUPLING.plate_half_width_m]
     open_at = lift / k
     size = abs(angle_rad)
-    if size <= open_at:
-        return k * angle_rad
     shut_at = open_at + p[COUPLING_AT + COUPLING.roll_lash_rad]
     moment = lift + k * max(size - shut_at, 0.0)
-    return moment if angle_rad > 0.0 else -moment
+    return where(size <= open_at, k * angle_rad, where(angle_rad > 0.0, moment, -moment))
 
 
 @core
@@ -61,7 +60,7 @@ def in_contact(p: Floats, angle_rad: float, load_n: float) -> bool:
     k = p[COUPLING_AT + COUPLING.roll_stiffness_nmprad]
     open_at = max(load_n, 0.0) * p[COUPLING_AT + COUPLING.plate_half_width_m] / k
     shut_at = open_at + p[COUPLING_AT + COUPLING.roll_lash_rad]
-    return abs(angle_rad) <= open_at or abs(angle_rad) >= shut_at
+    return (abs(angle_rad) <= open_at) | (abs(angle_rad) >= shut_at)
 
 
 @core
@@ -131,8 +130,8 @@ def _add_roll(x: Floats, s0: int, s1: int, p: Floats, work: Floats, w0: int, w1:
     work[w0 + UNIT_W.rear_nm] -= moment
     work[w1 + UNIT_W.front_nmprad] += stiff
     work[w0 + UNIT_W.rear_nmprad] += stiff
-    if in_contact(p, angle - twist, load):
-        moment += p[COUPLING_AT + COUPLING.roll_damping_nmsprad] * (turn0 - turn1)
+    damped = moment + p[COUPLING_AT + COUPLING.roll_damping_nmsprad] * (turn0 - turn1)
+    moment = where(in_contact(p, angle - twist, load), damped, moment)
     x[GLOBAL_S.coupling_roll_nm] = moment
     add_moment(work, w1, moment * n1[0], moment * n1[1], moment * n1[2])
     add_moment(work, w0, -moment * n0[0], -moment * n0[1], -moment * n0[2])

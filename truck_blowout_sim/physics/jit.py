@@ -15,6 +15,7 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
+from truck_blowout_sim.physics import choose_compiled  # noqa: F401  # for what it teaches
 from truck_blowout_sim.physics.cache import cache_folder
 from truck_blowout_sim.physics.entries import Entry, on_stack
 
@@ -39,10 +40,11 @@ def entry(function: Function) -> Function:
     return function if PLAIN_PYTHON else cast(Function, Entry(function, _OPTIONS))
 
 
-def _numbers(size: int) -> NDArray[np.float64]:
+def _numbers(_like: NDArray[np.float64], size: int) -> NDArray[np.float64]:
     """Uninitialized numbers."""
     return np.empty(size)
 
 
 # scratch of the compiled function that asks for it: the compiler knows that nothing else is there
-stack_floats = _numbers if PLAIN_PYTHON else cast("Callable[[int], NDArray[np.float64]]", on_stack)
+stack_floats = _numbers if PLAIN_PYTHON else cast(
+    "Callable[[NDArray[np.float64], int], NDArray[np.float64]]", on_stack)

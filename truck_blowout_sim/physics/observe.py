@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from truck_blowout_sim.physics import road
+from truck_blowout_sim.physics.choose import where
 from truck_blowout_sim.physics.fifth_wheel import point_velocity
 from truck_blowout_sim.physics.jit import core, entry
 from truck_blowout_sim.physics.layout import (
@@ -29,6 +30,7 @@ from truck_blowout_sim.physics.layout import (
 )
 from truck_blowout_sim.physics.places import hub_state, tire_state, unit_params, unit_state
 from truck_blowout_sim.physics.rotation import fill_rotation, to_body, to_map
+from truck_blowout_sim.physics.scalar import clip
 
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
@@ -111,7 +113,8 @@ def _tilt(x: Floats, s: int, p: Floats, work: Floats) -> tuple[float, float]:
     """
     g = road.gravity(p, x[GLOBAL_S.time_s])
     size = math.sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2])
-    if size <= 0.0:
-        return x[s + UNIT_S.roll_rad], x[s + UNIT_S.pitch_rad]
     down = to_body(work, 0, g[0] / size, g[1] / size, g[2] / size)
-    return math.atan2(-down[1], -down[2]), math.asin(min(max(down[0], -1.0), 1.0))
+    roll_rad, pitch_rad = math.atan2(-down[1], -down[2]), math.asin(clip(down[0], -1.0, 1.0))
+    heavy = size > 0.0
+    return (where(heavy, roll_rad, x[s + UNIT_S.roll_rad]),
+            where(heavy, pitch_rad, x[s + UNIT_S.pitch_rad]))

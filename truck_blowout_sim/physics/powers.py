@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from truck_blowout_sim.physics import suspension
 from truck_blowout_sim.physics.aero import add_air
-from truck_blowout_sim.physics.axle import heading_axes
+from truck_blowout_sim.physics.axle import frame_end, heading_axes
 from truck_blowout_sim.physics.fifth_wheel import point_velocity
 from truck_blowout_sim.physics.jit import core, entry
 from truck_blowout_sim.physics.layout import (
@@ -141,7 +141,7 @@ def _suspension_powers(before: Floats, after: Floats, x: Floats, p: Floats, topo
         begin = suspension.travel_rate_mps(before, us, work, w, p, a, s, side)
         force = p[a + AXLE.damping_nspm] * begin + after[s + AXLE_S.friction_left_n + k]
         out[POWER.dampers] -= force * rate
-    end = us + UNIT_S.twist_front_rad + (0 if p[a + AXLE.x_m] > 0.0 else 1)
+    end = us + UNIT_S.twist_front_rad + frame_end(p, a)
     arm = p[a + AXLE.half_spacing_m]
     lean = 0.5 * (suspension.travel_m(before, us, work, w, p, a, s, 1.0, before[end])
                   - suspension.travel_m(before, us, work, w, p, a, s, -1.0, before[end])) / arm

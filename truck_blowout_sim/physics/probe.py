@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from truck_blowout_sim.physics.body import add_force, add_moment
+from truck_blowout_sim.physics.choose import any_of, where
 from truck_blowout_sim.physics.jit import core
 from truck_blowout_sim.physics.layout import UNIT, UNIT_S
 from truck_blowout_sim.physics.scalar import ramp
@@ -28,13 +29,14 @@ def add_probe(x: Floats, s: int, p: Floats, a: int, work: Floats, w: int) -> Non
     fx = _law(x, s, p, a + UNIT.probe_fx_v_nspm)
     fy = _law(x, s, p, a + UNIT.probe_fy_v_nspm)
     mz = _law(x, s, p, a + UNIT.probe_mz_v_ns)
-    if p[a + UNIT.probe_start_s] <= x[0]:
-        share = ramp(x[0] + 1e-9, p[a + UNIT.probe_start_s], p[a + UNIT.probe_end_s],
-                     p[a + UNIT.probe_ramp_s])
+    begun = p[a + UNIT.probe_start_s] <= x[0]
+    if any_of(begun):
+        share = where(begun, ramp(x[0] + 1e-9, p[a + UNIT.probe_start_s], p[a + UNIT.probe_end_s],
+                                  p[a + UNIT.probe_ramp_s]), 0.0)
         fx += share * p[a + UNIT.probe_fx_n]
         fy += share * p[a + UNIT.probe_fy_n]
         mz += share * p[a + UNIT.probe_mz_nm]
-    if fx == 0.0 and fy == 0.0 and mz == 0.0:
+    if not any_of((fx != 0.0) | (fy != 0.0) | (mz != 0.0)):
         return
     add_force(work, w, (fx, fy, 0.0),
               (p[a + UNIT.base_x_m], p[a + UNIT.base_y_m], p[a + UNIT.base_z_m]))

@@ -15,9 +15,10 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
+from truck_blowout_sim.physics.choose import any_of, where
 from truck_blowout_sim.physics.jit import core
 from truck_blowout_sim.physics.layout import WORLD, WORLD_AT
-from truck_blowout_sim.physics.trig import turned
+from truck_blowout_sim.physics.trig import heading, turned
 
 Floats = NDArray[np.float64]
 _WAVES = 8
@@ -31,15 +32,15 @@ _NORM = math.sqrt(2.0 * (1.0 - _RATIO**2) / (1.0 - _RATIO ** (2 * _WAVES)))
 def height(p: Floats, x_m: float, y_m: float) -> float:
     """Road height [m] at a place in map."""
     rms = p[WORLD_AT + WORLD.road_roughness_m]
-    if rms == 0.0:
+    if not any_of(rms != 0.0):
         return 0.0
-    seed = p[WORLD_AT + WORLD.road_roughness_seed]
     total = 0.0
+    seed = p[WORLD_AT + WORLD.road_roughness_seed]
     amplitude = rms * _NORM
     wavelength = _LONGEST_M
     for k in range(_WAVES):
         phase = 2.399963 * (k + 1) * (1.0 + seed) + 1.7 * y_m
-        total += amplitude * math.sin(6.283185307179586 * x_m / wavelength + phase)
+        total += amplitude * heading(2.0 * math.pi * x_m / wavelength + phase)[1]
         amplitude *= _RATIO
         wavelength *= _RATIO
     return total
@@ -49,21 +50,18 @@ def height(p: Floats, x_m: float, y_m: float) -> float:
 def friction(p: Floats, time_s: float, x_m: float, y_m: float) -> float:
     """Scale of tire-road friction at a place and time."""
     scale = p[WORLD_AT + WORLD.friction_scale]
-    if (x_m >= p[WORLD_AT + WORLD.friction_change_x_m]
-            or time_s >= p[WORLD_AT + WORLD.friction_change_time_s]):
-        scale *= p[WORLD_AT + WORLD.friction_change_scale]
-    if (p[WORLD_AT + WORLD.patch_x0_m] <= x_m <= p[WORLD_AT + WORLD.patch_x1_m]
-            and p[WORLD_AT + WORLD.patch_y0_m] <= y_m <= p[WORLD_AT + WORLD.patch_y1_m]):
-        scale *= p[WORLD_AT + WORLD.patch_scale]
-    return scale
+    changed = ((x_m >= p[WORLD_AT + WORLD.friction_change_x_m])
+               | (time_s >= p[WORLD_AT + WORLD.friction_change_time_s]))
+    scale = where(changed, scale * p[WORLD_AT + WORLD.friction_change_scale], scale)
+    patched = ((p[WORLD_AT + WORLD.patch_x0_m] <= x_m) & (x_m <= p[WORLD_AT + WORLD.patch_x1_m])
+               & (p[WORLD_AT + WORLD.patch_y0_m] <= y_m) & (y_m <= p[WORLD_AT + WORLD.patch_y1_m]))
+    return where(patched, scale * p[WORLD_AT + WORLD.patch_scale], scale)
 
 
 @core
 def _eased(since_s: float, ramp_s: float) -> float:
     """Share of a change that has come about after a time, 0 before it begins."""
-    if since_s <= 0.0:
-        return 0.0
-    return min(since_s / max(ramp_s, 1e-3), 1.0)
+    return where(since_s <= 0.0, 0.0, min(since_s / max(ramp_s, 1e-3), 1.0))
 
 
 @core

@@ -8,23 +8,29 @@ Validated with: test/physics/test_scalar.py.
 
 from __future__ import annotations
 
+import math
+
+from truck_blowout_sim.physics.choose import where
 from truck_blowout_sim.physics.jit import core
 
 
 @core
 def clip(value: float, low: float, high: float) -> float:
     """Limit ``value`` to [low, high]."""
-    return low if value < low else (high if value > high else value)
+    return where(value < low, low, where(value > high, high, value))
+
+
+@core
+def finite(value: float) -> bool:
+    """Whether it is a number and not infinite."""
+    return abs(value) < math.inf
 
 
 @core
 def deadzone(value: float, half_width: float) -> float:
     """Zero inside +-half_width, the excess outside."""
-    if value > half_width:
-        return value - half_width
-    if value < -half_width:
-        return value + half_width
-    return 0.0
+    return where(value > half_width, value - half_width,
+                 where(value < -half_width, value + half_width, 0.0))
 
 
 @core
@@ -34,18 +40,16 @@ def hysteresis(force: float, move: float, limit: float, transition: float) -> fl
     All in the same pair of units (N and m, or N m and rad).
     """
     share = abs(move) / (transition + abs(move))
-    envelope = limit if move > 0.0 else -limit
+    envelope = where(move > 0.0, limit, -limit)
     return force + (envelope - force) * share
 
 
 @core
 def ramp(time_s: float, start_s: float, end_s: float, rise_s: float) -> float:
     """0 before start, 1 between, 0 after end, with smooth flanks of ``rise_s``."""
-    if time_s <= start_s or time_s >= end_s + rise_s:
-        return 0.0
-    up = smooth((time_s - start_s) / rise_s) if rise_s > 0.0 else 1.0
-    down = smooth((time_s - end_s) / rise_s) if rise_s > 0.0 else 0.0
-    return up - down
+    up = where(rise_s > 0.0, smooth((time_s - start_s) / rise_s), 1.0)
+    down = where(rise_s > 0.0, smooth((time_s - end_s) / rise_s), 0.0)
+    return where((time_s <= start_s) | (time_s >= end_s + rise_s), 0.0, up - down)
 
 
 @core
@@ -58,6 +62,6 @@ def smooth(share: float) -> float:
 @core
 def smooth_slopes(share: float) -> tuple[float, float]:
     """First and second derivative of :func:`smooth`; zero where it has ended."""
-    if share <= 0.0 or share >= 1.0:
-        return 0.0, 0.0
-    return 6.0 * share * (1.0 - share), 6.0 - 12.0 * share
+    over = (share <= 0.0) | (share >= 1.0)
+    return (where(over, 0.0, 6.0 * share * (1.0 - share)),
+            where(over, 0.0, 6.0 - 12.0 * share))

@@ -18,6 +18,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
+from truck_blowout_sim.physics.choose import shared, where
 from truck_blowout_sim.physics.jit import core
 from truck_blowout_sim.physics.layout import GLOBAL_S, STEER, STEER_AT
 from truck_blowout_sim.physics.scalar import clip, deadzone, hysteresis
@@ -88,12 +89,11 @@ def advance_steering(x: Floats, p: Floats, hand_wheel_rad: float, moment_nm: flo
     """Turn the road wheels by hand wheel and kingpin moment for one step."""
     target = commanded_rad(p, hand_wheel_rad)
     lag = p[STEER_AT + STEER.lag_s]
-    if lag > 0.0:
-        before = x[GLOBAL_S.steer_command_rad]
-        target = before + dt / (lag + dt) * (target - before)
+    before = x[GLOBAL_S.steer_command_rad]
+    target = where(lag > 0.0, before + dt / (lag + dt) * (target - before), target)
     x[GLOBAL_S.steer_command_rad] = target
     x[GLOBAL_S.kingpin_moment_nm] = moment_nm
-    if p[STEER_AT + STEER.compliance_on] == 0.0:
+    if shared(p[STEER_AT + STEER.compliance_on]) == 0.0:
         x[GLOBAL_S.steer_rad] = target
         x[GLOBAL_S.steer_rate_radps] = 0.0
         return

@@ -18,6 +18,7 @@ from truck_blowout_sim.physics import abs_logic, brakes, driveline, road, steeri
 from truck_blowout_sim.physics.aero import add_air
 from truck_blowout_sim.physics.axle import move_axle, place_axle
 from truck_blowout_sim.physics.body import add_force, solve_unit, start_unit, twist_frame
+from truck_blowout_sim.physics.choose import any_of, shared, where
 from truck_blowout_sim.physics.fifth_wheel import add_coupling
 from truck_blowout_sim.physics.jit import core, entry, stack_floats
 from truck_blowout_sim.physics.layout import (
@@ -51,6 +52,7 @@ from truck_blowout_sim.physics.places import (
 )
 from truck_blowout_sim.physics.probe import add_probe
 from truck_blowout_sim.physics.rotation import angle_rates, fill_rotation, to_body, to_map
+from truck_blowout_sim.physics.scalar import finite
 from truck_blowout_sim.physics.tires.lanes import N_LANES
 from truck_blowout_sim.physics.tires.tire import tire_pass
 
@@ -65,8 +67,7 @@ def step(x: Floats, p: Floats, topo: Integers, inputs: Floats, dt: float, work: 
     n_units = topo[TOPOLOGY.n_units]
     for k in range(N_INPUTS):
         # limits further down would turn a NaN into a command
-        if not np.isfinite(inputs[k]):
-            x[GLOBAL_S.nonfinite] = 1.0
+        x[GLOBAL_S.nonfinite] = where(finite(inputs[k]), x[GLOBAL_S.nonfinite], 1.0)
     g = road.gravity(p, x[GLOBAL_S.time_s])
     for u in range(n_units):
         s, a, w = unit_state(u), unit_params(u), unit_work(u)
@@ -82,7 +83,7 @@ def step(x: Floats, p: Floats, topo: Integers, inputs: Floats, dt: float, work: 
     drive = driveline.net_force_n(p, x[0], inputs[INPUT.throttle], speed)
     x[GLOBAL_S.drive_force_n] = drive
     push = p[DRIVE_AT + DRIVE.push_n]
-    if push != 0.0:
+    if any_of(push != 0.0):
         add_force(work, 0, (push, 0.0, 0.0), (0.0, 0.0, -p[UNIT_AT + UNIT.cg_height_m]))
     kingpin = advance_axles(x, p, topo, work, g, drive, dt)
     for u in range(n_units):
@@ -103,7 +104,7 @@ def step(x: Floats, p: Floats, topo: Integers, inputs: Floats, dt: float, work: 
 def advance_axles(x: Floats, p: Floats, topo: Integers, work: Floats,
                   gravity: tuple[float, float, float], drive_n: float, dt: float) -> float:
     """Place all tires, let one pass make their forces, move axles; the kingpin moment [N m]."""
-    lanes = stack_floats(N_LANES)
+    lanes = stack_floats(x, N_LANES)
     first = 0
     for i in range(topo[TOPOLOGY.n_axles]):
         w = unit_work(unit_of(topo, i))
@@ -124,8 +125,8 @@ def move_unit(x: Floats, s: int, work: Floats, w: int, dt: float) -> None:
     p, q, r = x[s + UNIT_S.p_radps], x[s + UNIT_S.q_radps], x[s + UNIT_S.r_radps]
     u, v, v_up = x[s + UNIT_S.u_mps], x[s + UNIT_S.v_mps], x[s + UNIT_S.w_mps]
     ax, ay, az = x[s + UNIT_S.ax_mps2], x[s + UNIT_S.ay_mps2], x[s + UNIT_S.az_mps2]
-    if not np.isfinite(ax + ay + az + x[s + UNIT_S.rdot_radps2]):
-        x[GLOBAL_S.nonfinite] = 1.0
+    sound = finite(ax + ay + az + x[s + UNIT_S.rdot_radps2])
+    x[GLOBAL_S.nonfinite] = where(sound, x[GLOBAL_S.nonfinite], 1.0)
     x[s + UNIT_S.u_mps] = u + dt * (ax - q * v_up + r * v)
     x[s + UNIT_S.v_mps] = v + dt * (ay - r * u + p * v_up)
     x[s + UNIT_S.w_mps] = v_up + dt * (az - p * v + q * u)
@@ -147,14 +148,15 @@ def advance_brakes(x: Floats, p: Floats, topo: Integers, inputs: Floats, dt: flo
                    work: Floats) -> None:
     """Delay lines, anti-lock decisions and chamber pressures of all hubs."""
     brakes.write_lines(x, topo, inputs)
-    if p[ABS_AT + ABS.mode] > 0.0:
+    antilock = shared(p[ABS_AT + ABS.mode]) > 0.0
+    if antilock:
         fill_slips(x, topo, work)
     for i in range(topo[TOPOLOGY.n_axles]):
         circuit = circuit_of(topo, i)
         control = brakes.delayed_pa(x, p, topo, circuit, dt)
         for k in range(2):
             s = hub_state(topo, hub_at_side(i, k))
-            if p[ABS_AT + ABS.mode] > 0.0:
+            if antilock:
                 abs_logic.decide(x, s, p, sensed_slip(p, topo, i, k, circuit, work),
                                  x[STATE_UNIT_AT + UNIT_S.u_mps], dt)
             brakes.advance_chamber(x, s, p, circuit, control, dt)
@@ -167,15 +169,15 @@ def fill_slips(x: Floats, topo: Integers, work: Floats) -> None:
         work[SLIPS_AT + h] = 0.0
     for k in range(topo[TOPOLOGY.n_tires] - 1, -1, -1):
         s = tire_state(topo, k)
-        if x[s + TIRE_S.fz_n] > 0.0:
-            work[SLIPS_AT + hub_of(topo, k)] = -x[s + TIRE_S.slip]
+        slot = SLIPS_AT + hub_of(topo, k)
+        work[slot] = where(x[s + TIRE_S.fz_n] > 0.0, -x[s + TIRE_S.slip], work[slot])
 
 
 @core
 def sensed_slip(p: Floats, topo: Integers, axle: int, side: int, circuit: int, work: Floats
                 ) -> float:
     """Brake slip this hub's controller sees: its own, its side's, or its axle group's worst."""
-    if p[ABS_AT + ABS.mode] == 1.0 or circuit == 0:
+    if shared(p[ABS_AT + ABS.mode]) == 1.0 or circuit == 0:
         return work[SLIPS_AT + hub_at_side(axle, side)]
     sensed = axle
     for i in range(topo[TOPOLOGY.n_axles]):

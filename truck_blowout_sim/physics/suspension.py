@@ -12,6 +12,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from truck_blowout_sim.physics.choose import where
 from truck_blowout_sim.physics.jit import core
 from truck_blowout_sim.physics.layout import AXLE, AXLE_S, UNIT_S, UNIT_W
 from truck_blowout_sim.physics.scalar import clip, hysteresis
@@ -48,12 +49,9 @@ def travel_rate_mps(x: Floats, us: int, work: Floats, w: int, p: Floats, a: int,
 @core
 def spring_force_n(p: Floats, a: int, travel: float) -> float:
     """Elastic force [N] of one side: preload, rate, jounce and rebound stops."""
-    force = p[a + AXLE.preload_n] + p[a + AXLE.spring_npm] * travel
-    if travel > p[a + AXLE.jounce_m]:
-        force += p[a + AXLE.stop_npm] * (travel - p[a + AXLE.jounce_m])
-    elif travel < -p[a + AXLE.rebound_m]:
-        force += p[a + AXLE.stop_npm] * (travel + p[a + AXLE.rebound_m])
-    return force
+    beyond = where(travel > p[a + AXLE.jounce_m], travel - p[a + AXLE.jounce_m],
+                   where(travel < -p[a + AXLE.rebound_m], travel + p[a + AXLE.rebound_m], 0.0))
+    return p[a + AXLE.preload_n] + p[a + AXLE.spring_npm] * travel + p[a + AXLE.stop_npm] * beyond
 
 
 @core

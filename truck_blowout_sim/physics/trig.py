@@ -13,8 +13,7 @@ from __future__ import annotations
 
 import math
 
-import numpy as np
-
+from truck_blowout_sim.physics.choose import any_of, nearest, where
 from truck_blowout_sim.physics.jit import core
 
 _HALF_PI = 0.5 * math.pi
@@ -29,9 +28,9 @@ def arctan(x: float) -> float:
     """atan(x) for any x."""
     size = abs(x)
     far, near = size > _TAN_3_PI_8, size <= _TAN_PI_8
-    offset = _HALF_PI if far else (0.0 if near else _QUARTER_PI)
-    up = -1.0 if far else (size if near else size - 1.0)
-    down = size if far else (1.0 if near else size + 1.0)
+    offset = where(far, _HALF_PI, where(near, 0.0, _QUARTER_PI))
+    up = where(far, -1.0, where(near, size, size - 1.0))
+    down = where(far, size, where(near, 1.0, size + 1.0))
     t = up / down
     z = t * t
     series = ((((((((-0.027261111235046032 * z + 0.05170740364194833) * z - 0.06551427046701526)
@@ -39,7 +38,7 @@ def arctan(x: float) -> float:
                  * z + 0.11111089876389758) * z - 0.14285713934536187)
                * z + 0.19999999997745024) * z - 0.3333333333333088)
     angle = offset + (t + t * z * series)
-    return angle if x >= 0.0 else -angle
+    return where(x >= 0.0, angle, -angle)
 
 
 @core
@@ -52,7 +51,7 @@ def sine(angle: float) -> float:
                   - 2.5051978354290848e-08) * z + 2.7557318131656943e-06) * z
                 - 0.00019841269836983394) * z + 0.008333333333327423) * z - 0.16666666666666669)
     value = a + a * z * series
-    return value if angle >= 0.0 else -value
+    return where(angle >= 0.0, value, -value)
 
 
 @core
@@ -62,18 +61,20 @@ def cosine(angle: float) -> float:
 
 
 @core
-def turned(angle: float) -> tuple[float, float]:
-    """Cosine and sine of an angle that is mostly small, such as a steer or roll angle."""
-    if abs(angle) > _SMALL:
-        return math.cos(angle), math.sin(angle)
-    z = angle * angle
-    c = ((((-z / 90.0 + 1.0) * z / 56.0 - 1.0) * z / 30.0 + 1.0) * z / 12.0 - 1.0) * z / 2.0 + 1.0
-    s = ((((z / 72.0 - 1.0) * z / 42.0 + 1.0) * z / 20.0 - 1.0) * z / 6.0 + 1.0) * angle
-    return c, s
+def heading(angle: float) -> tuple[float, float]:
+    """Cosine and sine of any angle, such as a yaw angle after many turns."""
+    rest = angle - 2.0 * math.pi * nearest(angle / (2.0 * math.pi))
+    return cosine(rest), sine(rest)
 
 
 @core
-def heading(angle: float) -> tuple[float, float]:
-    """Cosine and sine of any angle, such as a yaw angle after many turns."""
-    rest = angle - 2.0 * math.pi * np.rint(angle / (2.0 * math.pi))
-    return cosine(rest), sine(rest)
+def turned(angle: float) -> tuple[float, float]:
+    """Cosine and sine of an angle that is mostly small, such as a steer or roll angle."""
+    z = angle * angle
+    c = ((((-z / 90.0 + 1.0) * z / 56.0 - 1.0) * z / 30.0 + 1.0) * z / 12.0 - 1.0) * z / 2.0 + 1.0
+    s = ((((z / 72.0 - 1.0) * z / 42.0 + 1.0) * z / 20.0 - 1.0) * z / 6.0 + 1.0) * angle
+    far = abs(angle) > _SMALL
+    if any_of(far):
+        far_c, far_s = heading(angle)
+        c, s = where(far, far_c, c), where(far, far_s, s)
+    return c, s

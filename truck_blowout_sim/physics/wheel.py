@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from truck_blowout_sim.physics import brakes, road
+from truck_blowout_sim.physics.choose import any_of, pick, shared, where
 from truck_blowout_sim.physics.jit import core
 from truck_blowout_sim.physics.layout import (
     AXLE,
@@ -80,19 +81,21 @@ def place_tires(x: Floats, s: int, p: Floats, h: int, a: int, axle_s: int, topo:
 def inflate(x: Floats, s: int, p: Floats, t: int, table_at: int, above_m: float, lanes: Floats,
             w: int, dt: float) -> None:
     """Air and law of one tire: what the pass over all tires cannot do without branches."""
-    stepped = p[t + TIRE.law] > 0.0
-    lanes[w + LANE.stepped] = 1.0 if stepped else 0.0
+    stepped = shared(p[t + TIRE.law]) > 0.0
+    lanes[w + LANE.stepped] = where(stepped, 1.0, 0.0)
     if stepped:
-        row = blowout.step_row(x, s, p, table_at + int(p[t + TIRE.table]))
-        lanes[w + LANE.row_radius_m] = p[row + _RADIUS]
-        lanes[w + LANE.row_stiffness_npm] = p[row + _STIFFNESS]
-        lanes[w + LANE.row_cornering] = p[row + _CORNERING]
-        lanes[w + LANE.row_aligning] = p[row + _ALIGNING]
-        lanes[w + LANE.row_rolling] = (p[row + _ROLLING]
-                                       + p[row + _ROLLING_SPM] * abs(lanes[w + LANE.vx_mps]))
-    if gas.leaks(x, s, p, t):
-        rim = 0.0 if stepped else blowout.rim_fraction(p, t, above_m)
+        row = blowout.step_row(x, s, p, table_at + int(shared(p[t + TIRE.table])))
+        lanes[w + LANE.row_radius_m] = pick(p, row + _RADIUS)
+        lanes[w + LANE.row_stiffness_npm] = pick(p, row + _STIFFNESS)
+        lanes[w + LANE.row_cornering] = pick(p, row + _CORNERING)
+        lanes[w + LANE.row_aligning] = pick(p, row + _ALIGNING)
+        speed = abs(lanes[w + LANE.vx_mps])
+        lanes[w + LANE.row_rolling] = pick(p, row + _ROLLING) + pick(p, row + _ROLLING_SPM) * speed
+    leaking, gauge = gas.leaks(x, s, p, t), x[s + TIRE_S.pressure_pa]
+    if any_of(leaking):
+        rim = where(stepped, 0.0, blowout.rim_fraction(p, t, above_m))
         gas.advance_pressure(x, s, p, t, rim, dt)
+        x[s + TIRE_S.pressure_pa] = where(leaking, x[s + TIRE_S.pressure_pa], gauge)
     lanes[w + LANE.pressure_pa] = x[s + TIRE_S.pressure_pa]
     lanes[w + LANE.softness] = blowout.softness(p, t, x[s + TIRE_S.pressure_pa])
 

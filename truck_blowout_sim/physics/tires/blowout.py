@@ -16,6 +16,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from truck_blowout_sim.physics.choose import any_of, power_where, shared, where
 from truck_blowout_sim.physics.jit import core
 from truck_blowout_sim.physics.layout import N_STEP_COLUMNS, TIRE, TIRE_S
 from truck_blowout_sim.physics.scalar import clip
@@ -26,13 +27,12 @@ Floats = NDArray[np.float64]
 @core
 def step_row(x: Floats, s: int, p: Floats, table: int) -> int:
     """Position of the step-table row in force; row 0 is the inflated tire."""
-    since = x[0] - x[s + TIRE_S.blown_time_s] if x[s + TIRE_S.blown_time_s] <= x[0] else -1.0
-    rows = int(p[table])
-    row = 0
-    for k in range(1, rows):
-        # half a nanosecond of slack: the step edges are sums of dt
-        if since >= p[table + 1 + k * N_STEP_COLUMNS] - 5e-10:
-            row = k
+    blown, row = x[s + TIRE_S.blown_time_s] <= x[0], 0
+    if any_of(blown):
+        since = where(blown, x[0] - x[s + TIRE_S.blown_time_s], -1.0)
+        for k in range(1, int(shared(p[table]))):
+            # half a nanosecond of slack: the step edges are sums of dt
+            row = where(since >= p[table + 1 + k * N_STEP_COLUMNS] - 5e-10, k, row)
     return table + 1 + row * N_STEP_COLUMNS
 
 
@@ -45,16 +45,16 @@ def vertical_load(p: Floats, t: int, gauge_pa: float, height_m: float, sink_mps:
     ``sink_mps`` is the rate of compression; ``stepped``: a row of a step table rules the tire.
     """
     sound = p[t + TIRE.stiffness_npm] + p[t + TIRE.stiffness_npmppa] * gauge_pa
-    stiffness = row_stiffness_npm if stepped else sound
+    stiffness = where(stepped, row_stiffness_npm, sound)
     # rows give the radius under the reference load
     free = row_radius_m + p[t + TIRE.reference_load_n] / stiffness
-    radius = free if stepped else p[t + TIRE.unloaded_radius_m]
+    radius = where(stepped, free, p[t + TIRE.unloaded_radius_m])
     deflection = radius - height_m
     crush = p[t + TIRE.rim_contact_radius_m] - height_m
     rim = p[t + TIRE.rim_stiffness_npm] * crush + p[t + TIRE.rim_damping_nspm] * sink_mps
-    rim = 0.0 if stepped or crush <= 0.0 else rim
+    rim = where(stepped | (crush <= 0.0), 0.0, rim)
     load = stiffness * deflection + p[t + TIRE.damping_nspm] * sink_mps + rim
-    return max(load, 0.0) if deflection > 0.0 else 0.0, deflection
+    return where(deflection > 0.0, max(load, 0.0), 0.0), deflection
 
 
 @core
@@ -80,9 +80,9 @@ def rolling_radius_m(p: Floats, t: int, deflection_m: float, rim: float) -> floa
 def softness(p: Floats, t: int, gauge_pa: float) -> float:
     """Factor of rolling resistance at a pressure away from the reference one."""
     reference = p[t + TIRE.reference_pressure_pa]
-    if abs(gauge_pa - reference) <= 0.05 * reference:
-        return 1.0
-    return max(gauge_pa / reference, 0.05) ** (-p[t + TIRE.rolling_pressure_exponent])
+    away = abs(gauge_pa - reference) > 0.05 * reference
+    share = max(gauge_pa / reference, 0.05)
+    return where(away, power_where(away, share, -p[t + TIRE.rolling_pressure_exponent]), 1.0)
 
 
 @core

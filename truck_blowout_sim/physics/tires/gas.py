@@ -14,6 +14,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
+from truck_blowout_sim.physics.choose import power_where, where
 from truck_blowout_sim.physics.jit import core
 from truck_blowout_sim.physics.layout import TIRE, TIRE_S, WORLD, WORLD_AT
 
@@ -27,19 +28,19 @@ CHOKED = math.sqrt(GAMMA) * (2.0 / (GAMMA + 1.0)) ** ((GAMMA + 1.0) / (2.0 * (GA
 @core
 def flow_function(ratio: float) -> float:
     """Phi of mdot = CdA p / sqrt(R T) Phi, ``ratio`` = ambient / tire pressure, absolute."""
-    if ratio <= CRITICAL_RATIO:
-        return CHOKED
-    if ratio >= 1.0:
-        return 0.0
-    a = ratio ** (2.0 / GAMMA)
-    return math.sqrt(2.0 * GAMMA / (GAMMA - 1.0) * a * (1.0 - ratio ** ((GAMMA - 1.0) / GAMMA)))
+    subsonic = (ratio > CRITICAL_RATIO) & (ratio < 1.0)
+    a = power_where(subsonic, ratio, 2.0 / GAMMA)
+    b = power_where(subsonic, ratio, (GAMMA - 1.0) / GAMMA)
+    flow = math.sqrt(2.0 * GAMMA / (GAMMA - 1.0) * a * abs(1.0 - b))
+    return where(ratio <= CRITICAL_RATIO, CHOKED, where(ratio >= 1.0, 0.0, flow))
 
 
 @core
 def pressure_rate_paps(p_abs_pa: float, p0_abs_pa: float, ambient_pa: float, temperature_k: float,
                        volume_m3: float, hole_m2: float, exponent: float) -> float:
     """dp/dt [Pa/s] at constant volume; ``exponent`` 1 isothermal … 1.4 adiabatic."""
-    t = temperature_k * (p_abs_pa / p0_abs_pa) ** ((exponent - 1.0) / exponent)
+    share = p_abs_pa / p0_abs_pa
+    t = temperature_k * power_where(share != 1.0, share, (exponent - 1.0) / exponent)
     rt = GAS_CONSTANT_JPKGK * t
     mass_flow = hole_m2 * p_abs_pa / math.sqrt(rt) * flow_function(ambient_pa / p_abs_pa)
     return -exponent * rt / volume_m3 * mass_flow
@@ -48,9 +49,9 @@ def pressure_rate_paps(p_abs_pa: float, p0_abs_pa: float, ambient_pa: float, tem
 @core
 def leaks(x: Floats, s: int, p: Floats, t: int) -> bool:
     """Whether the tire is losing air now; a failure by itself begins here."""
-    if x[0] >= p[t + TIRE.blow_time_s] and x[s + TIRE_S.blown_time_s] == np.inf:
-        x[s + TIRE_S.blown_time_s] = p[t + TIRE.blow_time_s]
-    return x[s + TIRE_S.blown_time_s] <= x[0] and x[s + TIRE_S.pressure_pa] > 0.0
+    begins = (x[0] >= p[t + TIRE.blow_time_s]) & (x[s + TIRE_S.blown_time_s] == np.inf)
+    x[s + TIRE_S.blown_time_s] = where(begins, p[t + TIRE.blow_time_s], x[s + TIRE_S.blown_time_s])
+    return (x[s + TIRE_S.blown_time_s] <= x[0]) & (x[s + TIRE_S.pressure_pa] > 0.0)
 
 
 @core
@@ -60,9 +61,8 @@ def advance_pressure(x: Floats, s: int, p: Floats, t: int, rim: float, dt: float
     ambient = p[WORLD_AT + WORLD.air_pressure_pa]
     loss = p[t + TIRE.flat_volume_fraction]
     volume = p[t + TIRE.volume_m3] * (1.0 - loss * rim)
-    hole = p[t + TIRE.hole_area_m2] * p[t + TIRE.hole_scale]
-    if p[t + TIRE.blow_time_s] != np.inf:
-        hole *= p[t + TIRE.blow_hole_scale]
+    hole = p[t + TIRE.hole_area_m2] * p[t + TIRE.hole_scale] * where(
+        p[t + TIRE.blow_time_s] != np.inf, p[t + TIRE.blow_hole_scale], 1.0)
     n = p[t + TIRE.polytropic]
     rate = pressure_rate_paps(gauge + ambient, p[t + TIRE.pressure_pa] + ambient, ambient,
                               p[WORLD_AT + WORLD.air_temperature_k], volume, hole, n)

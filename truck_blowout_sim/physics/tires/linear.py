@@ -15,8 +15,10 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
+from truck_blowout_sim.physics.choose import any_of, where
 from truck_blowout_sim.physics.jit import core
 from truck_blowout_sim.physics.layout import TIRE
+from truck_blowout_sim.physics.trig import arctan
 
 Floats = NDArray[np.float64]
 
@@ -32,14 +34,13 @@ def forces(p: Floats, t: int, fz_n: float, slip: float, slip_tan: float, frictio
            axle_peak: float, cornering: float) -> tuple[float, float, float]:
     """Longitudinal and lateral force [N]; the aligning moment is zero."""
     fx = p[t + TIRE.linear_slip_n] * slip
-    fy = cornering * math.atan(slip_tan)
+    fy = cornering * arctan(slip_tan)
     sharpness = p[t + TIRE.saturation]
     limit = limit_n(p, t, fz_n, friction, axle_peak)
-    if sharpness > 0.0 and limit > 0.0:
+    bends = (sharpness > 0.0) & (limit > 0.0)
+    if any_of(bends):
         level = friction * axle_peak * fz_n / sharpness
-        fy = level * math.tanh(fy / level)
+        fy = where(bends, level * math.tanh(fy / level), fy)
     size = math.sqrt(fx * fx + fy * fy)
-    if size > limit:
-        fx *= limit / size
-        fy *= limit / size
-    return fx, fy, 0.0
+    kept = where(size > limit, limit / size, 1.0)
+    return fx * kept, fy * kept, 0.0

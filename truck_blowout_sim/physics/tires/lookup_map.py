@@ -16,6 +16,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
+from truck_blowout_sim.physics.choose import pick, shared, where, whole
 from truck_blowout_sim.physics.jit import core
 from truck_blowout_sim.physics.layout import TIRE
 from truck_blowout_sim.physics.scalar import clip
@@ -28,15 +29,15 @@ Floats = NDArray[np.float64]
 @core
 def interpolate(p: Floats, at: int, which: int, slip_rad: float, fz_n: float) -> float:
     """Value of map ``which`` (0 lateral force, 1 aligning moment) at |slip| and load."""
-    n_slip, n_load = int(p[at]), int(p[at + 1])
+    n_slip, n_load = int(shared(p[at])), int(shared(p[at + 1]))
     s = clip(slip_rad / p[at + 2], 0.0, n_slip - 1.0)
     f = clip(fz_n / p[at + 3], 0.0, n_load - 1.0)
-    i = min(int(s), n_slip - 2)
-    j = min(int(f), n_load - 2)
+    i = min(whole(s), n_slip - 2)
+    j = min(whole(f), n_load - 2)
     a, b = s - i, f - j
     k = at + 4 + which * n_slip * n_load + i * n_load + j
-    low = p[k] * (1.0 - b) + p[k + 1] * b
-    high = p[k + n_load] * (1.0 - b) + p[k + n_load + 1] * b
+    low = pick(p, k) * (1.0 - b) + pick(p, k + 1) * b
+    high = pick(p, k + n_load) * (1.0 - b) + pick(p, k + n_load + 1) * b
     return low * (1.0 - a) + high * a
 
 
@@ -48,8 +49,9 @@ def forces(p: Floats, t: int, at: int, fz_n: float, slip: float, slip_tan: float
     mu = friction * p[t + TIRE.friction_scale]
     fx = peak_x * shape(stiffness_x * slip / peak_x, p[t + TIRE.shape_x], p[t + TIRE.curvature_x])
     alpha = arctan(slip_tan)
-    side = 1.0 if alpha >= 0.0 else -1.0
-    rest = math.sqrt(max(1.0 - (fx / peak_x) ** 2, 0.0))
+    side = where(alpha >= 0.0, 1.0, -1.0)
+    used = fx / peak_x
+    rest = math.sqrt(max(1.0 - used * used, 0.0))
     fy = side * interpolate(p, at, 0, abs(alpha), fz_n) * mu * axle_peak * rest
     mz = -side * interpolate(p, at, 1, abs(alpha), fz_n) * rest
     return fx, fy, mz

@@ -15,6 +15,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
+from truck_blowout_sim.physics.choose import where
 from truck_blowout_sim.physics.jit import core
 from truck_blowout_sim.physics.layout import TIRE
 from truck_blowout_sim.physics.trig import arctan, cosine, sine
@@ -53,7 +54,7 @@ def pneumatic_trail_m(p: Floats, t: int, fz_n: float, inflation: float, alpha_ra
     level, slope = p[t + TIRE.trail_0], p[t + TIRE.trail_load]
     # load times trail is a parabola: beyond its vertex there are no data, so it is held there
     vertex = 0.5 * (level + slope) / slope
-    ratio = vertex if 2.0 * slope * ratio > level + slope else ratio
+    ratio = where(2.0 * slope * ratio > level + slope, vertex, ratio)
     base = level - slope * (ratio - 1.0)
     stretch = 1.0 + p[t + TIRE.trail_pressure] * (1.0 - q)
     decay = cosine(p[t + TIRE.trail_shape] * arctan(p[t + TIRE.trail_stretch] * alpha_rad))

@@ -11,6 +11,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from truck_blowout_sim.physics.choose import shared, trucks_in, where
 from truck_blowout_sim.physics.jit import core
 from truck_blowout_sim.physics.layout import TIRE, TIRE_BLOCK, TIRE_LANES
 from truck_blowout_sim.physics.scalar import clip
@@ -32,18 +33,19 @@ def tire_pass(p: Floats, tires_at: int, table_at: int, lanes: Floats, n_tires: i
     done, t, w = 0, tires_at, 0
     while done < n_tires:
         n = min(n_tires - done, TIRE_LANES)
-        for k in range(whole_vectors(n)):
+        wide = n if trucks_in(lanes) > 1 else whole_vectors(n)
+        for k in range(wide):
             carry(p, t + k, lanes, w + k)
             stretch(p, t + k, lanes, w + k, dt)
             magic_formula_forces(p, t + k, lanes, w + k)
         others = 0.0
         for k in range(n):
-            others += p[t + k + TIRE.model]
+            others += shared(p[t + k + TIRE.model])
         if others > MAGIC_FORMULA:
             for k in range(n):
-                if p[t + k + TIRE.model] != MAGIC_FORMULA:
+                if shared(p[t + k + TIRE.model]) != MAGIC_FORMULA:
                     other_forces(p, t + k, table_at, lanes, w + k)
-        for k in range(whole_vectors(n)):
+        for k in range(wide):
             soften(p, t + k, lanes, w + k)
         done, t, w = done + n, t + TIRE_BLOCK, w + LANE_BLOCK
 
@@ -53,7 +55,7 @@ def tire_at_load(p: Floats, t: int, table_at: int, lanes: Floats, w: int, dt: fl
     """As `tire_pass`, for one tire whose load, rolling radius and rim contact stand in its lane."""
     stretch(p, t, lanes, w, dt)
     magic_formula_forces(p, t, lanes, w)
-    if p[t + TIRE.model] != MAGIC_FORMULA:
+    if shared(p[t + TIRE.model]) != MAGIC_FORMULA:
         other_forces(p, t, table_at, lanes, w)
     soften(p, t, lanes, w)
 
@@ -63,16 +65,16 @@ def carry(p: Floats, t: int, lanes: Floats, w: int) -> None:
     """Rim contact, vertical load, radius and rolling resistance of the tire in lane ``w``."""
     stepped = lanes[w + LANE.stepped] > 0.0
     gauge, above = lanes[w + LANE.pressure_pa], lanes[w + LANE.above_m]
-    rim = 0.0 if stepped else blowout.rim_fraction(p, t, above)
+    rim = where(stepped, 0.0, blowout.rim_fraction(p, t, above))
     fz, deflection = blowout.vertical_load(
         p, t, gauge, above, lanes[w + LANE.sink_mps], stepped, lanes[w + LANE.row_radius_m],
         lanes[w + LANE.row_stiffness_npm])
     radius = blowout.rolling_radius_m(p, t, deflection, rim)
-    radius = lanes[w + LANE.row_radius_m] if stepped else radius
+    radius = where(stepped, lanes[w + LANE.row_radius_m], radius)
     inflation = gauge / p[t + TIRE.reference_pressure_pa]
     f = blowout.rolling_coefficient(p, t, inflation, deflection, rim,
                                     abs(lanes[w + LANE.vx_mps]), lanes[w + LANE.softness])
-    f = lanes[w + LANE.row_rolling] if stepped else f
+    f = where(stepped, lanes[w + LANE.row_rolling], f)
     lanes[w + LANE.rim] = rim
     lanes[w + LANE.fz_n] = fz
     lanes[w + LANE.radius_m] = radius
@@ -91,11 +93,11 @@ def stretch(p: Floats, t: int, lanes: Floats, w: int, dt: float) -> None:
     straight = p[t + TIRE.model] == LINEAR
     bent = magic_formula.cornering_stiffness_nprad(p, t, fz, inflation)
     cornering = p[t + TIRE.linear_cornering_nprad] * p[t + TIRE.cornering_scale]
-    cornering = cornering if straight else bent
+    cornering = where(straight, cornering, bent)
     peak_x, peak_y, slope_x = magic_formula.limits(p, t, fz, road, axle_peak)
     limit = linear.limit_n(p, t, fz, road, axle_peak)
-    peak_x, peak_y = limit if straight else peak_x, limit if straight else peak_y
-    slope_x = p[t + TIRE.linear_slip_n] if straight else slope_x
+    peak_x, peak_y = where(straight, limit, peak_x), where(straight, limit, peak_y)
+    slope_x = where(straight, p[t + TIRE.linear_slip_n], slope_x)
     length_y = cornering / p[t + TIRE.lateral_stiffness_npm]
     length_y = max(length_y + rim * (p[t + TIRE.flat_relaxation_m] - length_y), 0.02)
     length_y *= p[t + TIRE.relaxation_scale]
@@ -103,7 +105,7 @@ def stretch(p: Floats, t: int, lanes: Floats, w: int, dt: float) -> None:
     slip = clip(lag(lanes[w + LANE.slip], vx, slide_x, max(length_x, 0.05), dt), -1.0, 1.0)
     tan = clip(lag(lanes[w + LANE.slip_tan], vx, slide_y, length_y, dt), -3.0, 3.0)
     kept = kept_share(slip, tan, slope_x / peak_x, cornering / peak_y, slide_x, slide_y, vx)
-    kept = kept if peak_x > 0.0 else 1.0
+    kept = where(peak_x > 0.0, kept, 1.0)
     slip, tan = kept * slip, kept * tan
     lanes[w + LANE.slip] = slip
     lanes[w + LANE.slip_tan] = tan
@@ -130,9 +132,9 @@ def other_forces(p: Floats, t: int, table_at: int, lanes: Floats, w: int) -> Non
     """As `magic_formula_forces`, of a map tire or a linear one."""
     fz, road = lanes[w + LANE.fz_n], lanes[w + LANE.friction]
     slip, tan = lanes[w + LANE.force_slip], lanes[w + LANE.force_slip_tan]
-    if p[t + TIRE.model] == LOOKUP_MAP:
-        fx, fy, mz = lookup_map.forces(p, t, table_at + int(p[t + TIRE.map_table]), fz, slip, tan,
-                                       road, lanes[w + LANE.axle_peak])
+    if shared(p[t + TIRE.model]) == LOOKUP_MAP:
+        at = table_at + int(shared(p[t + TIRE.map_table]))
+        fx, fy, mz = lookup_map.forces(p, t, at, fz, slip, tan, road, lanes[w + LANE.axle_peak])
     else:
         fx, fy, mz = linear.forces(p, t, fz, slip, tan, road, lanes[w + LANE.axle_peak],
                                    lanes[w + LANE.cornering_nprad])
@@ -145,17 +147,17 @@ def soften(p: Floats, t: int, lanes: Floats, w: int) -> None:
     stepped, soft = lanes[w + LANE.stepped] > 0.0, lanes[w + LANE.soft]
     fz, mapped = lanes[w + LANE.fz_n], p[t + TIRE.model] == LOOKUP_MAP
     flat = 1.0 - soft * (1.0 - p[t + TIRE.flat_cornering] * p[t + TIRE.flat_cornering_scale])
-    flat = lanes[w + LANE.row_cornering] if stepped else flat
+    flat = where(stepped, lanes[w + LANE.row_cornering], flat)
     trail = 1.0 - soft * (1.0 - p[t + TIRE.flat_trail])
-    trail = lanes[w + LANE.row_aligning] if stepped else trail
+    trail = where(stepped, lanes[w + LANE.row_aligning], trail)
     # the contact trails behind the wheel: on the other side of it in reverse
     trail *= clip(lanes[w + LANE.vx_mps] / _STANDSTILL_MPS, -1.0, 1.0)
     camber = p[t + TIRE.camber_gain] * (1.0 - soft * (1.0 - p[t + TIRE.flat_camber]))
-    camber = 0.0 if mapped else camber
+    camber = where(mapped, 0.0, camber)
     limit = p[t + TIRE.peak_y] * fz * lanes[w + LANE.friction] * p[t + TIRE.friction_scale]
-    limit = np.inf if mapped else limit
+    limit = where(mapped, np.inf, limit)
     fy = clip(lanes[w + LANE.fy_n] * flat + camber * fz * lanes[w + LANE.sin_camber], -limit, limit)
     # no load, no force
-    lanes[w + LANE.fx_n] = lanes[w + LANE.fx_n] if fz > 0.0 else 0.0
-    lanes[w + LANE.fy_n] = fy if fz > 0.0 else 0.0
-    lanes[w + LANE.mz_nm] = lanes[w + LANE.mz_nm] * trail if fz > 0.0 else 0.0
+    lanes[w + LANE.fx_n] = where(fz > 0.0, lanes[w + LANE.fx_n], 0.0)
+    lanes[w + LANE.fy_n] = where(fz > 0.0, fy, 0.0)
+    lanes[w + LANE.mz_nm] = where(fz > 0.0, lanes[w + LANE.mz_nm] * trail, 0.0)
