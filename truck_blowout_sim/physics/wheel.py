@@ -91,6 +91,11 @@ def inflate(x: Floats, s: int, p: Floats, t: int, table_at: int, above_m: float,
         lanes[w + LANE.row_aligning] = pick(p, row + _ALIGNING)
         speed = abs(lanes[w + LANE.vx_mps])
         lanes[w + LANE.row_rolling] = pick(p, row + _ROLLING) + pick(p, row + _ROLLING_SPM) * speed
+    else:
+        # left alone they may be denormal numbers, on which arithmetic takes three times as long
+        lanes[w + LANE.row_radius_m], lanes[w + LANE.row_stiffness_npm] = 0.0, 1.0
+        lanes[w + LANE.row_cornering], lanes[w + LANE.row_aligning] = 1.0, 1.0
+        lanes[w + LANE.row_rolling] = 0.0
     leaking, gauge = gas.leaks(x, s, p, t), x[s + TIRE_S.pressure_pa]
     if any_of(leaking):
         rim = where(stepped, 0.0, blowout.rim_fraction(p, t, above_m))

@@ -47,8 +47,8 @@ def vertical_load(p: Floats, t: int, gauge_pa: float, height_m: float, sink_mps:
     sound = p[t + TIRE.stiffness_npm] + p[t + TIRE.stiffness_npmppa] * gauge_pa
     stiffness = where(stepped, row_stiffness_npm, sound)
     # rows give the radius under the reference load
-    free = row_radius_m + p[t + TIRE.reference_load_n] / stiffness
-    radius = where(stepped, free, p[t + TIRE.unloaded_radius_m])
+    pressed = where(stepped, p[t + TIRE.reference_load_n] / stiffness, 0.0)
+    radius = where(stepped, row_radius_m, p[t + TIRE.unloaded_radius_m]) + pressed
     deflection = radius - height_m
     crush = p[t + TIRE.rim_contact_radius_m] - height_m
     rim = p[t + TIRE.rim_stiffness_npm] * crush + p[t + TIRE.rim_damping_nspm] * sink_mps
