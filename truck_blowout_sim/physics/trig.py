@@ -15,6 +15,7 @@ import math
 
 from truck_blowout_sim.physics.choose import any_of, nearest, where
 from truck_blowout_sim.physics.jit import core
+from truck_blowout_sim.physics.scalar import two_ratios
 
 _HALF_PI = 0.5 * math.pi
 _QUARTER_PI = 0.25 * math.pi
@@ -26,12 +27,30 @@ _SMALL = 0.1
 @core
 def arctan(x: float) -> float:
     """atan(x) for any x."""
+    return arctans(x, x)[0]
+
+
+@core
+def arctans(x: float, y: float) -> tuple[float, float]:
+    """atan(x) and atan(y), by one division."""
+    (x0, up, down), (y0, y_up, y_down) = _reduced(x), _reduced(y)
+    x_rest, y_rest = two_ratios(up, down, y_up, y_down)
+    return _restored(x, x0, x_rest), _restored(y, y0, y_rest)
+
+
+@core
+def _reduced(x: float) -> tuple[float, float, float]:
+    """The angle from which atan(abs(x)) is reckoned, and what remains: the tangent's two parts."""
     size = abs(x)
     far, near = size > _TAN_3_PI_8, size <= _TAN_PI_8
     offset = where(far, _HALF_PI, where(near, 0.0, _QUARTER_PI))
     up = where(far, -1.0, where(near, size, size - 1.0))
-    down = where(far, size, where(near, 1.0, size + 1.0))
-    t = up / down
+    return offset, up, where(far, size, where(near, 1.0, size + 1.0))
+
+
+@core
+def _restored(x: float, offset: float, t: float) -> float:
+    """atan(x) from a tangent within +-tan(pi/8) of the rest."""
     z = t * t
     series = ((((((((-0.027261111235046032 * z + 0.05170740364194833) * z - 0.06551427046701526)
                    * z + 0.07681118384130886) * z - 0.09090261573547978)

@@ -86,14 +86,19 @@ def inflate(x: Floats, s: int, p: Floats, t: int, table_at: int, above_m: float,
     if stepped:
         row = blowout.step_row(x, s, p, table_at + int(shared(p[t + TIRE.table])))
         lanes[w + LANE.row_radius_m] = pick(p, row + _RADIUS)
-        lanes[w + LANE.row_stiffness_npm] = pick(p, row + _STIFFNESS)
+        stiffness = pick(p, row + _STIFFNESS)
+        # rows give the radius under the reference load
+        lanes[w + LANE.row_free_m] = (lanes[w + LANE.row_radius_m]
+                                      + p[t + TIRE.reference_load_n] / stiffness)
+        lanes[w + LANE.row_stiffness_npm] = stiffness
         lanes[w + LANE.row_cornering] = pick(p, row + _CORNERING)
         lanes[w + LANE.row_aligning] = pick(p, row + _ALIGNING)
         speed = abs(lanes[w + LANE.vx_mps])
         lanes[w + LANE.row_rolling] = pick(p, row + _ROLLING) + pick(p, row + _ROLLING_SPM) * speed
     else:
         # left alone they may be denormal numbers, on which arithmetic takes three times as long
-        lanes[w + LANE.row_radius_m], lanes[w + LANE.row_stiffness_npm] = 0.0, 1.0
+        lanes[w + LANE.row_radius_m], lanes[w + LANE.row_free_m] = 0.0, 0.0
+        lanes[w + LANE.row_stiffness_npm] = 1.0
         lanes[w + LANE.row_cornering], lanes[w + LANE.row_aligning] = 1.0, 1.0
         lanes[w + LANE.row_rolling] = 0.0
     leaking, gauge = gas.leaks(x, s, p, t), x[s + TIRE_S.pressure_pa]

@@ -38,18 +38,16 @@ def step_row(x: Floats, s: int, p: Floats, table: int) -> int:
 
 @core
 def vertical_load(p: Floats, t: int, gauge_pa: float, height_m: float, sink_mps: float,
-                  stepped: bool, row_radius_m: float, row_stiffness_npm: float
+                  stepped: bool, row_free_m: float, row_stiffness_npm: float
                   ) -> tuple[float, float]:
     """Load [N] and deflection [m] of a tire whose center is ``height_m`` above the road.
 
-    ``sink_mps`` is the rate of compression; ``stepped``: a row of a step table rules the tire.
+    ``sink_mps`` is the rate of compression; ``stepped``: a row of a step table rules the tire, with
+    its unloaded radius and stiffness.
     """
     sound = p[t + TIRE.stiffness_npm] + p[t + TIRE.stiffness_npmppa] * gauge_pa
     stiffness = where(stepped, row_stiffness_npm, sound)
-    # rows give the radius under the reference load
-    pressed = where(stepped, p[t + TIRE.reference_load_n] / stiffness, 0.0)
-    radius = where(stepped, row_radius_m, p[t + TIRE.unloaded_radius_m]) + pressed
-    deflection = radius - height_m
+    deflection = where(stepped, row_free_m, p[t + TIRE.unloaded_radius_m]) - height_m
     crush = p[t + TIRE.rim_contact_radius_m] - height_m
     rim = p[t + TIRE.rim_stiffness_npm] * crush + p[t + TIRE.rim_damping_nspm] * sink_mps
     rim = where(stepped | (crush <= 0.0), 0.0, rim)
@@ -64,9 +62,14 @@ def rim_fraction(p: Floats, t: int, height_m: float) -> float:
 
 
 @core
-def collapse(p: Floats, t: int, inflation: float) -> float:
-    """How far a carcass has lost its form for lack of air, 0 to 1; also while clear of the rim."""
-    return max(1.0 - inflation / p[t + TIRE.pressure_valid], 0.0)
+def inflated(p: Floats, t: int, gauge_pa: float) -> tuple[float, float]:
+    """Gauge pressure as a share of the reference, and how far the carcass has lost its form.
+
+    The second is 0 to 1, also while the carcass is clear of the rim.
+    """
+    reference, valid = p[t + TIRE.reference_pressure_pa], p[t + TIRE.pressure_valid]
+    form = gauge_pa / (reference * valid)
+    return form * valid, max(1.0 - form, 0.0)
 
 
 @core
@@ -86,14 +89,15 @@ def softness(p: Floats, t: int, gauge_pa: float) -> float:
 
 
 @core
-def rolling_coefficient(p: Floats, t: int, inflation: float, deflection_m: float, rim: float,
+def rolling_coefficient(p: Floats, t: int, collapse: float, deflection_m: float, rim: float,
                         speed_mps: float, soft: float) -> float:
     """Rolling resistance per load: (f0 + fV V) times `softness`, the flat's drag when collapsed.
 
+    ``collapse``: the second of `inflated`.
     A carcass without air is folded as far as it is pressed: flat duals that carry little stop short
     of the rim and drag nearly as much as on it.
     """
     f = (p[t + TIRE.rolling_0] + p[t + TIRE.rolling_spm] * speed_mps) * soft
     way = p[t + TIRE.unloaded_radius_m] - p[t + TIRE.rim_radius_m]
-    folded = collapse(p, t, inflation) * clip(deflection_m / way, 0.0, 1.0)
+    folded = collapse * clip(deflection_m / way, 0.0, 1.0)
     return f + max(rim, folded) * (p[t + TIRE.flat_rolling] * p[t + TIRE.flat_drag_scale] - f)

@@ -34,6 +34,7 @@ class TireLanes(NamedTuple):
     softness: int  # factor of rolling resistance for low pressure
     stepped: int  # 1: a row of a step table rules the tire, the next six
     row_radius_m: int
+    row_free_m: int  # radius without load
     row_stiffness_npm: int
     row_cornering: int
     row_aligning: int
@@ -55,7 +56,10 @@ class TireLanes(NamedTuple):
     # between the loops
     force_slip: int  # slips that make force, the standstill damper included
     force_slip_tan: int
+    slope_n: int  # of the force over slip, along and across
     cornering_nprad: int
+    grip: int  # these divided by the peaks of the force
+    grip_tan: int
     soft: int
 
 

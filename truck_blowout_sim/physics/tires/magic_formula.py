@@ -18,7 +18,8 @@ from numpy.typing import NDArray
 from truck_blowout_sim.physics.choose import where
 from truck_blowout_sim.physics.jit import core
 from truck_blowout_sim.physics.layout import TIRE
-from truck_blowout_sim.physics.trig import arctan, cosine, sine
+from truck_blowout_sim.physics.scalar import two_ratios
+from truck_blowout_sim.physics.trig import arctan, arctans, cosine, sine
 
 Floats = NDArray[np.float64]
 _LEAST_SLIP = 1e-9  # below it the curve is its tangent
@@ -33,17 +34,25 @@ def cornering_stiffness_nprad(p: Floats, t: int, fz_n: float, inflation: float) 
     q = max(inflation, p[t + TIRE.pressure_valid])
     fz0 = p[t + TIRE.reference_load_n]
     floor_1, floor_2 = p[t + TIRE.cornering_floor_1], p[t + TIRE.cornering_floor_2]
-    load = fz_n / (p[t + TIRE.cornering_load] * fz0 * (floor_2 + (1.0 - floor_2) * q))
+    load = p[t + TIRE.cornering_load] * fz0 * (floor_2 + (1.0 - floor_2) * q)
     peak = p[t + TIRE.cornering_peak] * fz0 * (floor_1 + (1.0 - floor_1) * q)
-    # sin(2 atan z) = 2 z / (1 + z^2)
-    return p[t + TIRE.cornering_scale] * peak * 2.0 * load / (1.0 + load * load)
+    # sin(2 atan(a / b)) = 2 a b / (a^2 + b^2)
+    return p[t + TIRE.cornering_scale] * peak * 2.0 * fz_n * load / (fz_n * fz_n + load * load)
 
 
 @core
 def shape(slip: float, c: float, e: float) -> float:
     """sin(C atan(x - E (x - atan x))) with x = slip / C: unit slope at the origin."""
-    s = slip / c
-    return sine(c * arctan(s - e * (s - arctan(s))))
+    return shapes(slip, c, e, c, e)[0]
+
+
+@core
+def shapes(slip: float, c_x: float, e_x: float, c_y: float, e_y: float) -> tuple[float, float]:
+    """`shape` along and across: the two share their divisions."""
+    x, y = two_ratios(slip, c_x, slip, c_y)
+    bend_x, bend_y = arctans(x, y)
+    bend_x, bend_y = arctans(x - e_x * (x - bend_x), y - e_y * (y - bend_y))
+    return sine(c_x * bend_x), sine(c_y * bend_y)
 
 
 @core
@@ -83,10 +92,20 @@ def forces(p: Floats, t: int, fz_n: float, inflation: float, slip: float, slip_t
     peak alone.
     """
     peak_x, peak_y, stiffness_x = limits(p, t, fz_n, friction, axle_peak)
+    grips = two_ratios(stiffness_x, peak_x, cornering, peak_y)
+    return gripped_forces(p, t, fz_n, inflation, slip, slip_tan, (stiffness_x, cornering), grips)
+
+
+@core
+def gripped_forces(p: Floats, t: int, fz_n: float, inflation: float, slip: float, slip_tan: float,
+                   slopes: tuple[float, float], grips: tuple[float, float]
+                   ) -> tuple[float, float, float]:
+    """As `forces`, by the slopes [N] of the forces over slip, and these divided by their peaks."""
     alpha = arctan(slip_tan)
-    sx = stiffness_x * slip / peak_x
-    sy = cornering * alpha / peak_y
+    sx, sy = grips[0] * slip, grips[1] * alpha
     total = max(math.sqrt(sx * sx + sy * sy), _LEAST_SLIP)
-    fx = peak_x * shape(total, p[t + TIRE.shape_x], p[t + TIRE.curvature_x]) * sx / total
-    fy = peak_y * shape(total, p[t + TIRE.shape_y], p[t + TIRE.curvature_y]) * sy / total
+    shape_x, shape_y = shapes(total, p[t + TIRE.shape_x], p[t + TIRE.curvature_x],
+                              p[t + TIRE.shape_y], p[t + TIRE.curvature_y])
+    fx = slopes[0] * slip * shape_x / total
+    fy = slopes[1] * alpha * shape_y / total
     return fx, fy, -pneumatic_trail_m(p, t, fz_n, inflation, alpha) * fy

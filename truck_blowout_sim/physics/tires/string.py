@@ -23,7 +23,16 @@ _LEAST_MPS = 1e-3  # of travel, in the slip of a sliding contact
 @core
 def lag(value: float, speed: float, drive: float, length_m: float, dt: float) -> float:
     """Implicit step of length * ds/dt + |speed| s = drive."""
-    return (value * length_m + dt * drive) / (length_m + dt * abs(speed))
+    up, down = lag_parts(value, speed, drive, length_m, 1.0, dt)
+    return up / down
+
+
+@core
+def lag_parts(value: float, speed: float, drive: float, slope_n: float, stiffness_npm: float,
+              dt: float) -> tuple[float, float]:
+    """Numerator and denominator of `lag`; the length is slope over stiffness of the carcass."""
+    return (value * slope_n + dt * drive * stiffness_npm,
+            slope_n + dt * abs(speed) * stiffness_npm)
 
 
 @core
@@ -35,8 +44,8 @@ def kept_share(slip: float, slip_tan: float, grip_x: float, grip_y: float,
     slide_y_mps``: slip speeds of the contact, of the signs of the slips they lead to.
     """
     x, y = slip * grip_x, slip_tan * grip_y
-    stretch = max(math.sqrt(x * x + y * y), 1.0)
+    square = max(x * x + y * y, 1.0)
     travel = max(abs(speed_mps), _LEAST_MPS)
-    # what the sliding of this moment sustains, along the stretch
-    sustained = (x * slide_x_mps * grip_x + y * slide_y_mps * grip_y) / (travel * stretch)
-    return min(max(sustained, 1.0) / stretch, 1.0)
+    # what the sliding of this moment sustains, along the stretch; 1 is what adhesion holds
+    sustained = x * slide_x_mps * grip_x + y * slide_y_mps * grip_y
+    return min(max(sustained, travel * math.sqrt(square)) / (travel * square), 1.0)

@@ -14,10 +14,10 @@ from numpy.typing import NDArray
 from truck_blowout_sim.physics.choose import shared, trucks_in, where
 from truck_blowout_sim.physics.jit import core
 from truck_blowout_sim.physics.layout import TIRE, TIRE_BLOCK, TIRE_LANES
-from truck_blowout_sim.physics.scalar import clip
+from truck_blowout_sim.physics.scalar import clip, two_ratios
 from truck_blowout_sim.physics.tires import blowout, linear, lookup_map, magic_formula
 from truck_blowout_sim.physics.tires.lanes import LANE, LANE_BLOCK, whole_vectors
-from truck_blowout_sim.physics.tires.string import kept_share, lag
+from truck_blowout_sim.physics.tires.string import kept_share, lag_parts
 
 Floats = NDArray[np.float64]
 MAGIC_FORMULA, LOOKUP_MAP, LINEAR = 0.0, 1.0, 2.0  # TIRE.model
@@ -67,12 +67,12 @@ def carry(p: Floats, t: int, lanes: Floats, w: int) -> None:
     gauge, above = lanes[w + LANE.pressure_pa], lanes[w + LANE.above_m]
     rim = where(stepped, 0.0, blowout.rim_fraction(p, t, above))
     fz, deflection = blowout.vertical_load(
-        p, t, gauge, above, lanes[w + LANE.sink_mps], stepped, lanes[w + LANE.row_radius_m],
+        p, t, gauge, above, lanes[w + LANE.sink_mps], stepped, lanes[w + LANE.row_free_m],
         lanes[w + LANE.row_stiffness_npm])
     radius = blowout.rolling_radius_m(p, t, deflection, rim)
     radius = where(stepped, lanes[w + LANE.row_radius_m], radius)
-    inflation = gauge / p[t + TIRE.reference_pressure_pa]
-    f = blowout.rolling_coefficient(p, t, inflation, deflection, rim,
+    collapse = blowout.inflated(p, t, gauge)[1]
+    f = blowout.rolling_coefficient(p, t, collapse, deflection, rim,
                                     abs(lanes[w + LANE.vx_mps]), lanes[w + LANE.softness])
     f = where(stepped, lanes[w + LANE.row_rolling], f)
     lanes[w + LANE.rim] = rim
@@ -89,7 +89,7 @@ def stretch(p: Floats, t: int, lanes: Floats, w: int, dt: float) -> None:
     slide_x = lanes[w + LANE.spin_radps] * lanes[w + LANE.radius_m] - vx
     fz, rim = lanes[w + LANE.fz_n], lanes[w + LANE.rim]
     road, axle_peak = lanes[w + LANE.friction], lanes[w + LANE.axle_peak]
-    inflation = lanes[w + LANE.pressure_pa] / p[t + TIRE.reference_pressure_pa]
+    inflation, collapse = blowout.inflated(p, t, lanes[w + LANE.pressure_pa])
     straight = p[t + TIRE.model] == LINEAR
     bent = magic_formula.cornering_stiffness_nprad(p, t, fz, inflation)
     cornering = p[t + TIRE.linear_cornering_nprad] * p[t + TIRE.cornering_scale]
@@ -98,13 +98,16 @@ def stretch(p: Floats, t: int, lanes: Floats, w: int, dt: float) -> None:
     limit = linear.limit_n(p, t, fz, road, axle_peak)
     peak_x, peak_y = where(straight, limit, peak_x), where(straight, limit, peak_y)
     slope_x = where(straight, p[t + TIRE.linear_slip_n], slope_x)
-    length_y = cornering / p[t + TIRE.lateral_stiffness_npm]
-    length_y = max(length_y + rim * (p[t + TIRE.flat_relaxation_m] - length_y), 0.02)
-    length_y *= p[t + TIRE.relaxation_scale]
-    length_x = fz * p[t + TIRE.slip_stiffness] / p[t + TIRE.longitudinal_stiffness_npm]
-    slip = clip(lag(lanes[w + LANE.slip], vx, slide_x, max(length_x, 0.05), dt), -1.0, 1.0)
-    tan = clip(lag(lanes[w + LANE.slip_tan], vx, slide_y, length_y, dt), -3.0, 3.0)
-    kept = kept_share(slip, tan, slope_x / peak_x, cornering / peak_y, slide_x, slide_y, vx)
+    side, along = p[t + TIRE.lateral_stiffness_npm], p[t + TIRE.longitudinal_stiffness_npm]
+    bend = max(cornering + rim * (p[t + TIRE.flat_relaxation_m] * side - cornering), 0.02 * side)
+    pull = max(fz * p[t + TIRE.slip_stiffness], 0.05 * along)
+    up_x, down_x = lag_parts(lanes[w + LANE.slip], vx, slide_x, pull, along, dt)
+    up_y, down_y = lag_parts(lanes[w + LANE.slip_tan], vx, slide_y,
+                             bend * p[t + TIRE.relaxation_scale], side, dt)
+    slip, tan = two_ratios(up_x, down_x, up_y, down_y)
+    slip, tan = clip(slip, -1.0, 1.0), clip(tan, -3.0, 3.0)
+    grip, grip_tan = two_ratios(slope_x, peak_x, cornering, peak_y)
+    kept = kept_share(slip, tan, grip, grip_tan, slide_x, slide_y, vx)
     kept = where(peak_x > 0.0, kept, 1.0)
     slip, tan = kept * slip, kept * tan
     lanes[w + LANE.slip] = slip
@@ -112,18 +115,20 @@ def stretch(p: Floats, t: int, lanes: Floats, w: int, dt: float) -> None:
     damping = _STANDSTILL_DAMPING * max(1.0 - abs(vx) / _STANDSTILL_MPS, 0.0)
     lanes[w + LANE.force_slip] = clip(slip + damping * slide_x, -1.0, 1.0)
     lanes[w + LANE.force_slip_tan] = clip(tan + damping * slide_y, -3.0, 3.0)
-    lanes[w + LANE.cornering_nprad] = cornering
-    lanes[w + LANE.soft] = max(rim, blowout.collapse(p, t, inflation))
+    lanes[w + LANE.slope_n], lanes[w + LANE.cornering_nprad] = slope_x, cornering
+    lanes[w + LANE.grip], lanes[w + LANE.grip_tan] = grip, grip_tan
+    lanes[w + LANE.soft] = max(rim, collapse)
 
 
 @core
 def magic_formula_forces(p: Floats, t: int, lanes: Floats, w: int) -> None:
     """Forces of the tire in lane ``w`` while it is whole."""
-    inflation = lanes[w + LANE.pressure_pa] / p[t + TIRE.reference_pressure_pa]
-    fx, fy, mz = magic_formula.forces(
+    inflation = blowout.inflated(p, t, lanes[w + LANE.pressure_pa])[0]
+    fx, fy, mz = magic_formula.gripped_forces(
         p, t, lanes[w + LANE.fz_n], inflation, lanes[w + LANE.force_slip],
-        lanes[w + LANE.force_slip_tan], lanes[w + LANE.friction], lanes[w + LANE.axle_peak],
-        lanes[w + LANE.cornering_nprad])
+        lanes[w + LANE.force_slip_tan],
+        (lanes[w + LANE.slope_n], lanes[w + LANE.cornering_nprad]),
+        (lanes[w + LANE.grip], lanes[w + LANE.grip_tan]))
     lanes[w + LANE.fx_n], lanes[w + LANE.fy_n], lanes[w + LANE.mz_nm] = fx, fy, mz
 
 
