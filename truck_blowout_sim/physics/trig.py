@@ -52,10 +52,14 @@ def _reduced(x: float) -> tuple[float, float, float]:
 def _restored(x: float, offset: float, t: float) -> float:
     """atan(x) from a tangent within +-tan(pi/8) of the rest."""
     z = t * t
-    series = ((((((((-0.027261111235046032 * z + 0.05170740364194833) * z - 0.06551427046701526)
-                   * z + 0.07681118384130886) * z - 0.09090261573547978)
-                 * z + 0.11111089876389758) * z - 0.14285713934536187)
-               * z + 0.19999999997745024) * z - 0.3333333333333088)
+    zz = z * z
+    # in pairs, which do not wait for each other
+    low = (0.19999999997745024 * z - 0.3333333333333088
+           + (0.11111089876389758 * z - 0.14285713934536187) * zz)
+    high = (0.07681118384130886 * z - 0.09090261573547978
+            + (0.05170740364194833 * z - 0.06551427046701526) * zz
+            - 0.027261111235046032 * (zz * zz))
+    series = low + high * (zz * zz)
     angle = offset + (t + t * z * series)
     return where(x >= 0.0, angle, -angle)
 
@@ -66,9 +70,11 @@ def sine(angle: float) -> float:
     size = abs(angle)
     a = min(size, math.pi - size)
     z = a * a
-    series = ((((((-7.410491691126617e-13 * z + 1.6051158052155064e-10) * z
-                  - 2.5051978354290848e-08) * z + 2.7557318131656943e-06) * z
-                - 0.00019841269836983394) * z + 0.008333333333327423) * z - 0.16666666666666669)
+    zz = z * z
+    low = (0.008333333333327423 * z - 0.16666666666666669
+           + (2.7557318131656943e-06 * z - 0.00019841269836983394) * zz)
+    high = 1.6051158052155064e-10 * z - 2.5051978354290848e-08 - 7.410491691126617e-13 * zz
+    series = low + high * (zz * zz)
     value = a + a * z * series
     return where(angle >= 0.0, value, -value)
 

@@ -36,7 +36,9 @@ def tire_pass(p: Floats, tires_at: int, table_at: int, lanes: Floats, n_tires: i
         wide = n if trucks_in(lanes) > 1 else whole_vectors(n)
         for k in range(wide):
             carry(p, t + k, lanes, w + k)
+        for k in range(wide):
             stretch(p, t + k, lanes, w + k, dt)
+        for k in range(wide):
             magic_formula_forces(p, t + k, lanes, w + k)
         others = 0.0
         for k in range(n):
