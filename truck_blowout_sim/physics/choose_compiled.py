@@ -61,9 +61,20 @@ def _any_of_one(_context: Any, _builder: Any, _signature: Any, args: Any) -> Any
 
 
 @lower_builtin(choose.any_of, Mask)
+@lower_builtin(choose.seldom, Mask)
 def _any_of_eight(_context: Any, builder: Any, _signature: Any, args: Any) -> Any:
     bits = ir.IntType(EIGHT)
     return builder.icmp_unsigned("!=", builder.bitcast(args[0], bits), ir.Constant(bits, 0))
+
+
+@type_callable(choose.seldom)
+def _type_seldom(_context: Any) -> Callable[..., Any]:
+    return lambda condition: types.boolean
+
+
+@lower_builtin(choose.seldom, types.Boolean)
+def _seldom_one(context: Any, _builder: Any, _signature: Any, _args: Any) -> Any:
+    return context.get_constant(types.boolean, True)
 
 
 @type_callable(choose.shared)

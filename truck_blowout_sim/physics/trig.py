@@ -13,7 +13,7 @@ from __future__ import annotations
 
 import math
 
-from truck_blowout_sim.physics.choose import any_of, nearest, where
+from truck_blowout_sim.physics.choose import any_of, nearest, seldom, where
 from truck_blowout_sim.physics.jit import core
 from truck_blowout_sim.physics.scalar import two_ratios
 
@@ -32,25 +32,27 @@ def arctan(x: float) -> float:
 
 @core
 def arctans(x: float, y: float) -> tuple[float, float]:
-    """atan(x) and atan(y), by one division."""
-    (x0, up, down), (y0, y_up, y_down) = _reduced(x), _reduced(y)
-    x_rest, y_rest = two_ratios(up, down, y_up, y_down)
-    return _restored(x, x0, x_rest), _restored(y, y0, y_rest)
+    """atan(x) and atan(y), by one division; small ones by none."""
+    x0, x_rest, y0, y_rest = 0.0, x, 0.0, y
+    if seldom(max(abs(x), abs(y)) > _TAN_PI_8):
+        (x0, up, down), (y0, y_up, y_down) = _reduced(x), _reduced(y)
+        x_rest, y_rest = two_ratios(up, down, y_up, y_down)
+    return x0 + _small_arctan(x_rest), y0 + _small_arctan(y_rest)
 
 
 @core
 def _reduced(x: float) -> tuple[float, float, float]:
-    """The angle from which atan(abs(x)) is reckoned, and what remains: the tangent's two parts."""
-    size = abs(x)
+    """The angle from which atan(x) is reckoned, and what remains: the tangent's two parts."""
+    size, side = abs(x), where(x >= 0.0, 1.0, -1.0)
     far, near = size > _TAN_3_PI_8, size <= _TAN_PI_8
-    offset = where(far, _HALF_PI, where(near, 0.0, _QUARTER_PI))
-    up = where(far, -1.0, where(near, size, size - 1.0))
+    offset = side * where(far, _HALF_PI, where(near, 0.0, _QUARTER_PI))
+    up = where(far, -side, where(near, x, x - side))
     return offset, up, where(far, size, where(near, 1.0, size + 1.0))
 
 
 @core
-def _restored(x: float, offset: float, t: float) -> float:
-    """atan(x) from a tangent within +-tan(pi/8) of the rest."""
+def _small_arctan(t: float) -> float:
+    """atan(t) within +-tan(pi/8)."""
     z = t * t
     zz = z * z
     # in pairs, which do not wait for each other
@@ -60,23 +62,20 @@ def _restored(x: float, offset: float, t: float) -> float:
             + (0.05170740364194833 * z - 0.06551427046701526) * zz
             - 0.027261111235046032 * (zz * zz))
     series = low + high * (zz * zz)
-    angle = offset + (t + t * z * series)
-    return where(x >= 0.0, angle, -angle)
+    return t + t * z * series
 
 
 @core
 def sine(angle: float) -> float:
     """Sin of an angle within +-pi."""
-    size = abs(angle)
-    a = min(size, math.pi - size)
+    a = max(min(angle, math.pi - angle), -math.pi - angle)
     z = a * a
     zz = z * z
     low = (0.008333333333327423 * z - 0.16666666666666669
            + (2.7557318131656943e-06 * z - 0.00019841269836983394) * zz)
     high = 1.6051158052155064e-10 * z - 2.5051978354290848e-08 - 7.410491691126617e-13 * zz
     series = low + high * (zz * zz)
-    value = a + a * z * series
-    return where(angle >= 0.0, value, -value)
+    return a + a * z * series
 
 
 @core

@@ -16,7 +16,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from truck_blowout_sim.physics.choose import any_of, power_where, shared, where
+from truck_blowout_sim.physics.choose import any_of, power_where, seldom, shared, where
 from truck_blowout_sim.physics.jit import core
 from truck_blowout_sim.physics.layout import N_STEP_COLUMNS, TIRE, TIRE_S
 from truck_blowout_sim.physics.scalar import clip
@@ -98,6 +98,8 @@ def rolling_coefficient(p: Floats, t: int, collapse: float, deflection_m: float,
     of the rim and drag nearly as much as on it.
     """
     f = (p[t + TIRE.rolling_0] + p[t + TIRE.rolling_spm] * speed_mps) * soft
+    if not seldom((collapse > 0.0) | (rim > 0.0)):
+        return f
     way = p[t + TIRE.unloaded_radius_m] - p[t + TIRE.rim_radius_m]
     folded = collapse * clip(deflection_m / way, 0.0, 1.0)
     return f + max(rim, folded) * (p[t + TIRE.flat_rolling] * p[t + TIRE.flat_drag_scale] - f)

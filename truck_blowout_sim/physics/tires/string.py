@@ -15,6 +15,7 @@ from __future__ import annotations
 
 import math
 
+from truck_blowout_sim.physics.choose import seldom
 from truck_blowout_sim.physics.jit import core
 
 _LEAST_MPS = 1e-3  # of travel, in the slip of a sliding contact
@@ -44,7 +45,10 @@ def kept_share(slip: float, slip_tan: float, grip_x: float, grip_y: float,
     slide_y_mps``: slip speeds of the contact, of the signs of the slips they lead to.
     """
     x, y = slip * grip_x, slip_tan * grip_y
-    square = max(x * x + y * y, 1.0)
+    square = x * x + y * y
+    if not seldom(square > 1.0):
+        return 1.0
+    square = max(square, 1.0)
     travel = max(abs(speed_mps), _LEAST_MPS)
     # what the sliding of this moment sustains, along the stretch; 1 is what adhesion holds
     sustained = x * slide_x_mps * grip_x + y * slide_y_mps * grip_y
