@@ -112,19 +112,22 @@ def execute(packed: Packed, drive: Drive, progress: Progress | None = None, *,
             break
         if progress:
             progress(last / max(n, 1))
-    return Ran(out, driven.inputs, driven.blow_steps, driven.ending(x))
+    return driven.ran(x, out)
 
 
 class Driven:
     """A truck and its drive, ready for the loop; what a run changes of them is its own copy."""
 
     def __init__(self, packed: Packed, drive: Drive) -> None:
-        self._drive, self._packed, self._topology = drive, packed, packed.topology
-        self._params, self._pilot = packed.params.copy(), drive.pilot.copy()
+        nothing = np.zeros_like(drive.blow_steps)
+        self.drive, self.packed = drive, packed
+        self.params, self.pilot = packed.params.copy(), drive.pilot.copy()
         self.inputs, self.blow_steps = drive.inputs.copy(), drive.blow_steps.copy()
-        self._watch, self._rolls = drive.watch.copy(), rolled_over_rad(packed)
-        self._slots = packed.tire_states(TIRE_S.blown_time_s)[drive.blown]
-        self._mass_kg, self._work = total_mass_kg(packed), np.zeros(N_WORK)
+        self.watch, self.rolls = drive.watch.copy(), rolled_over_rad(packed)
+        self.blow_slots = packed.tire_states(TIRE_S.blown_time_s)[drive.blown]
+        self.blow_watch = nothing if drive.blow_watch is None else drive.blow_watch
+        self.blow_delays = nothing if drive.blow_delays is None else drive.blow_delays
+        self.mass_kg = total_mass_kg(packed)
 
     def steps(self, x: Floats, first: int, last: int, out: Floats) -> bool:
         """Drive on from step ``first`` to ``last``, state ``x`` and rows ``out`` in place.
@@ -132,19 +135,21 @@ class Driven:
         Returns:
             False once the run ended before its time.
         """
-        drive, nothing = self._drive, np.zeros_like(self.blow_steps)
+        drive = self.drive
         return not run_loop(
-            x, self._params, self._topology, self.inputs, drive.step_s, drive.every, first, last,
-            drive.initial.time_s, self.blow_steps, self._slots,
-            nothing if drive.blow_watch is None else drive.blow_watch,
-            nothing if drive.blow_delays is None else drive.blow_delays,
-            self._watch, drive.speed, self._mass_kg, self._pilot, drive.path, self._rolls,
-            self._work, out)
+            x, self.params, self.packed.topology, self.inputs, drive.step_s, drive.every, first,
+            last, drive.initial.time_s, self.blow_steps, self.blow_slots, self.blow_watch,
+            self.blow_delays, self.watch, drive.speed, self.mass_kg, self.pilot, drive.path,
+            self.rolls, np.zeros(N_WORK), out)
 
     def ending(self, x: Floats) -> Ending | None:
         """How the run ended before its time in state ``x``; None if it did not."""
-        return ending_of(x, self._packed, self._rolls, float(x[GLOBAL_S.time_s]),
-                         self._drive.initial.time_s)
+        return ending_of(x, self.packed, self.rolls, float(x[GLOBAL_S.time_s]),
+                         self.drive.initial.time_s)
+
+    def ran(self, x: Floats, out: Floats) -> Ran:
+        """What came out, once the run is over with state ``x`` and rows ``out``."""
+        return Ran(out, self.inputs, self.blow_steps, self.ending(x))
 
 
 def names_of(vehicle: Vehicle) -> tuple[str, ...]:

@@ -15,6 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from truck_blowout_sim.physics.choose import where
 from truck_blowout_sim.physics.jit import core
 from truck_blowout_sim.physics.layout import GLOBAL_S, STATE_UNIT_AT, UNIT_S
 from truck_blowout_sim.physics.places import unit_state
@@ -74,19 +75,18 @@ def ended(x: Floats, rolls: Floats) -> int:
 
     ``x``: state; ``rolls``: of `rolled_over_rad`.
     """
-    if x[GLOBAL_S.nonfinite] > 0.0:
-        return NOT_FINITE
-    for u in range(rolls.size):
+    end = GOING
+    for k in range(rolls.size):
+        u = rolls.size - 1 - k  # what is found on the first unit counts
         s = unit_state(u)
-        if abs(x[s + UNIT_S.roll_rad]) > rolls[u]:
-            return ROLLED_OVER + u
         speed = max(abs(x[s + UNIT_S.u_mps]), abs(x[s + UNIT_S.v_mps]), abs(x[s + UNIT_S.w_mps]))
         turn = max(abs(x[s + UNIT_S.p_radps]), abs(x[s + UNIT_S.q_radps]),
                    abs(x[s + UNIT_S.r_radps]))
-        if not (speed <= _FASTEST_MPS and turn <= _FASTEST_TURN_RADPS
-                and abs(x[s + UNIT_S.pitch_rad]) <= _STEEPEST_PITCH_RAD):
-            return OUT_OF_RANGE
-    return GOING
+        in_range = ((speed <= _FASTEST_MPS) & (turn <= _FASTEST_TURN_RADPS)
+                    & (abs(x[s + UNIT_S.pitch_rad]) <= _STEEPEST_PITCH_RAD))
+        end = where(in_range, end, OUT_OF_RANGE)
+        end = where(abs(x[s + UNIT_S.roll_rad]) > rolls[u], ROLLED_OVER + u, end)
+    return where(x[GLOBAL_S.nonfinite] > 0.0, NOT_FINITE, end)
 
 
 def stands(x: Floats, packed: Packed) -> bool:

@@ -40,6 +40,7 @@ from truck_blowout_sim.physics.places import (
 )
 from truck_blowout_sim.physics.steering import commanded_rad
 from truck_blowout_sim.physics.step import step
+from truck_blowout_sim.physics.trig import heading
 from truck_blowout_sim.simulation.inputs import STANDSTILL, Inputs
 from truck_blowout_sim.vehicle import Packed
 
@@ -75,18 +76,25 @@ def initial_vector(packed: Packed, initial: InitialState, step_s: float,
     ``warm``: the equilibrium of a similar truck at the same ``initial``, from which settling is
     shorter.
     """
-    settle_s = _SETTLE_S if warm is None else _SETTLE_WARM_S
+    x, u = unsettled(packed, initial, warm)
+    settle(x, packed.without_events(), packed.topology, u, step_s, settle_steps(step_s, warm),
+           held_motion(packed, initial), np.zeros(N_WORK))
+    place(x, packed, initial)
+    return x
+
+
+def settle_steps(step_s: float, warm: Floats | None) -> int:
+    """How many steps a truck settles."""
+    return int((_SETTLE_S if warm is None else _SETTLE_WARM_S) / step_s)
+
+
+def unsettled(packed: Packed, initial: InitialState, warm: Floats | None) -> tuple[Floats, Floats]:
+    """The state from which a truck settles, and the inputs held meanwhile."""
     x = _design_state(packed, initial) if warm is None else warm.copy()
     x[GLOBAL_S.time_s] = 0.0
-    quiet = packed.without_events()
-    held = _held_motion(packed, initial)
     u = np.array(initial.inputs, dtype=np.float64)
-    work = np.zeros(N_WORK)
     _fill_brakes(x, packed.topology, u)
-    settle(x, quiet, packed.topology, u, step_s, int(settle_s / step_s), held, work)
-    _place(x, packed, initial)
-    x[GLOBAL_S.time_s] = initial.time_s
-    return x
+    return x, u
 
 
 def _design_state(packed: Packed, initial: InitialState) -> Floats:
@@ -114,7 +122,7 @@ def _design_state(packed: Packed, initial: InitialState) -> Floats:
     return x
 
 
-def _held_motion(packed: Packed, initial: InitialState) -> Floats:
+def held_motion(packed: Packed, initial: InitialState) -> Floats:
     """Per unit: forward speed, lateral speed and yaw rate at its centre of gravity, and yaw."""
     p, n = packed.params, packed.topology[TOPOLOGY.n_units]
     held = np.zeros((n, 4))
@@ -182,13 +190,13 @@ def _hold_unit(x: Floats, p: Floats, u: int, held: Floats, keep: float) -> None:
     x[s + UNIT_S.x_m] = 0.0
     x[s + UNIT_S.y_m] = 0.0
     if u == 1:
-        c, sn = math.cos(held[1, 3]), math.sin(held[1, 3])
+        c, sn = heading(held[1, 3])
         x[s + UNIT_S.x_m] = p[UNIT_AT + UNIT.hitch_x_m] - c * p[a + UNIT.hitch_x_m]
         x[s + UNIT_S.y_m] = p[UNIT_AT + UNIT.hitch_y_m] - sn * p[a + UNIT.hitch_x_m]
 
 
-def _place(x: Floats, packed: Packed, initial: InitialState) -> None:
-    """Rotate and move both units so that the tractor's base_link stands at the initial pose."""
+def place(x: Floats, packed: Packed, initial: InitialState) -> None:
+    """Bring a settled truck to where and when it starts: its tractor's base_link to the pose."""
     p, c, s = packed.params, math.cos(initial.yaw_rad), math.sin(initial.yaw_rad)
     bx, by = p[UNIT_AT + UNIT.base_x_m], p[UNIT_AT + UNIT.base_y_m]
     for u in range(packed.topology[TOPOLOGY.n_units]):
@@ -197,3 +205,4 @@ def _place(x: Floats, packed: Packed, initial: InitialState) -> None:
         x[at + UNIT_S.x_m] = initial.x_m + c * dx - s * dy
         x[at + UNIT_S.y_m] = initial.y_m + s * dx + c * dy
         x[at + UNIT_S.yaw_rad] += initial.yaw_rad
+    x[GLOBAL_S.time_s] = initial.time_s

@@ -78,15 +78,24 @@ def run_loop(x: Floats, p: Floats, topo: Integers, inputs: Floats, dt: float, ev
             observe(x, p, topo, work, out[k // every])
         if k == last:
             break
-        for w in range(watch.shape[0]):
-            _look(x, p, watch, w, dt)
-        for b in range(blow_steps.size):
-            _blow(x, k, b, blow_steps, blow_slots, blow_watch, blow_delays, watch)
-        if pilot.size > 0 and _calls(x, pilot, blow_slots, watch):
-            notice(x, p, inputs, k, pilot)
-        drive_inputs(x, p, inputs, k, dt, speed, mass_kg, pilot, path)
+        act(x, p, inputs, k, dt, blow_steps, blow_slots, blow_watch, blow_delays, watch, speed,
+            mass_kg, pilot, path)
         step(x, p, topo, inputs[k], dt, work)
     return ended(x, rolls)
+
+
+@core
+def act(x: Floats, p: Floats, inputs: Floats, k: int, dt: float, blow_steps: Integers,
+        blow_slots: Integers, blow_watch: Integers, blow_delays: Integers, watch: Floats,
+        speed: Floats, mass_kg: float, pilot: Floats, path: Floats) -> None:
+    """What happens before step ``k``: conditions are met, tires burst, the driver acts."""
+    for w in range(watch.shape[0]):
+        _look(x, p, watch, w, dt)
+    for b in range(blow_steps.size):
+        _blow(x, k, b, blow_steps, blow_slots, blow_watch, blow_delays, watch)
+    if pilot.size > 0 and _calls(x, pilot, blow_slots, watch):
+        notice(x, p, inputs, k, pilot)
+    drive_inputs(x, p, inputs, k, dt, speed, mass_kg, pilot, path)
 
 
 @core
