@@ -7,7 +7,6 @@ References: none, this is bookkeeping.
 Known limits: both sides of `where` are worked out; `any_of` around it spares a costly one.
 Validated with: test/physics/test_choose.py, test/simulation/test_abreast.py.
 """
-# ruff: noqa: ANN401  # a float, or an octet
 
 from __future__ import annotations
 

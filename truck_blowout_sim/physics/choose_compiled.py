@@ -177,8 +177,7 @@ def _power_where_one(context: Any, builder: Any, _signature: Any, args: Any) -> 
 @lower_builtin(choose.power_where, Mask, Octet, Octet)
 def _power_where_eight(context: Any, builder: Any, _signature: Any, args: Any) -> Any:
     """Only for the trucks that need it: a power takes longer than most of a tire."""
-    condition, base, exponent = args
-    result = base
+    result = args[1]
     for place in places():
         one = [builder.extract_element(a, place) for a in args]
         value = _power_where_one(context, builder, None, one)

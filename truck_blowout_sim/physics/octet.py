@@ -21,7 +21,7 @@ from typing import Any
 from llvmlite import ir
 from numba import types
 from numba.core import cgutils
-from numba.core.typeconv import Conversion
+from numba.core.typeconv.castgraph import Conversion
 from numba.core.typing.templates import AbstractTemplate, Signature, infer_global, signature
 from numba.extending import lower_builtin, lower_cast, models, register_model
 
@@ -31,14 +31,13 @@ TRUTHS = ir.VectorType(ir.IntType(1), EIGHT)
 _COMPARED = {operator.lt: "<", operator.le: "<=", operator.gt: ">", operator.ge: ">=",
              operator.eq: "==", operator.ne: "!="}
 _ARITHMETIC = {operator.add: "fadd", operator.sub: "fsub", operator.mul: "fmul",
-               operator.truediv: "fdiv"}
-_IN_PLACE = {operator.iadd: "fadd", operator.isub: "fsub", operator.imul: "fmul",
-             operator.itruediv: "fdiv"}
+               operator.truediv: "fdiv", operator.iadd: "fadd", operator.isub: "fsub",
+               operator.imul: "fmul", operator.itruediv: "fdiv"}
 _LOGIC = {operator.and_: "and_", operator.or_: "or_"}
 _ONE_BY_ONE = {math.atan2: 2, math.asin: 1, math.tanh: 1}
 
 
-class Octet(types.Type):  # type: ignore[misc]
+class Octet(types.Type):
     """Eight float64, one a truck."""
 
     def __init__(self) -> None:
@@ -53,7 +52,7 @@ class Octet(types.Type):  # type: ignore[misc]
         return self if isinstance(other, (Octet, types.Float, types.Integer)) else None
 
 
-class Mask(types.Type):  # type: ignore[misc]
+class Mask(types.Type):
     """Eight truths, one a truck."""
 
     def __init__(self) -> None:
@@ -72,13 +71,13 @@ octet, mask = Octet(), Mask()
 
 
 @register_model(Octet)
-class _OctetModel(models.PrimitiveModel):  # type: ignore[misc]
+class _OctetModel(models.PrimitiveModel):
     def __init__(self, manager: Any, kind: Any) -> None:
         super().__init__(manager, kind, VECTOR)
 
 
 @register_model(Mask)
-class _MaskModel(models.PrimitiveModel):  # type: ignore[misc]
+class _MaskModel(models.PrimitiveModel):
     def __init__(self, manager: Any, kind: Any) -> None:
         super().__init__(manager, kind, TRUTHS)
 
@@ -142,7 +141,7 @@ def _compare(sign: str, _context: Any, builder: Any, _signature: Any, args: Any)
 
 
 def _choose(sign: str, _context: Any, builder: Any, _signature: Any, args: Any) -> Any:
-    """Least or greatest, as Numba picks it for floats: the first where neither is, or one is NaN."""
+    """Least or greatest, as Numba picks it for floats: where one is NaN, the first."""
     first, *rest = args
     for value in rest:
         first = builder.select(builder.fcmp_ordered(sign, value, first), value, first)
@@ -167,21 +166,19 @@ def _one_by_one(function: Any, context: Any, builder: Any, _signature: Any, args
 
 def _teach_all() -> None:
     """Everything that the step does with octets and masks."""
-    done: list[tuple[Any, int, Any, Any, Callable[..., Any]]] = []
-    for function, name in {**_ARITHMETIC, **_IN_PLACE}.items():
-        done.append((function, 2, octet, octet, partial(_emit, name)))
-    for function, sign in _COMPARED.items():
-        done.append((function, 2, octet, mask, partial(_compare, sign)))
-    for function, name in _LOGIC.items():
-        done.append((function, 2, mask, mask, partial(_emit, name)))
-    for function, number in _ONE_BY_ONE.items():
-        done.append((function, number, octet, octet, partial(_one_by_one, function)))
-    done += [(operator.neg, 1, octet, octet, partial(_emit, "fneg")),
-             (abs, 1, octet, octet, partial(_intrinsic, "llvm.fabs")),
-             (math.sqrt, 1, octet, octet, partial(_intrinsic, "llvm.sqrt")),
-             (min, 2, octet, octet, partial(_choose, "<")),
-             (max, 2, octet, octet, partial(_choose, ">")),
-             (max, 3, octet, octet, partial(_choose, ">"))]
+    done: list[tuple[Any, int, Any, Any, Callable[..., Any]]] = [
+        *((each, 2, octet, octet, partial(_emit, name)) for each, name in _ARITHMETIC.items()),
+        *((each, 2, octet, mask, partial(_compare, sign)) for each, sign in _COMPARED.items()),
+        *((each, 2, mask, mask, partial(_emit, name)) for each, name in _LOGIC.items()),
+        *((each, number, octet, octet, partial(_one_by_one, each))
+          for each, number in _ONE_BY_ONE.items()),
+        (operator.neg, 1, octet, octet, partial(_emit, "fneg")),
+        (abs, 1, octet, octet, partial(_intrinsic, "llvm.fabs")),
+        (math.sqrt, 1, octet, octet, partial(_intrinsic, "llvm.sqrt")),
+        (min, 2, octet, octet, partial(_choose, "<")),
+        (max, 2, octet, octet, partial(_choose, ">")),
+        (max, 3, octet, octet, partial(_choose, ">")),
+    ]
     for function, number, wanted, result, lower in done:
         _teach(function, number, wanted, result)
         lower_builtin(function, *[type(wanted)] * number)(_plain(lower))

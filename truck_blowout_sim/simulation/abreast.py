@@ -11,12 +11,13 @@ Validated with: test/simulation/test_abreast.py.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from truck_blowout_sim.physics.jit import PLAIN_PYTHON
-from truck_blowout_sim.physics.layout import GLOBAL_S, N_INPUTS, N_WORK
+from truck_blowout_sim.physics.layout import N_INPUTS, N_WORK
 from truck_blowout_sim.physics.octet import EIGHT
 from truck_blowout_sim.physics.octet_arrays import room_for_eight
 from truck_blowout_sim.simulation.alike import in_eights, kind_of
@@ -32,6 +33,8 @@ from truck_blowout_sim.simulation.loop_abreast import run_abreast, settle_abreas
 from truck_blowout_sim.vehicle import Packed
 
 Floats = NDArray[np.float64]
+Number = TypeVar("Number", np.float64, np.int64)
+MANY = 256  # trucks from which on it pays to compile the step once more, for eight
 
 
 def execute_abreast(trucks: Sequence[Packed], drives: Sequence[Drive],
@@ -43,7 +46,7 @@ def execute_abreast(trucks: Sequence[Packed], drives: Sequence[Drive],
     """
     given: Sequence[Floats | None] = starts or [None] * len(trucks)
     ran: dict[int, Ran] = {}
-    eights, alone = _split(trucks, drives, given)
+    eights, alone = parts_of(trucks, drives, given)
     for part in eights:
         begun = _settled([trucks[k] for k in part], [drives[k] for k in part],
                          [given[k] for k in part])
@@ -58,7 +61,7 @@ def settle_all(trucks: Sequence[Packed], drives: Sequence[Drive]) -> list[Floats
     """Settled trucks, as `equilibrium.initial_vector` gives one, eight at once."""
     nothing = [None] * len(trucks)
     starts: dict[int, Floats] = {}
-    eights, alone = _split(trucks, drives, nothing)
+    eights, alone = parts_of(trucks, drives, nothing)
     for part in eights:
         found = _settled([trucks[k] for k in part], [drives[k] for k in part], nothing[:len(part)])
         starts.update(zip(part, found, strict=True))
@@ -68,9 +71,9 @@ def settle_all(trucks: Sequence[Packed], drives: Sequence[Drive]) -> list[Floats
     return [starts[k] for k in range(len(trucks))]
 
 
-def _split(trucks: Sequence[Packed], drives: Sequence[Drive], starts: Sequence[Floats | None]
-           ) -> tuple[list[list[int]], list[int]]:
-    """Numbers of the drives that go abreast, eight a part, and of those that go alone."""
+def parts_of(trucks: Sequence[Packed], drives: Sequence[Drive],
+             starts: Sequence[Floats | None]) -> tuple[list[list[int]], list[int]]:
+    """Numbers of the drives that go abreast, up to eight a part, and of those that go alone."""
     if PLAIN_PYTHON:
         return [], list(range(len(trucks)))
     return in_eights([kind_of(*each) for each in zip(trucks, drives, starts, strict=True)])
@@ -109,10 +112,8 @@ def _run(driven: Sequence[Driven], starts: Sequence[Floats]) -> list[Ran]:
     first, drives = driven[0], [each.drive for each in driven]
     n_outputs = len(names_of(first.packed.vehicle))
     out = np.full((len(driven), max(drive.n_rows for drive in drives), n_outputs), np.nan)
-    tables = [_stacked([getattr(each, name) for each in driven]) for name in (
-        "inputs", "blow_steps", "blow_slots", "blow_watch", "blow_delays", "watch")]
-    speed = _stacked([drive.speed for drive in drives])
-    pilot, path = _stacked([each.pilot for each in driven]), _stacked([d.path for d in drives])
+    inputs = _stacked([each.inputs for each in driven])
+    blow_steps = _stacked([each.blow_steps for each in driven])
     counts = np.zeros((EIGHT, 6), dtype=np.int64)
     for lane, each in enumerate(driven):
         counts[lane] = (len(each.inputs), each.blow_steps.size, len(each.watch),
@@ -123,16 +124,21 @@ def _run(driven: Sequence[Driven], starts: Sequence[Floats]) -> list[Ran]:
         room_for_eight(N_INPUTS), first.drive.step_s, first.drive.every,
         side_by_side([np.array([drive.initial.time_s]) for drive in drives]),
         side_by_side([each.rolls for each in driven]), room_for_eight(N_WORK),
-        room_for_eight(n_outputs), room_for_eight(1), ends, counts, *tables, speed,
-        np.array([each.mass_kg for each in driven]), pilot, path, out)
+        room_for_eight(n_outputs), room_for_eight(1), ends, counts, inputs, blow_steps,
+        _stacked([each.blow_slots for each in driven]),
+        _stacked([each.blow_watch for each in driven]),
+        _stacked([each.blow_delays for each in driven]),
+        _stacked([each.watch for each in driven]), _stacked([drive.speed for drive in drives]),
+        np.array([each.mass_kg for each in driven]), _stacked([each.pilot for each in driven]),
+        _stacked([drive.path for drive in drives]), out)
     for lane, each in enumerate(driven):
-        each.inputs = tables[0][lane, :counts[lane, 0]]
-        each.blow_steps = tables[1][lane, :counts[lane, 1]]
+        each.inputs = inputs[lane, :len(each.inputs)]
+        each.blow_steps = blow_steps[lane, :each.blow_steps.size]
     return [each.ran(ends[:, lane].copy(), out[lane, :each.drive.n_rows])
             for lane, each in enumerate(driven)]
 
 
-def _stacked(arrays: Sequence[NDArray[np.generic]]) -> NDArray[np.generic]:
+def _stacked(arrays: Sequence[NDArray[Number]]) -> NDArray[Number]:
     """Arrays of several lengths as one, the shorter filled up with what is never read."""
     longest = max(len(array) for array in arrays)
     room = np.zeros((len(arrays), longest, *arrays[0].shape[1:]), dtype=arrays[0].dtype)

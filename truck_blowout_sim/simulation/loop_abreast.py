@@ -26,6 +26,7 @@ from truck_blowout_sim.simulation.loop import act
 
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
+Flags = NDArray[np.bool_]
 N_STEPS, N_BLOWS, N_WATCH, N_SPEEDS, N_PILOT, N_PATH = range(6)  # columns of ``counts``
 
 
@@ -57,28 +58,19 @@ def run_abreast(x: Floats, p: Floats, topo: Integers, held: Floats, dt: float, e
     xs, ps, ws = octets(x), octets(p), octets(work)
     us, limits, sights, found = octets(held), octets(rolls), octets(seen), octets(codes)
     starts, last = octets(origin_s), counts[:, N_STEPS].max()
-    left = 0
-    going = np.zeros(EIGHT, dtype=np.bool_)
-    for lane in range(EIGHT):
-        going[lane] = counts[lane, N_STEPS] > 0
-        left += going[lane]
+    going = counts[:, N_STEPS] > 0
+    left = going.sum()
     for k in range(last + 1):
-        now = ended(xs, limits)
-        found[0] = now
-        if any_of(now != GOING):
+        found[0] = ended(xs, limits)
+        if any_of(found[0] != GOING):
             for lane in range(EIGHT):
-                if going[lane] and codes[0, lane] != GOING:
-                    left -= _leave(going, x, ends, lane)
+                left -= _leave(going, x, ends, lane, codes[0, lane] != GOING)
         xs[GLOBAL_S.time_s] = starts[0] + k * dt
         if k % every == 0 and left > 0:
             observe(xs, ps, topo, ws, sights)
-            for lane in range(EIGHT):
-                if going[lane]:
-                    for i in range(seen.shape[0]):
-                        out[lane, k // every, i] = seen[i, lane]
+            _note(going, seen, out, k // every)
         for lane in range(EIGHT):
-            if going[lane] and k == counts[lane, N_STEPS]:
-                left -= _leave(going, x, ends, lane)
+            left -= _leave(going, x, ends, lane, k == counts[lane, N_STEPS])
             if going[lane]:
                 n = counts[lane]
                 blows = n[N_BLOWS]
@@ -95,8 +87,19 @@ def run_abreast(x: Floats, p: Floats, topo: Integers, held: Floats, dt: float, e
 
 
 @core
-def _leave(going: NDArray[np.bool_], x: Floats, ends: Floats, lane: int) -> int:
-    """Keep the state of a truck whose run is over; it goes on unheeded."""
+def _note(going: Flags, seen: Floats, out: Floats, row: int) -> None:
+    """Keep the outputs of the trucks that go."""
+    for lane in range(EIGHT):
+        if going[lane]:
+            for i in range(seen.shape[0]):
+                out[lane, row, i] = seen[i, lane]
+
+
+@core
+def _leave(going: Flags, x: Floats, ends: Floats, lane: int, over: bool) -> int:
+    """Keep the state of a truck whose run is over; it goes on unheeded. The number that leave."""
+    if not (going[lane] and over):
+        return 0
     going[lane] = False
     for i in range(x.shape[0]):
         ends[i, lane] = x[i, lane]

@@ -1,8 +1,7 @@
 """Many runs over the same compiled function, in parallel, into one table.
 
-Each truck is stepped by exactly the code that steps a single one, in a thread of its own: compiled
-code lets go of the interpreter, so threads run side by side and every result has the same bits as
-a run alone.
+Compiled code lets go of the interpreter, so threads run side by side. In a study of many runs each
+thread drives eight trucks abreast; what comes out is what each gives alone, to rounding.
 """
 
 from __future__ import annotations
@@ -13,6 +12,7 @@ from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import dataclass
+from itertools import groupby
 from os import PathLike
 from pathlib import Path
 from typing import Any
@@ -21,15 +21,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from truck_blowout_sim.errors import InputError
+from truck_blowout_sim.physics.octet import EIGHT
 from truck_blowout_sim.recordings.atomic import replacing
-from truck_blowout_sim.simulation.studies.cases import Row, Study
+from truck_blowout_sim.simulation.abreast import MANY
+from truck_blowout_sim.simulation.studies.cases import Case, Row, Study
 from truck_blowout_sim.simulation.studies.design import Value
 from truck_blowout_sim.simulation.studies.tables import TIMES, schema_of, table_of, write_rows
 
 Floats = NDArray[np.float64]
 Progress = Callable[[float], None]
 _MOST_IN_MEMORY_BYTES = 1_000_000_000
-_AHEAD = 4  # runs a worker that may wait to be written
+_AHEAD = 4  # runs a worker, or eights of runs, that may wait to be written
 
 
 @dataclass(frozen=True, eq=False)
@@ -80,8 +82,9 @@ def simulate_batch(vehicle: str | PathLike[str], scenario: str | PathLike[str],
         progress: called with the share that is done.
 
     Returns:
-        One row a run, in order; a run that failed is a row with its reason. Bit for bit what
-        `simulate` gives. With ``output``, columns are read from the file.
+        One row a run, in order; a run that failed is a row with its reason. What `simulate` gives,
+        bit for bit; from 256 runs on to rounding, because then eight trucks are stepped at once.
+        With ``output``, columns are read from the file.
 
     Raises:
         InputError: files, keys or channels that cannot be used, or more than memory should hold.
@@ -90,7 +93,8 @@ def simulate_batch(vehicle: str | PathLike[str], scenario: str | PathLike[str],
     if any(tuple(v) != keys for v in variants):
         raise InputError("the variants have different keys", expected="the same keys in each")
     study = Study(vehicle, scenario, keys, channels, step_s, rate_hz, insist)
-    rows = reporting(run_all(study, enumerate(variants), workers), len(variants), progress)
+    rows = reporting(run_all(study, list(enumerate(variants)), len(variants), workers),
+                     len(variants), progress)
     schema = schema_of(variants, channels, study.times_s)
     if output is None:
         size = len(variants) * len(channels) * study.times_s.size * 8
@@ -112,19 +116,24 @@ def open_batch(path: str | PathLike[str]) -> Batch:
     return Batch(table, np.array(times, dtype=np.float64))
 
 
-def run_all(study: Study, cases: Iterable[tuple[int, Mapping[str, Value]]],
-            workers: int | None = None) -> Iterator[Row]:
-    """Rows of all cases, in order, worked on by threads; only a few are held at a time."""
-    n = workers or os.cpu_count() or 1
-    waiting: deque[Future[Row]] = deque()
+def run_all(study: Study, cases: Iterable[Case], size: int, workers: int | None = None
+            ) -> Iterator[Row]:
+    """Rows of all cases, in order, worked on by threads; only a few are held at a time.
+
+    Args:
+        size: number of runs of the whole study. It decides whether trucks go abreast, and a run's
+            number with which others, so that a study gone on with gives the same rows.
+    """
+    n, together = workers or os.cpu_count() or 1, EIGHT if size >= MANY else 1
+    waiting: deque[Future[list[Row]]] = deque()
     with ThreadPoolExecutor(n) as pool:
         try:
-            for number, values in cases:
-                waiting.append(pool.submit(study.run, number, values))
+            for _, part in groupby(cases, key=lambda case: case[0] // together):
+                waiting.append(pool.submit(study.run_several, list(part)))
                 if len(waiting) >= _AHEAD * n:
-                    yield waiting.popleft().result()
+                    yield from waiting.popleft().result()
             while waiting:
-                yield waiting.popleft().result()
+                yield from waiting.popleft().result()
         finally:
             for future in waiting:
                 future.cancel()

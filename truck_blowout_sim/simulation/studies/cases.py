@@ -1,4 +1,4 @@
-"""One run of a study: files with some keys changed, run, measured; a failure is a row as well."""
+"""Runs of a study: files with some keys changed, run, measured; a failure is a row as well."""
 
 from __future__ import annotations
 
@@ -16,8 +16,8 @@ from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.physics.layout import INPUT
 from truck_blowout_sim.recordings import INPUT_NAMES
 from truck_blowout_sim.resources import config_file
-from truck_blowout_sim.simulation.drive import Drive, Ran, execute, names_of
-from truck_blowout_sim.simulation.equilibrium import initial_vector
+from truck_blowout_sim.simulation.abreast import execute_abreast, settle_all
+from truck_blowout_sim.simulation.drive import Drive, Ran, names_of
 from truck_blowout_sim.simulation.measures import Measures, measure
 from truck_blowout_sim.simulation.plausible import diverged, implausible
 from truck_blowout_sim.simulation.run import prepare
@@ -37,6 +37,7 @@ from truck_blowout_sim.vehicle.loading import vehicle_of
 from truck_blowout_sim.vehicle.reading import unknown
 
 Floats = NDArray[np.float64]
+Case = tuple[int, Mapping[str, Value]]
 OK, ROLLED_OVER, FAILED = "ok", "rolled over", "failed"
 _KEPT_TRUCKS, _KEPT_STARTS = 32, 64
 
@@ -114,20 +115,47 @@ class Study:
 
     def run(self, number: int, values: Mapping[str, Value]) -> Row:
         """Run one case; bad values and runs that diverge come back as a row with the reason."""
-        nothing = np.full((self.times_s.size, len(self.channels)), np.nan)
-        try:
-            packed, scenario, drive = self._prepared(values)
-            found = () if self.insist else implausible(packed, drive)
-            if found:
-                raise InputError(f"no vehicle of this kind does this: {'; '.join(found)}")
-            ran = execute(packed, drive, start=self._start(packed, drive))
-            if ran.ending is not None and not ran.ending.rolled_over:
-                raise diverged(packed, drive, ran.ending, scenario.name)
-            measures = measure(packed, drive, ran, scenario.spec.lane_width_m)
-        except InputError as error:
-            return Row(number, values, FAILED, str(error), None, nothing)
+        return self.run_several([(number, values)])[0]
+
+    def run_several(self, cases: Sequence[Case]) -> list[Row]:
+        """As `run`, abreast where several cases are alike."""
+        rows: dict[int, Row] = {}
+        begun: dict[int, tuple[Packed, Scenario, Drive]] = {}
+        for k, (number, values) in enumerate(cases):
+            try:
+                begun[k] = self._prepared(values)
+            except InputError as error:
+                rows[k] = self._failed(number, values, error)
+        trucks, drives = [b[0] for b in begun.values()], [b[2] for b in begun.values()]
+        ran = execute_abreast(trucks, drives, self._settled(trucks, drives))
+        for (k, (packed, scenario, drive)), each in zip(begun.items(), ran, strict=True):
+            number, values = cases[k]
+            try:
+                rows[k] = self._row(number, values, packed, scenario, drive, each)
+            except InputError as error:
+                rows[k] = self._failed(number, values, error)
+        return [rows[k] for k in range(len(cases))]
+
+    def _row(self, number: int, values: Mapping[str, Value], packed: Packed, scenario: Scenario,
+             drive: Drive, ran: Ran) -> Row:
+        """What came out of a case.
+
+        Raises:
+            InputError: the run diverged.
+        """
+        if ran.ending is not None and not ran.ending.rolled_over:
+            raise diverged(packed, drive, ran.ending, scenario.name)
+        measures = measure(packed, drive, ran, scenario.spec.lane_width_m)
         status = ROLLED_OVER if measures.rolled_over else OK
-        return Row(number, values, status, "", measures, self._series(packed, drive, ran, nothing))
+        return Row(number, values, status, "", measures,
+                   self._series(packed, drive, ran, self._nothing()))
+
+    def _failed(self, number: int, values: Mapping[str, Value], error: InputError) -> Row:
+        return Row(number, values, FAILED, str(error), None, self._nothing())
+
+    def _nothing(self) -> Floats:
+        """Channels of a run that did not come about."""
+        return np.full((self.times_s.size, len(self.channels)), np.nan)
 
     def _prepared(self, values: Mapping[str, Value]) -> tuple[Packed, Scenario, Drive]:
         """Truck, scenario and drive with the values in place."""
@@ -140,7 +168,10 @@ class Study:
                                    rate_hz=self.rate_hz)
         last = {key: value for key, value in values.items()
                 if self.found[key].where == PARAMETER}
-        return packed.with_values(_numbers(last)), scenario, drive
+        packed = packed.with_values(_numbers(last))
+        if not self.insist and (found := implausible(packed, drive)):
+            raise InputError(f"no vehicle of this kind does this: {'; '.join(found)}")
+        return packed, scenario, drive
 
     def _truck(self, values: Mapping[str, Value]) -> Packed:
         """The packed truck; the last few are kept."""
@@ -159,17 +190,22 @@ class Study:
         self._keep(self._trucks, own, packed, _KEPT_TRUCKS)
         return packed
 
-    def _start(self, packed: Packed, drive: Drive) -> Floats:
-        """The settled truck: equal trucks at equal starts settle once."""
-        key = (packed.without_events().tobytes(), packed.topology.tobytes(), drive.initial,
-               drive.step_s)
+    def _settled(self, trucks: Sequence[Packed], drives: Sequence[Drive]) -> list[Floats]:
+        """The settled trucks: equal trucks at equal starts settle once."""
+        keys = [(truck.without_events().tobytes(), truck.topology.tobytes(), drive.initial,
+                 drive.step_s) for truck, drive in zip(trucks, drives, strict=True)]
+        known: dict[Any, Floats] = {}
         with self._lock:
-            if key in self._starts:
-                self._starts.move_to_end(key)
-                return self._starts[key]
-        start = initial_vector(packed, drive.initial, drive.step_s)
-        self._keep(self._starts, key, start, _KEPT_STARTS)
-        return start
+            for key in keys:
+                if key in self._starts:
+                    self._starts.move_to_end(key)
+                    known[key] = self._starts[key]
+        new = list({key: k for k, key in enumerate(keys) if key not in known}.items())
+        found = settle_all([trucks[k] for _, k in new], [drives[k] for _, k in new])
+        for (key, _), start in zip(new, found, strict=True):
+            known[key] = start
+            self._keep(self._starts, key, start, _KEPT_STARTS)
+        return [known[key] for key in keys]
 
     def _keep(self, kept: OrderedDict[Any, Any], key: object, value: object, most: int) -> None:
         with self._lock:

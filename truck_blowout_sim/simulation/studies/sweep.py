@@ -7,24 +7,24 @@ from __future__ import annotations
 
 import json
 import shutil
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import asdict, dataclass
 from importlib import import_module
 from pathlib import Path
 from typing import Any
 
 from truck_blowout_sim.errors import InputError
+from truck_blowout_sim.physics.octet import EIGHT
 from truck_blowout_sim.recordings.atomic import replacing
 from truck_blowout_sim.resources import code_hash
 from truck_blowout_sim.simulation.studies.batch import Batch, open_batch, run_all
-from truck_blowout_sim.simulation.studies.cases import Row, Study
+from truck_blowout_sim.simulation.studies.cases import Case, Row, Study
 from truck_blowout_sim.simulation.studies.design import Axis, Value, grid, parse_axis, sample
 from truck_blowout_sim.simulation.studies.tables import schema_of, write_rows
 
 PLAN, PARTS, TABLE = "sweep.json", "parts", "runs.parquet"
-_PART_RUNS = 50
+_PART_RUNS = 6 * EIGHT
 _CONNECT_S = 10.0
-Case = tuple[int, Mapping[str, Value]]
 Progress = Callable[[int, int], None]
 
 
@@ -153,7 +153,8 @@ def _part(folder: Path, number: int) -> Path:
 def _here(study: Study, chunks: Sequence[list[Case]], wanted: Sequence[int], workers: int | None,
           tell: Callable[[int], object]) -> Iterator[tuple[int, list[Row]]]:
     """Parts done by threads on this machine, in order."""
-    rows = run_all(study, (case for k in wanted for case in chunks[k]), workers)
+    rows = run_all(study, (case for k in wanted for case in chunks[k]), sum(map(len, chunks)),
+                   workers)
     count = 0
     for k in wanted:
         part = []
