@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import pickle
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from contextlib import suppress
 from pathlib import Path
 
@@ -12,12 +12,15 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from numpy.typing import NDArray
 
 from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.simulation import load_scenario, open_batch, simulate, simulate_batch
+from truck_blowout_sim.simulation.drive import Drive
 from truck_blowout_sim.simulation.studies import Study, grid, parse_axis, sample
 from truck_blowout_sim.vehicle import Packed, load_vehicle, pack
 
+Floats = NDArray[np.float64]
 TRUCK = "international_9400i_trailmobile"
 SHORT = """\
 title: a turn, a burst
@@ -162,14 +165,14 @@ def test_another_vehicle_may_be_a_value(short: Path) -> None:
 def test_equal_trucks_settle_once(short: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     from truck_blowout_sim.simulation.studies import cases
 
-    settled: list[object] = []
-    settle = cases.initial_vector
+    settled: list[Packed] = []
+    settle = cases.settle_all
 
-    def counted(*words: object) -> object:
-        settled.append(words)
-        return settle(*words)  # type: ignore[arg-type]
+    def counted(trucks: Sequence[Packed], drives: Sequence[Drive]) -> list[Floats]:
+        settled.extend(trucks)
+        return settle(trucks, drives)
 
-    monkeypatch.setattr(cases, "initial_vector", counted)
+    monkeypatch.setattr(cases, "settle_all", counted)
     study = Study(TRUCK, short, ["blowouts.failure.time_s"])
     rows = [study.run(k, {"blowouts.failure.time_s": float(t)}) for k, t in enumerate((1.0, 2.0))]
     assert len(settled) == 1
@@ -229,9 +232,9 @@ def test_runs_are_not_held_in_memory(short: Path, monkeypatch: pytest.MonkeyPatc
 
     study = Study(TRUCK, short, ["start.speed_mph"])
     begun: list[int] = []
-    run: Callable[..., object] = study.run
-    monkeypatch.setattr(study, "run", lambda n, v: (begun.append(n), run(n, v))[1])
-    rows = run_all(study, ((k, {"start.speed_mph": -1.0}) for k in range(1000)), workers=2)
+    run: Callable[..., object] = study.run_several
+    monkeypatch.setattr(study, "run_several", lambda part: (begun.append(len(part)), run(part))[1])
+    rows = run_all(study, ((k, {"start.speed_mph": -1.0}) for k in range(1000)), 1, workers=2)
     next(rows)
     assert len(begun) < 40
     rows.close()  # type: ignore[attr-defined]

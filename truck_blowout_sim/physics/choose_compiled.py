@@ -134,9 +134,12 @@ def _pick_one(context: Any, builder: Any, signature_: Any, args: Any) -> Any:
 
 
 @lower_builtin(choose.pick, types.CPointer, Octet)
-def _pick_eight(_context: Any, builder: Any, _signature: Any, args: Any) -> Any:
+@lower_builtin(choose.pick, types.Array, Octet)
+def _pick_eight(context: Any, builder: Any, signature_: Any, args: Any) -> Any:
     """Truck by truck; a place that is not a number is place 0, so that nothing else is touched."""
-    numbers, at = args
+    (numbers, at), kind = args, signature_.args[0]
+    if isinstance(kind, types.Array):
+        numbers = context.make_array(kind)(context, builder, numbers).data
     number = builder.fcmp_ordered("ord", at, at)
     at = builder.select(number, at, ir.Constant(VECTOR, None))
     at = builder.fptosi(at, ir.VectorType(ir.IntType(64), EIGHT))
