@@ -36,6 +36,7 @@ ROOT = Path(__file__).resolve().parents[1]
 LONG_FILES = (
     "test_style.py", "proof/test_ci_sound_trucks.py", "proof/test_ci_effects.py",
     "test_packaging.py", "test_code_blocks.py", "diagnosis/test_sample_recordings.py",
+    "simulation/test_abreast.py",
 )  # fmt: skip
 
 

@@ -40,7 +40,8 @@ def test_tables_9_and_10_to_the_digit(thesis: Packed, state: Floats, number: int
     assert p[r + 1] == pytest.approx(radius_mm / 1000, abs=1e-12)
     # the published radius is the one under the reference load, with the published rate
     load = p[t + TIRE.reference_load_n]
-    fz, more = (blowout.vertical_load(p, t, 0.0, height, 0.0, True, p[r + 1], p[r + 2])[0]
+    free = blowout.free_radius_m(p, t, p[r + 1], p[r + 2])
+    fz, more = (blowout.vertical_load(p, t, 0.0, height, 0.0, True, free, p[r + 2])[0]
                 for height in (radius_mm / 1000, radius_mm / 1000 - 1e-6))
     assert fz == pytest.approx(load, rel=1e-9)
     assert (more - fz) / 1e-6 == pytest.approx(1000.0 * stiffness_npmm, rel=1e-6)
@@ -73,8 +74,8 @@ def test_continuous_law_has_no_step_anywhere(truck: Packed, block: Callable[[str
         radii = np.array([blowout.rolling_radius_m(truck.params, at, 0.506 - h, r)
                           for h, r in zip(heights, rims, strict=True)])
         assert np.abs(np.diff(radii)).max() < 2.0 * move
-        f = np.array([blowout.rolling_coefficient(truck.params, at, gauge / 7.6e5, 0.506 - h, r,
-                                                  23.0, 1.0)
+        lost = blowout.inflated(truck.params, at, gauge)[1]
+        f = np.array([blowout.rolling_coefficient(truck.params, at, lost, 0.506 - h, r, 23.0, 1.0)
                       for h, r in zip(heights, rims, strict=True)])
         assert np.abs(np.diff(f)).max() < 10.0 * move
 
@@ -117,8 +118,10 @@ def test_a_flat_tire_that_stops_short_of_the_rim_drags_as_much(truck: Packed,
 
     def drag(gauge_share: float, radius: float) -> float:
         rim = blowout.rim_fraction(truck.params, at, radius)
-        return float(blowout.rolling_coefficient(truck.params, at, gauge_share, free - radius, rim,
-                                                 20.0, 1.0))
+        gauge = gauge_share * truck["tire.trailer_1_left_outer.reference_pressure_pa"]
+        lost = blowout.inflated(truck.params, at, gauge)[1]
+        return float(blowout.rolling_coefficient(truck.params, at, lost, free - radius, rim, 20.0,
+                                                 1.0))
 
     assert drag(0.0, 0.376) == pytest.approx(flat, rel=0.02)
     # halfway to the rim half of it and the usual rolling resistance; with its air none of it

@@ -27,12 +27,16 @@ _SMALL = 0.1
 @core
 def arctan(x: float) -> float:
     """atan(x) for any x."""
-    return arctans(x, x)[0]
+    x0, rest = 0.0, x
+    if seldom(abs(x) > _TAN_PI_8):
+        x0, up, down = _reduced(x)
+        rest = up / down
+    return x0 + _small_arctan(rest)
 
 
 @core
 def arctans(x: float, y: float) -> tuple[float, float]:
-    """atan(x) and atan(y), by one division; small ones by none."""
+    """atan(x) and atan(y), up to 1e150, by one division; small ones by none."""
     x0, x_rest, y0, y_rest = 0.0, x, 0.0, y
     if seldom(max(abs(x), abs(y)) > _TAN_PI_8):
         (x0, up, down), (y0, y_up, y_down) = _reduced(x), _reduced(y)

@@ -87,9 +87,8 @@ def inflate(x: Floats, s: int, p: Floats, t: int, table_at: int, above_m: float,
         row = blowout.step_row(x, s, p, table_at + int(shared(p[t + TIRE.table])))
         lanes[w + LANE.row_radius_m] = pick(p, row + _RADIUS)
         stiffness = pick(p, row + _STIFFNESS)
-        # rows give the radius under the reference load
-        lanes[w + LANE.row_free_m] = (lanes[w + LANE.row_radius_m]
-                                      + p[t + TIRE.reference_load_n] / stiffness)
+        lanes[w + LANE.row_free_m] = blowout.free_radius_m(p, t, lanes[w + LANE.row_radius_m],
+                                                           stiffness)
         lanes[w + LANE.row_stiffness_npm] = stiffness
         lanes[w + LANE.row_cornering] = pick(p, row + _CORNERING)
         lanes[w + LANE.row_aligning] = pick(p, row + _ALIGNING)

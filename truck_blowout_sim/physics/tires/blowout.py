@@ -37,6 +37,12 @@ def step_row(x: Floats, s: int, p: Floats, table: int) -> int:
 
 
 @core
+def free_radius_m(p: Floats, t: int, row_radius_m: float, row_stiffness_npm: float) -> float:
+    """Unloaded radius [m] by a row of a step table, whose radius is that under reference load."""
+    return row_radius_m + p[t + TIRE.reference_load_n] / row_stiffness_npm
+
+
+@core
 def vertical_load(p: Floats, t: int, gauge_pa: float, height_m: float, sink_mps: float,
                   stepped: bool, row_free_m: float, row_stiffness_npm: float
                   ) -> tuple[float, float]:
@@ -84,6 +90,8 @@ def softness(p: Floats, t: int, gauge_pa: float) -> float:
     """Factor of rolling resistance at a pressure away from the reference one."""
     reference = p[t + TIRE.reference_pressure_pa]
     away = abs(gauge_pa - reference) > 0.05 * reference
+    if not any_of(away):
+        return 1.0
     share = max(gauge_pa / reference, 0.05)
     return where(away, power_where(away, share, -p[t + TIRE.rolling_pressure_exponent]), 1.0)
 

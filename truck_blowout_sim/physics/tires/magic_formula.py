@@ -56,8 +56,8 @@ def shapes(slip: float, c_x: float, e_x: float, c_y: float, e_y: float) -> tuple
 
 
 @core
-def pneumatic_trail_m(p: Floats, t: int, fz_n: float, inflation: float, alpha_rad: float) -> float:
-    """Trail [m]; Mz = -trail * Fy."""
+def pneumatic_trail_m(p: Floats, t: int, fz_n: float, inflation: float, slip_tan: float) -> float:
+    """Trail [m] at the tangent of a slip angle; Mz = -trail * Fy."""
     q = max(inflation, p[t + TIRE.pressure_valid])
     ratio = fz_n / p[t + TIRE.reference_load_n]
     level, slope = p[t + TIRE.trail_0], p[t + TIRE.trail_load]
@@ -66,8 +66,10 @@ def pneumatic_trail_m(p: Floats, t: int, fz_n: float, inflation: float, alpha_ra
     ratio = where(2.0 * slope * ratio > level + slope, vertex, ratio)
     base = level - slope * (ratio - 1.0)
     stretch = 1.0 + p[t + TIRE.trail_pressure] * (1.0 - q)
-    decay = cosine(p[t + TIRE.trail_shape] * arctan(p[t + TIRE.trail_stretch] * alpha_rad))
-    return p[t + TIRE.unloaded_radius_m] * ratio * base * stretch * decay * cosine(alpha_rad)
+    decay = cosine(p[t + TIRE.trail_shape] * arctan(p[t + TIRE.trail_stretch] * arctan(slip_tan)))
+    # cos(atan z) = 1 / sqrt(1 + z^2)
+    leaning = math.sqrt(1.0 + slip_tan * slip_tan)
+    return p[t + TIRE.unloaded_radius_m] * ratio * base * stretch * decay / leaning
 
 
 @core
@@ -108,4 +110,4 @@ def gripped_forces(p: Floats, t: int, fz_n: float, inflation: float, slip: float
                               p[t + TIRE.shape_y], p[t + TIRE.curvature_y])
     fx = slopes[0] * slip * shape_x / total
     fy = slopes[1] * alpha * shape_y / total
-    return fx, fy, -pneumatic_trail_m(p, t, fz_n, inflation, alpha) * fy
+    return fx, fy, -pneumatic_trail_m(p, t, fz_n, inflation, slip_tan) * fy
