@@ -1,5 +1,7 @@
 """One step of one truck: (state, parameters, inputs, dt) -> state, in place.
 
+Arrays of octets instead of floats step eight trucks abreast: `octet`, `choose`.
+
 Semi-implicit Euler: forces from the state at the step's beginning, then velocities, then positions
 with the new velocities. Inputs are held over the step. Nothing is allocated.
 
