@@ -18,6 +18,7 @@ import numpy as np
 
 from benchmarks.first_step import first_step
 from benchmarks.page import Page, Place, Table, number
+from truck_blowout_sim.physics.octet import EIGHT
 from truck_blowout_sim.simulation import (
     InitialState,
     Inputs,
@@ -27,6 +28,8 @@ from truck_blowout_sim.simulation import (
     run_batch,
     run_drive,
 )
+from truck_blowout_sim.simulation.abreast import execute_abreast
+from truck_blowout_sim.simulation.equilibrium import settle_steps
 from truck_blowout_sim.vehicle import load_vehicle, pack
 
 VEHICLE = "international_9400i_trailmobile"
@@ -116,6 +119,17 @@ def batch(table: Table) -> None:
               f"times the throughput of one, {'same' if same else 'OTHER'} bits")
 
 
+def abreast(table: Table) -> None:
+    """Eight trucks abreast, against one after the other, from settling to the last row."""
+    packed, drive, _ = prepare(pack(load_vehicle(VEHICLE)), load_scenario("fishhook"))
+    trucks = [packed.with_values({"steering.ratio": 20.0 + k}) for k in range(EIGHT)]
+    one_by_one, together = best_seconds(lambda: [run_drive(truck, drive) for truck in trucks],
+                                        lambda: execute_abreast(trucks, [drive] * EIGHT))
+    steps = len(drive.inputs) + settle_steps(drive.step_s, drive.warm)
+    table.row(f"{EIGHT} trucks abreast", f"{one_by_one / together:.2f} times the throughput of one,"
+              f" {1e6 * together / EIGHT / steps:.2f} µs a truck-step")
+
+
 def main(page: Page = None) -> None:
     """All figures of the core."""
     place = Place(page, "core")
@@ -123,4 +137,5 @@ def main(page: Page = None) -> None:
     others = Table("", "measured")
     first_step(others, VEHICLE)
     batch(others)
+    abreast(others)
     place.put(table, others)
