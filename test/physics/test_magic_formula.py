@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
+from numpy.typing import NDArray
 
 from truck_blowout_sim.physics.tires import magic_formula as mf
 from truck_blowout_sim.vehicle import Packed
@@ -24,10 +25,16 @@ ACCEPTANCE = {
 }
 
 
+def forces(p: NDArray[np.float64], at: int, fz: float, inflation: float, slip: float, tan: float,
+           friction: float, axle_peak: float, k: float) -> tuple[float, float, float]:
+    peak_x, peak_y, slope = mf.limits(p, at, fz, friction, axle_peak)
+    return mf.forces(p, at, fz, inflation, slip, tan, (slope, k), (slope / peak_x, k / peak_y))
+
+
 def side_force(truck: Packed, at: int, fz: float, degrees: float) -> tuple[float, float]:
     k = mf.cornering_stiffness_nprad(truck.params, at, fz, 1.0)
     tan = math.tan(math.radians(degrees))
-    _, fy, mz = mf.forces(truck.params, at, fz, 1.0, 0.0, tan, 1.0, 1.0, k)
+    _, fy, mz = forces(truck.params, at, fz, 1.0, 0.0, tan, 1.0, 1.0, k)
     return fy, mz
 
 
@@ -75,7 +82,7 @@ def test_combined_force_stays_in_the_friction_ellipse(
 ) -> None:
     p, at, name = truck.params, block("tire.steer_left"), "tire.steer_left."
     k = mf.cornering_stiffness_nprad(p, at, load, 1.0)
-    fx, fy, _ = mf.forces(p, at, load, 1.0, slip, tan, friction, 1.0, k)
+    fx, fy, _ = forces(p, at, load, 1.0, slip, tan, friction, 1.0, k)
     d = load / truck[name + "reference_load_n"] - 1.0
     peak_x = max(truck[name + "peak_x"] - truck[name + "peak_x_load"] * d, 0.1) * friction * load
     peak_y = max(truck[name + "peak_y"] - truck[name + "peak_y_load"] * d, 0.1) * friction * load
@@ -87,8 +94,8 @@ def test_combined_force_stays_in_the_friction_ellipse(
 def test_slopes_at_the_origin_are_the_stiffnesses(truck: Packed, block: Block) -> None:
     p, at, fz = truck.params, block("tire.steer_left"), 27_000.0
     k = mf.cornering_stiffness_nprad(p, at, fz, 1.0)
-    fx, _, _ = mf.forces(p, at, fz, 1.0, 1e-6, 0.0, 1.0, 1.0, k)
-    _, fy, _ = mf.forces(p, at, fz, 1.0, 0.0, 1e-6, 1.0, 1.0, k)
+    fx, _, _ = forces(p, at, fz, 1.0, 1e-6, 0.0, 1.0, 1.0, k)
+    _, fy, _ = forces(p, at, fz, 1.0, 0.0, 1e-6, 1.0, 1.0, k)
     assert fx / 1e-6 == pytest.approx(14.0 * fz, rel=1e-4)
     assert fy / 1e-6 == pytest.approx(k, rel=1e-4)
 
@@ -96,7 +103,7 @@ def test_slopes_at_the_origin_are_the_stiffnesses(truck: Packed, block: Block) -
 def test_braking_takes_cornering_force_away(truck: Packed, block: Block) -> None:
     p, at, fz = truck.params, block("tire.steer_left"), 25_000.0
     k = mf.cornering_stiffness_nprad(p, at, fz, 1.0)
-    sides = [mf.forces(p, at, fz, 1.0, slip, 0.05, 1.0, 1.0, k)[1]
+    sides = [forces(p, at, fz, 1.0, slip, 0.05, 1.0, 1.0, k)[1]
              for slip in np.linspace(0.0, -0.5, 20)]
     assert all(b < a for a, b in pairwise(sides))
     assert sides[-1] < 0.3 * sides[0]

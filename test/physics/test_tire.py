@@ -46,7 +46,9 @@ def test_after_a_while_the_lag_is_gone(truck: Packed, inflated: tuple[Floats, in
     for _ in range(2000):
         fx, fy, mz = force(truck, state, s, t, vy=-0.03 * SPEED, roll=1.01 * SPEED)
     k = magic_formula.cornering_stiffness_nprad(truck.params, t, FZ, 1.0)
-    steady = magic_formula.forces(truck.params, t, FZ, 1.0, 0.01, 0.03, 1.0, 1.0, k)
+    peak_x, peak_y, slope = magic_formula.limits(truck.params, t, FZ, 1.0, 1.0)
+    steady = magic_formula.forces(truck.params, t, FZ, 1.0, 0.01, 0.03, (slope, k),
+                                  (slope / peak_x, k / peak_y))
     assert (fx, fy, mz) == pytest.approx(steady, rel=1e-6)
 
 

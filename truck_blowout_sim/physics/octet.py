@@ -7,7 +7,7 @@ the eight, which branches only through `choose`.
 
 References: Numba manual, "Low-level extension API"; LLVM language reference, "Vector Type".
 Known limits: what has no instruction (atan2, tanh) is called once for each truck.
-Validated with: test/simulation/test_abreast.py.
+Validated with: test/physics/test_choose.py, test/simulation/test_abreast.py.
 """
 
 from __future__ import annotations

@@ -75,7 +75,10 @@ def pneumatic_trail_m(p: Floats, t: int, fz_n: float, inflation: float, slip_tan
 @core
 def limits(p: Floats, t: int, fz_n: float, friction: float, axle_peak: float
            ) -> tuple[float, float, float]:
-    """Peak forces along and across [N], and slope of the longitudinal force over slip [N]."""
+    """Peak forces along and across [N], and slope of the longitudinal force over slip [N].
+
+    ``axle_peak`` scales the lateral peak alone.
+    """
     d = fz_n / p[t + TIRE.reference_load_n] - 1.0
     load = friction * p[t + TIRE.friction_scale] * fz_n
     return (max(p[t + TIRE.peak_x] - p[t + TIRE.peak_x_load] * d, 0.1) * load,
@@ -85,24 +88,13 @@ def limits(p: Floats, t: int, fz_n: float, friction: float, axle_peak: float
 
 @core
 def forces(p: Floats, t: int, fz_n: float, inflation: float, slip: float, slip_tan: float,
-           friction: float, axle_peak: float, cornering: float
-           ) -> tuple[float, float, float]:
+           slopes: tuple[float, float], grips: tuple[float, float]) -> tuple[float, float, float]:
     """Longitudinal and lateral force [N] and aligning moment [N m], rolling forward.
 
     ``slip`` and ``slip_tan`` are the lagged longitudinal slip and the lagged -vy/|vx|: a positive
-    ``slip_tan`` gives a force to the left. ``cornering`` is K_ya. ``axle_peak`` scales the lateral
-    peak alone.
+    ``slip_tan`` gives a force to the left. ``slopes``: of the forces over slip [N], along and
+    across (K_ya); ``grips``: these divided by the peaks of the forces.
     """
-    peak_x, peak_y, stiffness_x = limits(p, t, fz_n, friction, axle_peak)
-    grips = two_ratios(stiffness_x, peak_x, cornering, peak_y)
-    return gripped_forces(p, t, fz_n, inflation, slip, slip_tan, (stiffness_x, cornering), grips)
-
-
-@core
-def gripped_forces(p: Floats, t: int, fz_n: float, inflation: float, slip: float, slip_tan: float,
-                   slopes: tuple[float, float], grips: tuple[float, float]
-                   ) -> tuple[float, float, float]:
-    """As `forces`, by the slopes [N] of the forces over slip, and these divided by their peaks."""
     alpha = arctan(slip_tan)
     sx, sy = grips[0] * slip, grips[1] * alpha
     total = max(math.sqrt(sx * sx + sy * sy), _LEAST_SLIP)

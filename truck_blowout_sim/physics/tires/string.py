@@ -22,16 +22,12 @@ _LEAST_MPS = 1e-3  # of travel, in the slip of a sliding contact
 
 
 @core
-def lag(value: float, speed: float, drive: float, length_m: float, dt: float) -> float:
-    """Implicit step of length * ds/dt + |speed| s = drive."""
-    up, down = lag_parts(value, speed, drive, length_m, 1.0, dt)
-    return up / down
+def lag(value: float, speed: float, drive: float, slope_n: float, stiffness_npm: float, dt: float
+        ) -> tuple[float, float]:
+    """Implicit step of length * ds/dt + |speed| s = drive: numerator and denominator of the new s.
 
-
-@core
-def lag_parts(value: float, speed: float, drive: float, slope_n: float, stiffness_npm: float,
-              dt: float) -> tuple[float, float]:
-    """Numerator and denominator of `lag`; the length is slope over stiffness of the carcass."""
+    The relaxation length is the slope of the force over slip, by the stiffness of the carcass.
+    """
     return (value * slope_n + dt * drive * stiffness_npm,
             slope_n + dt * abs(speed) * stiffness_npm)
 

@@ -17,7 +17,7 @@ from truck_blowout_sim.physics.layout import TIRE, TIRE_BLOCK, TIRE_LANES
 from truck_blowout_sim.physics.scalar import clip, two_ratios
 from truck_blowout_sim.physics.tires import blowout, linear, lookup_map, magic_formula
 from truck_blowout_sim.physics.tires.lanes import LANE, LANE_BLOCK, whole_vectors
-from truck_blowout_sim.physics.tires.string import kept_share, lag_parts
+from truck_blowout_sim.physics.tires.string import kept_share, lag
 
 Floats = NDArray[np.float64]
 MAGIC_FORMULA, LOOKUP_MAP, LINEAR = 0.0, 1.0, 2.0  # TIRE.model
@@ -103,9 +103,9 @@ def stretch(p: Floats, t: int, lanes: Floats, w: int, dt: float) -> None:
     side, along = p[t + TIRE.lateral_stiffness_npm], p[t + TIRE.longitudinal_stiffness_npm]
     bend = max(cornering + rim * (p[t + TIRE.flat_relaxation_m] * side - cornering), 0.02 * side)
     pull = max(fz * p[t + TIRE.slip_stiffness], 0.05 * along)
-    up_x, down_x = lag_parts(lanes[w + LANE.slip], vx, slide_x, pull, along, dt)
-    up_y, down_y = lag_parts(lanes[w + LANE.slip_tan], vx, slide_y,
-                             bend * p[t + TIRE.relaxation_scale], side, dt)
+    up_x, down_x = lag(lanes[w + LANE.slip], vx, slide_x, pull, along, dt)
+    up_y, down_y = lag(lanes[w + LANE.slip_tan], vx, slide_y, bend * p[t + TIRE.relaxation_scale],
+                       side, dt)
     slip, tan = two_ratios(up_x, down_x, up_y, down_y)
     slip, tan = clip(slip, -1.0, 1.0), clip(tan, -3.0, 3.0)
     grip, grip_tan = two_ratios(slope_x, peak_x, cornering, peak_y)
@@ -126,7 +126,7 @@ def stretch(p: Floats, t: int, lanes: Floats, w: int, dt: float) -> None:
 def magic_formula_forces(p: Floats, t: int, lanes: Floats, w: int) -> None:
     """Forces of the tire in lane ``w`` while it is whole."""
     inflation = blowout.inflated(p, t, lanes[w + LANE.pressure_pa])[0]
-    fx, fy, mz = magic_formula.gripped_forces(
+    fx, fy, mz = magic_formula.forces(
         p, t, lanes[w + LANE.fz_n], inflation, lanes[w + LANE.force_slip],
         lanes[w + LANE.force_slip_tan],
         (lanes[w + LANE.slope_n], lanes[w + LANE.cornering_nprad]),
