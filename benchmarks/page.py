@@ -61,12 +61,14 @@ class Place:
         if page is not None:
             page_with(page, name, "")
 
-    def put(self, *parts: Table | str) -> None:
-        """Print on what machine it was measured, and write that and the parts."""
+    def put(self, *parts: Table | str, timed: bool = True) -> None:
+        """Write the parts; where a time was measured, on what machine, which is also printed."""
         said = f"Measured {date.today().isoformat()}: {machine()}, {_loads(self._load, load())}."
-        print(said)
+        if timed:
+            print(said)
         if self._page is not None:
-            put_on_page(self._page, self._name, "\n\n".join([said, *map(str, parts)]))
+            put_on_page(self._page, self._name,
+                        "\n\n".join([*([said] if timed else []), *map(str, parts)]))
 
 
 def load() -> float:

@@ -26,9 +26,9 @@ def test_errors_of_both_vehicles_stand_side_by_side() -> None:
 def test_what_was_found_is_told_with_its_equation() -> None:
     effect = {"name": "tire_saturation", "sentence": "Grip levels off.", "equation": "F = s"}
     table = found_table({"verdict": "missing_physics", "effects": [effect],
-                         "summary": {"sure": "1 in 100.", "changed": "Better."}})
+                         "summary": {"sure": "1 in 100."}})
     assert "| `tire_saturation` | Grip levels off. `F = s` |" in table.lines
-    assert table.lines[-1] == "| unseen half | Better. |"
+    assert table.lines[-1] == "| how sure | 1 in 100. |"
 
 
 def test_faults_change_what_they_say() -> None:
