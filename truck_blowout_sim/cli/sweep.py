@@ -23,6 +23,7 @@ VEHICLE: Any = typer.Option(
     "international_9400i_trailmobile", help="Name of a shipped vehicle, or a YAML file.",
     autocompletion=names_of("vehicles"),
 )
+_LOADING = "loading the model; the first sweep compiles it, in a minute"
 _CONTINUES = "the same command continues from here"
 
 
@@ -75,10 +76,11 @@ def command(
     claim(output, force=force, inputs=[scenario, vehicle], writes=["report.html", "figures"])
     with _progress() as progress, interruptible(
             lambda: _CONTINUES if (output / "sweep.json").exists() else ""):
-        task = progress.add_task("running", total=None)
+        task = progress.add_task(_LOADING, total=None)
         batch = run_sweep(
             plan, output, force=force, workers=workers, scheduler=scheduler,
-            progress=lambda done, total: progress.update(task, completed=done, total=total))
+            progress=lambda done, total: progress.update(
+                task, completed=done, total=total, description="running" if done else _LOADING))
         progress.update(task, description="drawing")
         page, found = write_sweep_report(batch, [axis.key for axis in plan.axes],
                                          load_scenario(scenario).title, _command(plan), output)
