@@ -15,10 +15,15 @@ from importlib.util import find_spec
 from time import perf_counter, thread_time
 
 import numpy as np
+from numpy.typing import NDArray
 
 from benchmarks.first_step import first_step
 from benchmarks.page import Page, Place, Table, number
+from truck_blowout_sim.physics.jit import core
+from truck_blowout_sim.physics.layout import N_INPUTS, N_WORK
 from truck_blowout_sim.physics.octet import EIGHT
+from truck_blowout_sim.physics.octet_arrays import octets, room_for_eight
+from truck_blowout_sim.physics.step import advance
 from truck_blowout_sim.simulation import (
     InitialState,
     Inputs,
@@ -28,10 +33,11 @@ from truck_blowout_sim.simulation import (
     run_batch,
     run_drive,
 )
-from truck_blowout_sim.simulation.abreast import execute_abreast
+from truck_blowout_sim.simulation.abreast import execute_abreast, side_by_side
 from truck_blowout_sim.simulation.equilibrium import settle_steps
 from truck_blowout_sim.vehicle import load_vehicle, pack
 
+Floats, Integers = NDArray[np.float64], NDArray[np.int64]
 VEHICLE = "international_9400i_trailmobile"
 PEER = "commonroad-vehicle-models"
 PAIR = ("trailer_1_left_outer", "trailer_1_left_inner")
@@ -72,21 +78,40 @@ def turning(vehicle: str, blown: tuple[str, ...]) -> tuple[Truck, Inputs]:
 
 
 def speeds() -> Table:
-    """Processor time of a step, a row each vehicle."""
+    """Processor time of a step, a row each vehicle, alone and eight abreast."""
     cars = [turning(vehicle, blown) for _, vehicle, blown in ROWS]
     works: list[Callable[[], object]] = [partial(car.advance, turn, STEPS) for car, turn in cars]
     rows = [(what, len(car.vehicle.tires))
             for (what, _, _), (car, _) in zip(ROWS, cars, strict=True)]
+    for what, vehicle, blown in ROWS:
+        works.append(eight(vehicle, blown))
+        rows.append((f"{EIGHT} abreast: {what}", len(load_vehicle(vehicle).tires)))
     if find_spec("vehiclemodels"):
         works.append(peer())
         rows.append((f"{PEER} {version(PEER)} (plain Python, four tires)", 4))
     table = Table("", "a step", "a tire-step", "times real time")
     for (what, tires), seconds in zip(rows, best_seconds(*works), strict=True):
-        step_s = seconds / STEPS
+        step_s = seconds / STEPS / (EIGHT if "abreast" in what else 1)
         table.row(what, f"{1e6 * step_s:.2f} µs", f"{1e9 * step_s / tires:,.0f} ns",
                   number(STEP_S / step_s))
     table.row("sought for the default truck", "", "", SOUGHT)
     return table
+
+
+@core
+def advance_eight(x: Floats, p: Floats, topo: Integers, inputs: Floats, dt: float, n_steps: int,
+                  work: Floats) -> None:
+    """`step.advance` of eight trucks; every array but ``topo`` is [..., 8]."""
+    advance(octets(x), octets(p), topo, octets(inputs), dt, n_steps, octets(work))
+
+
+def eight(vehicle: str, blown: tuple[str, ...]) -> Callable[[], object]:
+    """What takes as many steps with eight of a truck, as `turning` has it, side by side."""
+    truck, turn = turning(vehicle, blown)
+    x, p = (side_by_side([one] * EIGHT) for one in (truck.state, truck.packed.params))
+    inputs, work = room_for_eight(N_INPUTS), room_for_eight(N_WORK)
+    inputs[:] = np.array(turn)[:, None]
+    return partial(advance_eight, x, p, truck.packed.topology, inputs, STEP_S, STEPS, work)
 
 
 def peer() -> Callable[[], None]:
