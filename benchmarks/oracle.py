@@ -6,8 +6,10 @@
 
 `make` copies the cases with an effect of the library; in each, every other name is excluded, as by
 `--without`. Place, amount, instant, and the chance that nothing is missing stay open. What the
-diagnosis then does not name, its runs do not tell from chance, however good a search is. WHOLE is
-what `prove` wrote for all cases.
+diagnosis then does not name, a better search among names would not have found. WHOLE is what
+`prove` wrote for all cases.
+
+Known limits: no strict bound, as the scatter of amounts is learned from fewer hypotheses.
 
 Validated with: test/benchmarks/test_oracle.py.
 """
