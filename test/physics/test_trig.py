@@ -29,7 +29,7 @@ def test_a_small_sine_keeps_its_relative_accuracy(angle: float) -> None:
 
 @given(st.floats(-10.0, 10.0))
 def test_cosine_and_sine_of_a_steer_angle(angle: float) -> None:
-    assert turned(angle) == pytest.approx((math.cos(angle), math.sin(angle)), abs=2e-15)
+    assert turned(angle) == pytest.approx((math.cos(angle), math.sin(angle)), abs=1e-15)
 
 
 def test_odd_and_even() -> None:

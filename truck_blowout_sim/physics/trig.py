@@ -103,6 +103,5 @@ def turned(angle: float) -> tuple[float, float]:
     s = ((((z / 72.0 - 1.0) * z / 42.0 + 1.0) * z / 20.0 - 1.0) * z / 6.0 + 1.0) * angle
     far = abs(angle) > _SMALL
     if any_of(far):
-        far_c, far_s = heading(angle)
-        c, s = where(far, far_c, c), where(far, far_s, s)
+        c, s = where(far, math.cos(angle), c), where(far, math.sin(angle), s)
     return c, s
