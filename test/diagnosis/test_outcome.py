@@ -249,11 +249,11 @@ def test_what_is_unknown_is_to_be_looked_for(pushed: Study) -> None:
 
 def test_one_fault_of_two_amounts_says_which_is_which() -> None:
     """A gyro's zero that the baseline shows, too, and has moved since."""
-    def finding(everywhere: bool) -> SensorFinding:
+    def finding(everywhere: bool, amount: str = ": bias 0.3 deg/s") -> SensorFinding:
         return cast(SensorFinding, SimpleNamespace(
             name="yaw_rate_bias", body="tractor", instrument="tractor yaw rate", parameters={},
             channels=("tractor_yaw_rate_radps",), equation="r_measured = r + bias",
-            sentence="The tractor yaw rate reads off by a constant: bias 0.3 deg/s.",
+            sentence=f"The tractor yaw rate reads off by a constant{amount}.",
             in_baseline=everywhere))
 
     both = sensor_effects([finding(True), finding(False)])
@@ -262,3 +262,5 @@ def test_one_fault_of_two_amounts_says_which_is_which() -> None:
         "The tractor yaw rate reads off by a constant beyond that of the baseline: bias 0.3 deg/s."]
     assert len({label_of(effect, both) for effect in both}) == 2
     assert sensor_effects([finding(False)])[0].sentence == finding(False).sentence
+    without_amount = sensor_effects([finding(True, ""), finding(False, "")])[0].sentence
+    assert without_amount == "The tractor yaw rate reads off by a constant in every run."

@@ -81,8 +81,8 @@ def sensor_effects(findings: Sequence[SensorFinding]) -> list[Effect]:
 
 def _sensor_effect(finding: SensorFinding, twice: bool) -> Effect:
     which = "in every run" if finding.in_baseline else "beyond that of the baseline"
-    fault, colon, amount = finding.sentence.partition(": ")
-    sentence = f"{fault} {which}{colon}{amount}" if twice else finding.sentence
+    fault, colon, amount = finding.sentence.removesuffix(".").partition(": ")
+    sentence = f"{fault} {which}{colon}{amount}." if twice else finding.sentence
     instrument = f"{finding.instrument}, {which}" if twice else finding.instrument
     return Effect(name=finding.name, kind="sensor", where=Place(body=finding.body or None),
                   parameters={n: Parameter(a.value, a.unit, a.ci90)
