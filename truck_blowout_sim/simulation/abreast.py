@@ -48,13 +48,19 @@ def execute_abreast(trucks: Sequence[Packed], drives: Sequence[Drive],
     ran: dict[int, Ran] = {}
     eights, alone = parts_of(trucks, drives, given)
     for part in eights:
-        begun = _settled([trucks[k] for k in part], [drives[k] for k in part],
-                         [given[k] for k in part])
-        driven = [Driven(trucks[k], drives[k]) for k in part]
-        ran.update(zip(part, _run(driven, begun), strict=True))
+        found = execute_alike([trucks[k] for k in part], [drives[k] for k in part],
+                              [given[k] for k in part])
+        ran.update(zip(part, found, strict=True))
     for k in alone:
         ran[k] = execute(trucks[k], drives[k], start=given[k])
     return [ran[k] for k in range(len(trucks))]
+
+
+def execute_alike(trucks: Sequence[Packed], drives: Sequence[Drive],
+                  starts: Sequence[Floats | None]) -> list[Ran]:
+    """`execute_abreast` of up to eight that are known to be alike: a part of `parts_of`."""
+    begun = _settled(trucks, drives, starts)
+    return _run([Driven(truck, drive) for truck, drive in zip(trucks, drives, strict=True)], begun)
 
 
 def settle_all(trucks: Sequence[Packed], drives: Sequence[Drive]) -> list[Floats]:

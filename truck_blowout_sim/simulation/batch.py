@@ -9,8 +9,8 @@ from concurrent.futures import ThreadPoolExecutor
 import numpy as np
 from numpy.typing import NDArray
 
-from truck_blowout_sim.simulation.abreast import MANY, execute_abreast, parts_of
-from truck_blowout_sim.simulation.drive import Drive
+from truck_blowout_sim.simulation.abreast import MANY, execute_alike, parts_of
+from truck_blowout_sim.simulation.drive import Drive, run_drive
 from truck_blowout_sim.vehicle import Packed
 
 Floats = NDArray[np.float64]
@@ -32,12 +32,16 @@ def run_batch(trucks: Sequence[Packed], drive: Drive | Sequence[Drive], *,
         Outputs [n_rows, n_outputs] of each truck, in order; rows after a failure are NaN.
     """
     drives = [drive] * len(trucks) if isinstance(drive, Drive) else list(drive)
-    eights, alone = parts_of(trucks, drives, [None] * len(trucks)) if len(trucks) >= MANY else (
+    nothing = [None] * len(trucks)
+    eights, alone = parts_of(trucks, drives, nothing) if len(trucks) >= MANY else (
         [], list(range(len(trucks))))
     parts = [*eights, *([k] for k in alone)]
 
     def work(part: list[int]) -> list[Floats]:
-        ran = execute_abreast([trucks[k] for k in part], [drives[k] for k in part])
+        if len(part) == 1:
+            return [run_drive(trucks[part[0]], drives[part[0]])]
+        ran = execute_alike([trucks[k] for k in part], [drives[k] for k in part],
+                            nothing[:len(part)])
         return [each.out for each in ran]
 
     found: dict[int, Floats] = {}
