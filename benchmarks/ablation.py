@@ -13,7 +13,6 @@ Validated with: test/benchmarks/test_ablation.py.
 
 from __future__ import annotations
 
-import json
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 from functools import partial
@@ -24,6 +23,7 @@ from typing import Annotated, Any
 import typer
 
 from benchmarks.page import Page, Table, start
+from benchmarks.proved import figures_of, of
 from truck_blowout_sim.diagnosis.settings import Settings
 from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.proof.blindfold import blindfold
@@ -106,17 +106,10 @@ def table(runs: list[str], page: Page = None) -> None:
         part, _, folder = word.partition("=")
         if part not in WORDS:
             raise InputError(f"{part!r}", file=word, expected=f"one of {', '.join(WORDS)}")
-        figures[part] = _figures(Path(folder))
+        figures[part] = figures_of(Path(folder))
     made = ablation_table(figures)
     if page is not None:
         put_on_page(page, "ablation", str(made))
-
-
-def _figures(folder: Path) -> dict[str, Any]:
-    path = folder / "proof.json"
-    if not path.is_file():
-        raise InputError("no such file", file=path, expected="what `truck-blowout prove -o` wrote")
-    return dict(json.loads(path.read_text(encoding="utf-8")))
 
 
 def _cases(figures: Mapping[str, Any]) -> list[str]:
@@ -138,7 +131,7 @@ def ablation_table(figures: Mapping[str, Mapping[str, Any]]) -> Table:
     shown = [row for row in COUNTS if any(one[row]["trials"] for one in reached.values())]
     made = Table("", *(COUNTS[row] for row in shown))
     for part, one in reached.items():
-        made.row(WORDS[part], *(f"{one[row]['hits']} of {one[row]['trials']}" for row in shown))
+        made.row(WORDS[part], *(of(one[row]) for row in shown))
     return made
 
 

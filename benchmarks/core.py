@@ -81,17 +81,15 @@ def speeds() -> Table:
     """Processor time of a step, a row each vehicle, alone and eight abreast."""
     cars = [turning(vehicle, blown) for _, vehicle, blown in ROWS]
     works: list[Callable[[], object]] = [partial(car.advance, turn, STEPS) for car, turn in cars]
-    rows = [(what, len(car.vehicle.tires))
-            for (what, _, _), (car, _) in zip(ROWS, cars, strict=True)]
-    for what, vehicle, blown in ROWS:
-        works.append(eight(vehicle, blown))
-        rows.append((f"{EIGHT} abreast: {what}", len(load_vehicle(vehicle).tires)))
+    works += [eight(*turning(vehicle, blown)) for _, vehicle, blown in ROWS]
+    rows = [(f"{EIGHT} abreast: {what}" if trucks > 1 else what, len(car.vehicle.tires), trucks)
+            for trucks in (1, EIGHT) for (what, _, _), (car, _) in zip(ROWS, cars, strict=True)]
     if find_spec("vehiclemodels"):
         works.append(peer())
-        rows.append((f"{PEER} {version(PEER)} (plain Python, four tires)", 4))
+        rows.append((f"{PEER} {version(PEER)} (plain Python, four tires)", 4, 1))
     table = Table("", "a step", "a tire-step", "times real time")
-    for (what, tires), seconds in zip(rows, best_seconds(*works), strict=True):
-        step_s = seconds / STEPS / (EIGHT if "abreast" in what else 1)
+    for (what, tires, trucks), seconds in zip(rows, best_seconds(*works), strict=True):
+        step_s = seconds / STEPS / trucks
         table.row(what, f"{1e6 * step_s:.2f} µs", f"{1e9 * step_s / tires:,.0f} ns",
                   number(STEP_S / step_s))
     table.row("sought for the default truck", "", "", SOUGHT)
@@ -105,9 +103,8 @@ def advance_eight(x: Floats, p: Floats, topo: Integers, inputs: Floats, dt: floa
     advance(octets(x), octets(p), topo, octets(inputs), dt, n_steps, octets(work))
 
 
-def eight(vehicle: str, blown: tuple[str, ...]) -> Callable[[], object]:
-    """What takes as many steps with eight of a truck, as `turning` has it, side by side."""
-    truck, turn = turning(vehicle, blown)
+def eight(truck: Truck, turn: Inputs) -> Callable[[], object]:
+    """What takes as many steps with eight of a truck, as it now is, side by side."""
     x, p = (side_by_side([one] * EIGHT) for one in (truck.state, truck.packed.params))
     inputs, work = room_for_eight(N_INPUTS), room_for_eight(N_WORK)
     inputs[:] = np.array(turn)[:, None]
@@ -151,7 +148,8 @@ def abreast(table: Table) -> None:
     one_by_one, together = best_seconds(lambda: [run_drive(truck, drive) for truck in trucks],
                                         lambda: execute_abreast(trucks, [drive] * EIGHT))
     steps = len(drive.inputs) + settle_steps(drive.step_s, drive.warm)
-    table.row(f"{EIGHT} trucks abreast", f"{one_by_one / together:.2f} times the throughput of one,"
+    table.row(f"{EIGHT} whole runs abreast",
+              f"{one_by_one / together:.2f} times the throughput of one,"
               f" {1e6 * together / EIGHT / steps:.2f} µs a truck-step")
 
 

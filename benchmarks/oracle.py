@@ -25,6 +25,7 @@ from typing import Any
 import typer
 
 from benchmarks.page import Page, Table, start
+from benchmarks.proved import figures_of, of
 from truck_blowout_sim.diagnosis.effects import LIBRARY as EFFECTS
 from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.proof.cases import LIBRARY, SIGMA_B, find_cases, read_truth
@@ -65,12 +66,11 @@ def table(runs: list[str], page: Page = None) -> None:
     figures = {}
     for word in runs:
         world, _, folders = word.partition("=")
-        pair = [Path(folder) for folder in folders.split(",")]
-        if len(pair) != 2 or not all((folder / "proof.json").is_file() for folder in pair):
+        whole, comma, told = folders.partition(",")
+        if not comma:
             raise InputError(f"{word!r}", expected="WORLD=WHOLE,TOLD, folders of `prove -o`")
-        figures[world] = [json.loads((folder / "proof.json").read_text(encoding="utf-8"))
-                          for folder in pair]
-    made = oracle_table({world: (whole, told) for world, (whole, told) in figures.items()})
+        figures[world] = (figures_of(Path(whole)), figures_of(Path(told)))
+    made = oracle_table(figures)
     if page is not None:
         put_on_page(page, "oracle", str(made))
 
@@ -88,8 +88,7 @@ def oracle_table(figures: Mapping[str, tuple[Mapping[str, Any], Mapping[str, Any
 
 
 def _count(figures: Mapping[str, Any]) -> str:
-    row = next(row for row in figures["rows"] if row["row"] == ROW)
-    return f"{row['hits']} of {row['trials']}"
+    return of(next(row for row in figures["rows"] if row["row"] == ROW))
 
 
 if __name__ == "__main__":

@@ -61,14 +61,16 @@ class Place:
         if page is not None:
             page_with(page, name, "")
 
-    def put(self, *parts: Table | str, timed: bool = True) -> None:
-        """Write the parts; where a time was measured, on what machine, which is also printed."""
+    def put(self, *parts: Table | str) -> None:
+        """Print on what machine a time was measured, and write that and the parts."""
         said = f"Measured {date.today().isoformat()}: {machine()}, {_loads(self._load, load())}."
-        if timed:
-            print(said)
+        print(said)
+        self.write(said, *parts)
+
+    def write(self, *parts: Table | str) -> None:
+        """Write the parts alone: no time was measured."""
         if self._page is not None:
-            put_on_page(self._page, self._name,
-                        "\n\n".join([*([said] if timed else []), *map(str, parts)]))
+            put_on_page(self._page, self._name, "\n\n".join(map(str, parts)))
 
 
 def load() -> float:

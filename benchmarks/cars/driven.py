@@ -74,7 +74,7 @@ def measure(first: Path, second: Path, page: Page = None) -> None:
                                        out / name / str(k))
                          for k, (half, file) in enumerate(halves.items())}
                   for name, vehicle in vehicles.items()}
-    place.put(found, driven_table(driven["nominal"], driven["diagnosed"]), timed=False)
+    place.write(found, driven_table(driven["nominal"], driven["diagnosed"]))
 
 
 if __name__ == "__main__":

@@ -95,7 +95,7 @@ def measure(name: str, train: Path, holdout: Path, vehicle: str, settings: str =
                              vehicle=vehicle, settings=settings, effort=QUICK)
         made.row(words, said(answer, as_it_is))
         as_it_is = as_it_is or answer
-    place.put(made, timed=False)
+    place.write(made)
 
 
 if __name__ == "__main__":

@@ -47,39 +47,41 @@ def markdown(figures: Mapping[str, Any], seal: str, required: Sequence[str] = ()
     return "\n".join(parts) + "\n"
 
 
-def _count(entry: Mapping[str, Any]) -> str:
+def counted(entry: Mapping[str, Any]) -> str:
+    """A proportion of ``proof.json`` in words."""
     return str(Proportion(entry["hits"], entry["trials"]))
 
 
 def _proportions(figures: Mapping[str, Any]) -> list[str]:
     rows = ["| figure | sought | reached (hits/cases; 95 % Wilson) |", "|---|---|---|"]
-    return rows + [f"| {name} | {SOUGHT.get(name, '')} | {_count(entry)} |"
+    return rows + [f"| {name} | {SOUGHT.get(name, '')} | {counted(entry)} |"
                    for name, entry in figures["proportions"].items()]
 
 
-def _number(value: float | None, unit: str = "", digits: int = 3) -> str:
+def number(value: float | None, unit: str = "", digits: int = 3) -> str:
+    """A figure of ``proof.json``, a dash where there is none."""
     return "–" if value is None else f"{value:.{digits}g}{unit}"
 
 
 def _numbers(figures: Mapping[str, Any]) -> list[str]:
     onset, fit, par = figures["onset"], figures["holdout"], figures["parameters"]
     rows = [
-        ("mean size of the alias set", "≤ 2", _number(figures["mean_alias_set_size"])),
+        ("mean size of the alias set", "≤ 2", number(figures["mean_alias_set_size"])),
         *((f"onset error, {kind}: median, 90th percentile", "≤ 0.05 s, ≤ 0.2 s" if kind == "abrupt"
-           else "", f"{_number(row['median_s'], ' s')}, {_number(row['p90_s'], ' s')} "
+           else "", f"{number(row['median_s'], ' s')}, {number(row['p90_s'], ' s')} "
            f"({row['count']})") for kind, row in onset.items()),
         ("parameter: median relative error", "≤ 0.10",
-         f"{_number(par['median_relative_error'])} ({par['count']})"),
-        ("90 % intervals that hold the truth: parameters", "85–95 %", _count(par["coverage"])),
-        ("the same: onsets", "85–95 %", _count(onset["all"]["coverage"])),
-        ("holdout improved", "≥ 95 %", _count(fit["improved"])),
+         f"{number(par['median_relative_error'])} ({par['count']})"),
+        ("90 % intervals that hold the truth: parameters", "85–95 %", counted(par["coverage"])),
+        ("the same: onsets", "85–95 %", counted(onset["all"]["coverage"])),
+        ("holdout improved", "≥ 95 %", counted(fit["improved"])),
         ("holdout, median share removed of the excess over the instruments' noise", "",
-         f"{_number(fit['median_removed_of_excess_over_instruments'])} "
+         f"{number(fit['median_removed_of_excess_over_instruments'])} "
          f"({fit['count_over_instruments']})"),
         ("the same over what nulls leave (stands for the best possible)", "≥ 0.80",
-         f"{_number(fit['median_removed_of_excess_over_null_floor'])} "
+         f"{number(fit['median_removed_of_excess_over_null_floor'])} "
          f"({fit['count_over_null_floor']})"),
-        ("CPU time a case, median", "", _number(figures["cpu_s"]["median"], " s")),
+        ("CPU time a case, median", "", number(figures["cpu_s"]["median"], " s")),
     ]
     return ["| figure | sought | reached (number of cases) |", "|---|---|---|",
             *(f"| {name} | {sought} | {reached} |" for name, sought, reached in rows)]
@@ -89,7 +91,7 @@ def _confusion(figures: Mapping[str, Any]) -> list[str]:
     rows = ["| concealed | " + " | ".join(v.replace("_", " ") for v in VERDICTS)
             + " | solved |", "|---" * (len(VERDICTS) + 2) + "|"]
     return rows + [f"| {group} | " + " | ".join(str(counts.get(v, 0)) for v in VERDICTS)
-                   + f" | {_count(figures['solved'][group])} |"
+                   + f" | {counted(figures['solved'][group])} |"
                    for group, counts in figures["confusion"].items()]
 
 
@@ -98,14 +100,14 @@ def _power(figures: Mapping[str, Any]) -> list[str]:
     for row in figures["power"]:
         low, high = row["sigma"]
         span = f"{low:g}–{high:g}" if high else f"≥ {low:g}"
-        rows.append(f"| {span} | {_count(row['noticed'])} | {_count(row['aliased'])} | "
-                    f"{_count(row['raw'])} |")
+        rows.append(f"| {span} | {counted(row['noticed'])} | {counted(row['aliased'])} | "
+                    f"{counted(row['raw'])} |")
     return rows
 
 
 def _reliability(figures: Mapping[str, Any]) -> list[str]:
     rows = ["| stated p-value at most | nulls (95 % Wilson) |", "|---|---|"]
-    return rows + [f"| {level} | {_count(entry)} |"
+    return rows + [f"| {level} | {counted(entry)} |"
                    for level, entry in figures["null_p_values_at_most"].items()]
 
 
@@ -114,7 +116,7 @@ def _rivals(figures: Mapping[str, Any]) -> list[str]:
             "with physics missing.", "",
             "| | cases | median | diagnosed model is better |", "|---|---|---|---|"]
     return rows + [f"| {RIVAL_WORDS[name]} | {row['count']} | "
-                   f"{_number(row['median_mean_square'])} | {_count(row['diagnosed_is_better'])} |"
+                   f"{number(row['median_mean_square'])} | {counted(row['diagnosed_is_better'])} |"
                    for name, row in figures["rivals"].items()]
 
 

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from truck_blowout_sim.proof.statistics import Proportion, proportion
-from truck_blowout_sim.proof.table import RIVAL_WORDS
+from truck_blowout_sim.proof.table import RIVAL_WORDS, counted, number
 from truck_blowout_sim.report.style import CYCLE, Picture, new_axes, styled
 
 Figures = Mapping[str, Any]
@@ -48,7 +48,7 @@ def worlds_table(figures: Mapping[str, Figures]) -> str:
         for world in names:
             entry = reached[world].get(row, {"hits": 0, "trials": 0})
             cells += [SOUGHT.get(row, ("",) * 4)[int(world[1]) - 1],
-                      str(Proportion(entry["hits"], entry["trials"]))]
+                      counted(entry)]
         lines.append(f"| {row} | " + " | ".join(cells) + " |")
     told = [one["null_p_values_uniform"] for one in figures.values()]
     lines.append(f"| {_UNIFORM} | " + " | ".join(
@@ -69,15 +69,10 @@ def rivals_table(figures: Mapping[str, Figures]) -> str:
              "diagnosed model is better" for world, rows in tried.items())
     lines = ["| | " + " | ".join(heads) + " |", "|---" * (1 + 2 * len(tried)) + "|"]
     for name, words in RIVAL_WORDS.items():
-        cells = (f"{rows[name]['median_mean_square']:.3g} | {_better(rows[name])}"
-                 for rows in tried.values())
+        cells = (f"{number(rows[name]['median_mean_square'])} | "
+                 f"{counted(rows[name]['diagnosed_is_better'])}" for rows in tried.values())
         lines.append(f"| {words} | " + " | ".join(cells) + " |")
     return "\n".join(lines)
-
-
-def _better(row: Mapping[str, Any]) -> str:
-    entry = row["diagnosed_is_better"]
-    return str(Proportion(entry["hits"], entry["trials"]))
 
 
 def power(figures: Mapping[str, Figures]) -> dict[str, list[tuple[float, Proportion]]]:

@@ -123,12 +123,10 @@ def _best(logs: Sequence[Reading], is_baseline: NDArray[np.bool_]) -> FoundConve
               if everywhere or not baseline]
     if ratio < needed or _merely_late(faulty, convention):
         return None
-    names: tuple[str, ...] = ()
-    if isinstance(convention, GravityConvention):
-        found = look_alikes(faulty, convention, _ALIAS)
-        if found is None:
-            return None
-        names = found
+    names = (look_alikes(faulty, convention, _ALIAS)
+             if isinstance(convention, GravityConvention) else ())
+    if names is None:
+        return None
     rivals = tuple(c for r, _, c, _ in scored[1:] if ratio - r < _ALIAS)
     return FoundConvention(convention, everywhere, ratio, len(tried), rivals, names)
 

@@ -29,6 +29,7 @@ from truck_blowout_sim.diagnosis.sensors.words import equation, next_test, sente
 from truck_blowout_sim.recordings import Recording
 
 FloatArray = NDArray[np.float64]
+_ALL_OF_IT_SIGMAS = 3.0  # a leak as near as this to all of gravity may be all of it
 
 
 @one_blas_thread
@@ -135,7 +136,7 @@ def _finding(found: Found, gravity: float, *, knows_roll: bool) -> SensorFinding
         names = tuple(dict.fromkeys([*names, "lateral_accel_roll"]))
     sigmas = np.sqrt(np.diag(found.covariance))
     if distortion.name == "lateral_accel_roll" and np.isclose(
-            found.amounts[0], 1.0 - 2.0 * gravity, atol=3.0 * sigmas[0]):
+            found.amounts[0], 1.0 - 2.0 * gravity, atol=_ALL_OF_IT_SIGMAS * sigmas[0]):
         # all of gravity, which the recording says is read or is not
         names = tuple(dict.fromkeys([*names, "gravity_convention"]))
     shown = determined(found.amounts, sigmas)
