@@ -5,11 +5,13 @@ from __future__ import annotations
 import math
 
 import numpy as np
+import pytest
 from numba import njit
 from numpy.typing import NDArray
 
 from truck_blowout_sim.physics.choose import (
     any_of,
+    cosine_and_sine,
     nearest,
     pick,
     power_where,
@@ -42,6 +44,7 @@ def work(x: Floats, out: Floats) -> None:
     out[5], out[6] = nearest(a / 3.0), max(a, total, 1.0)
     out[7] = where((a == b) | (a != a), 7, 8)
     out[7] -= 1
+    out[8], out[9] = cosine_and_sine(4.0 * a)
 
 
 @njit(error_model="numpy")
@@ -55,12 +58,15 @@ def first_of(x: Floats) -> float:
     return shared(octets(x)[0])
 
 
-def test_one_truck_eight_trucks_and_python_agree() -> None:
-    x, out = room_for_eight(4), room_for_eight(8)
+@pytest.mark.parametrize("alike", [False, True])
+def test_one_truck_eight_trucks_and_python_agree(alike: bool) -> None:
+    x, out = room_for_eight(4), room_for_eight(10)
     x[:] = np.random.default_rng(2).normal(1.0, 2.0, x.shape)
+    if alike:
+        x[:] = np.array([2.5, 1.2, -0.3, 0.8])[:, None]
     assert abreast(x, out) == EIGHT + 10
     for lane in range(EIGHT):
-        python, compiled = np.zeros(8), np.zeros(8)
+        python, compiled = np.zeros(10), np.zeros(10)
         work.py_func(x[:, lane], python)
         work(x[:, lane].copy(), compiled)
         np.testing.assert_allclose(compiled, python, rtol=1e-14)
@@ -69,7 +75,7 @@ def test_one_truck_eight_trucks_and_python_agree() -> None:
 
 
 def test_a_truck_that_is_no_longer_a_number_is_alone_in_that() -> None:
-    x, out, again = room_for_eight(4, value=1.5), room_for_eight(8), room_for_eight(8)
+    x, out, again = room_for_eight(4, value=1.5), room_for_eight(10), room_for_eight(10)
     abreast(x, out)
     x[:, 3] = np.nan
     abreast(x, again)

@@ -12,6 +12,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
+from truck_blowout_sim.physics.layout import TIRE
 from truck_blowout_sim.physics.tires import magic_formula as mf
 from truck_blowout_sim.vehicle import Packed
 
@@ -28,7 +29,10 @@ ACCEPTANCE = {
 def forces(p: NDArray[np.float64], at: int, fz: float, inflation: float, slip: float, tan: float,
            friction: float, axle_peak: float, k: float) -> tuple[float, float, float]:
     peak_x, peak_y, slope = mf.limits(p, at, fz, friction, axle_peak)
-    return mf.forces(p, at, fz, inflation, slip, tan, (slope, k), (slope / peak_x, k / peak_y))
+    alpha, total = mf.combined(slip, tan, (slope / peak_x, k / peak_y))
+    bent = mf.shapes(total, *(p[at + place] for place in (
+        TIRE.shape_x, TIRE.curvature_x, TIRE.shape_y, TIRE.curvature_y)))
+    return mf.forces(p, at, fz, inflation, slip, tan, alpha, total, (slope, k), bent)
 
 
 def side_force(truck: Packed, at: int, fz: float, degrees: float) -> tuple[float, float]:
@@ -111,6 +115,7 @@ def test_braking_takes_cornering_force_away(truck: Packed, block: Block) -> None
 
 def test_trail_never_shrinks_with_load_nor_changes_its_side(truck: Packed, block: Block) -> None:
     at, loads = block("tire.steer_left"), np.linspace(5e3, 300e3, 60)
-    trails = [mf.pneumatic_trail_m(truck.params, at, fz, 1.0, 0.01) for fz in loads]
+    trails = [mf.pneumatic_trail_m(truck.params, at, fz, 1.0, 0.01, math.atan(0.01))
+              for fz in loads]
     assert all(b >= a for a, b in pairwise(trails))
     assert trails[-1] == pytest.approx(0.0506, rel=0.02)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from truck_blowout_sim.physics.layout import TIRE_S
+from truck_blowout_sim.physics.layout import TIRE, TIRE_S
 from truck_blowout_sim.physics.tires import magic_formula
 from truck_blowout_sim.physics.tires.lanes import LANE, LANE_BLOCK
 from truck_blowout_sim.physics.tires.tire import tire_at_load
@@ -47,8 +47,11 @@ def test_after_a_while_the_lag_is_gone(truck: Packed, inflated: tuple[Floats, in
         fx, fy, mz = force(truck, state, s, t, vy=-0.03 * SPEED, roll=1.01 * SPEED)
     k = magic_formula.cornering_stiffness_nprad(truck.params, t, FZ, 1.0)
     peak_x, peak_y, slope = magic_formula.limits(truck.params, t, FZ, 1.0, 1.0)
-    steady = magic_formula.forces(truck.params, t, FZ, 1.0, 0.01, 0.03, (slope, k),
-                                  (slope / peak_x, k / peak_y))
+    alpha, total = magic_formula.combined(0.01, 0.03, (slope / peak_x, k / peak_y))
+    bent = magic_formula.shapes(total, *(truck.params[t + at] for at in (
+        TIRE.shape_x, TIRE.curvature_x, TIRE.shape_y, TIRE.curvature_y)))
+    steady = magic_formula.forces(truck.params, t, FZ, 1.0, 0.01, 0.03, alpha, total, (slope, k),
+                                  bent)
     assert (fx, fy, mz) == pytest.approx(steady, rel=1e-6)
 
 

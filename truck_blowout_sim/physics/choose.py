@@ -10,6 +10,7 @@ Validated with: test/physics/test_choose.py, test/simulation/test_abreast.py.
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import numpy as np
@@ -51,6 +52,11 @@ def whole(value: Any) -> Any:
 def nearest(value: Any) -> Any:
     """The nearest whole number."""
     return np.rint(value)
+
+
+def cosine_and_sine(angle: Any) -> Any:
+    """Of any angle: of one truck by the library, of eight by `trig.heading`."""
+    return math.cos(angle), math.sin(angle)
 
 
 def power_where(condition: Any, base: Any, exponent: Any) -> Any:

@@ -8,9 +8,10 @@ Validated with: test/physics/test_choose.py, test/simulation/test_abreast.py.
 
 from __future__ import annotations
 
+import math
 import operator
 from collections.abc import Callable
-from typing import Any
+from typing import Any, cast
 
 from llvmlite import ir
 from numba import types
@@ -27,6 +28,7 @@ from truck_blowout_sim.physics.octet import (
     mask,
     octet,
     places,
+    spread,
     vector_call,
 )
 
@@ -65,6 +67,12 @@ def _any_of_one(_context: Any, _builder: Any, _signature: Any, args: Any) -> Any
 def _any_of_eight(_context: Any, builder: Any, _signature: Any, args: Any) -> Any:
     bits = ir.IntType(EIGHT)
     return builder.icmp_unsigned("!=", builder.bitcast(args[0], bits), ir.Constant(bits, 0))
+
+
+def _all(builder: Any, mask: Any) -> Any:
+    """Whether it holds for every truck."""
+    bits = ir.IntType(EIGHT)
+    return builder.icmp_unsigned("==", builder.bitcast(mask, bits), ir.Constant(bits, -1))
 
 
 @type_callable(choose.seldom)
@@ -118,6 +126,30 @@ def _nearest_eight(_context: Any, builder: Any, _signature: Any, args: Any) -> A
     return vector_call(builder, "llvm.rint", args[0])
 
 
+@type_callable(choose.cosine_and_sine)
+def _type_cosine_and_sine(_context: Any) -> Callable[..., Any]:
+    def typer(angle: Any) -> Any:
+        return types.UniTuple(octet if angle is octet else types.float64, 2)
+
+    return typer
+
+
+@lower_builtin(choose.cosine_and_sine, types.Float)
+def _cosine_and_sine_one(context: Any, builder: Any, signature_: Any, args: Any) -> Any:
+    plain = signature(types.float64, types.float64)
+    found = [context.get_function(function, context.typing_context.resolve_function_type(
+        function, plain.args, {}))(builder, args) for function in (math.cos, math.sin)]
+    return context.make_tuple(builder, signature_.return_type, found)
+
+
+@lower_builtin(choose.cosine_and_sine, Octet)
+def _cosine_and_sine_eight(context: Any, builder: Any, signature_: Any, args: Any) -> Any:
+    """By polynomials: a call for each truck would take a tenth of a step."""
+    from truck_blowout_sim.physics.trig import heading  # which is compiled by what stands here
+
+    return context.compile_internal(builder, cast("Any", heading).py_func, signature_, args)
+
+
 @type_callable(choose.pick)
 def _type_pick(_context: Any) -> Callable[..., Any]:
     def typer(values: Any, at: Any) -> Any:
@@ -136,13 +168,26 @@ def _pick_one(context: Any, builder: Any, signature_: Any, args: Any) -> Any:
 @lower_builtin(choose.pick, types.CPointer, Octet)
 @lower_builtin(choose.pick, types.Array, Octet)
 def _pick_eight(context: Any, builder: Any, signature_: Any, args: Any) -> Any:
-    """Truck by truck; a place that is not a number is place 0, so that nothing else is touched."""
+    """A place that is not a number is place 0, so that nothing else is touched."""
     (numbers, at), kind = args, signature_.args[0]
     if isinstance(kind, types.Array):
         numbers = context.make_array(kind)(context, builder, numbers).data
     number = builder.fcmp_ordered("ord", at, at)
     at = builder.select(number, at, ir.Constant(VECTOR, None))
     at = builder.fptosi(at, ir.VectorType(ir.IntType(64), EIGHT))
+    first = builder.extract_element(at, places()[0])
+    same = builder.icmp_signed("==", at, spread(builder, first, at.type))
+    result = cgutils.alloca_once(builder, VECTOR)
+    with builder.if_else(_all(builder, same)) as (one, several):
+        with one:
+            builder.store(builder.load(builder.gep(numbers, [first])), result)
+        with several:
+            builder.store(_pick_each(builder, numbers, at), result)
+    return builder.load(result)
+
+
+def _pick_each(builder: Any, numbers: Any, at: Any) -> Any:
+    """Load truck by truck."""
     first = builder.bitcast(numbers, ir.PointerType(ir.DoubleType()))
     result = ir.Constant(VECTOR, ir.Undefined)
     for k, place in enumerate(places()):
@@ -179,7 +224,24 @@ def _power_where_one(context: Any, builder: Any, _signature: Any, args: Any) -> 
 
 @lower_builtin(choose.power_where, Mask, Octet, Octet)
 def _power_where_eight(context: Any, builder: Any, _signature: Any, args: Any) -> Any:
-    """Only for the trucks that need it: a power takes longer than most of a tire."""
+    """Only for the trucks that need it, once where all agree: it takes longer than a tire."""
+    condition, base, exponent = args
+    first = [builder.extract_element(a, places()[0]) for a in args]
+    same = builder.fcmp_ordered("==", base, spread(builder, first[1], VECTOR))
+    same = builder.and_(same, builder.fcmp_ordered("==", exponent,
+                                                   spread(builder, first[2], VECTOR)))
+    same = builder.and_(same, condition)
+    result = cgutils.alloca_once(builder, VECTOR)
+    with builder.if_else(_all(builder, same)) as (one, several):
+        with one:
+            builder.store(spread(builder, _power(context, builder, *first[1:]), VECTOR), result)
+        with several:
+            builder.store(_power_each(context, builder, args), result)
+    return builder.load(result)
+
+
+def _power_each(context: Any, builder: Any, args: Any) -> Any:
+    """Truck by truck."""
     result = args[1]
     for place in places():
         one = [builder.extract_element(a, place) for a in args]

@@ -6,7 +6,7 @@ it usually gets floats, is compiled a second time. Comparisons give a ``Mask``, 
 the eight, which branches only through `choose`.
 
 References: Numba manual, "Low-level extension API"; LLVM language reference, "Vector Type".
-Known limits: what has no instruction (atan2, cos) is called once for each truck.
+Known limits: what has no instruction (atan2, asin) is called once for each truck.
 Validated with: test/physics/test_choose.py, test/simulation/test_abreast.py.
 """
 
@@ -34,7 +34,7 @@ _ARITHMETIC = {operator.add: "fadd", operator.sub: "fsub", operator.mul: "fmul",
                operator.truediv: "fdiv", operator.iadd: "fadd", operator.isub: "fsub",
                operator.imul: "fmul", operator.itruediv: "fdiv"}
 _LOGIC = {operator.and_: "and_", operator.or_: "or_"}
-_ONE_BY_ONE = {math.atan2: 2, math.asin: 1, math.tanh: 1, math.cos: 1, math.sin: 1}
+_ONE_BY_ONE = {math.atan2: 2, math.asin: 1, math.tanh: 1}
 
 
 class Octet(types.Type):

@@ -9,7 +9,7 @@ Validated with: test/simulation/test_abreast.py.
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any, cast
+from typing import Any, TypeVar, cast
 
 import numpy as np
 from numba import types
@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 from truck_blowout_sim.physics.octet import EIGHT, octet
 
 Floats = NDArray[np.float64]
+Array = TypeVar("Array", bound=NDArray[Any])
 _BYTES = 8 * EIGHT
 
 
@@ -57,4 +58,18 @@ def _view(_context: Any, array: Any) -> Any:
     return seen(array), view
 
 
+@intrinsic
+def _unowned(_context: Any, array: Any) -> Any:
+    """In compiled code: the same array without its owner."""
+    def bare(context: Any, builder: Any, _signature: Any, args: Any) -> Any:
+        made = context.make_array(array)(context, builder, args[0])
+        made.meminfo = cgutils.get_null_value(made.meminfo.type)
+        made.parent = cgutils.get_null_value(made.parent.type)
+        return made._getvalue()
+
+    return (array(array), bare) if isinstance(array, types.Array) else None
+
+
 octets = cast("Callable[[Floats], Floats]", _view)
+# an array whose parts cost nothing to take: nobody counts who holds them. The caller holds it all
+bare = cast("Callable[[Array], Array]", _unowned)

@@ -13,7 +13,7 @@ from __future__ import annotations
 
 import math
 
-from truck_blowout_sim.physics.choose import any_of, nearest, seldom, where
+from truck_blowout_sim.physics.choose import any_of, cosine_and_sine, nearest, seldom, where
 from truck_blowout_sim.physics.jit import core
 from truck_blowout_sim.physics.scalar import two_ratios
 
@@ -103,5 +103,6 @@ def turned(angle: float) -> tuple[float, float]:
     s = ((((z / 72.0 - 1.0) * z / 42.0 + 1.0) * z / 20.0 - 1.0) * z / 6.0 + 1.0) * angle
     far = abs(angle) > _SMALL
     if any_of(far):
-        c, s = where(far, math.cos(angle), c), where(far, math.sin(angle), s)
+        far_c, far_s = cosine_and_sine(angle)
+        c, s = where(far, far_c, c), where(far, far_s, s)
     return c, s

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from truck_blowout_sim.physics import brakes, road
-from truck_blowout_sim.physics.choose import any_of, pick, shared, where
+from truck_blowout_sim.physics.choose import any_of, pick, shared, trucks_in, where
 from truck_blowout_sim.physics.jit import core
 from truck_blowout_sim.physics.layout import (
     AXLE,
@@ -94,8 +94,8 @@ def inflate(x: Floats, s: int, p: Floats, t: int, table_at: int, above_m: float,
         lanes[w + LANE.row_aligning] = pick(p, row + _ALIGNING)
         speed = abs(lanes[w + LANE.vx_mps])
         lanes[w + LANE.row_rolling] = pick(p, row + _ROLLING) + pick(p, row + _ROLLING_SPM) * speed
-    else:
-        # left alone they may be denormal numbers, on which arithmetic takes three times as long
+    elif trucks_in(lanes) == 1:
+        # nothing branches there: denormal numbers would make arithmetic take three times as long
         lanes[w + LANE.row_radius_m], lanes[w + LANE.row_free_m] = 0.0, 0.0
         lanes[w + LANE.row_stiffness_npm] = 1.0
         lanes[w + LANE.row_cornering], lanes[w + LANE.row_aligning] = 1.0, 1.0

@@ -30,6 +30,7 @@ from truck_blowout_sim.vehicle import Packed
 Floats = NDArray[np.float64]
 FEWEST = 4  # fewer trucks are done sooner one after the other than as some of eight
 _SHARED_OF_TIRE = (TIRE.model, TIRE.law, TIRE.table, TIRE.map_table)
+_TABLES_OF_TIRE = (TIRE.table, TIRE.map_table)
 _TABLE_HEAD = 2  # numbers before a table that say its size
 
 
@@ -63,10 +64,10 @@ def shared_numbers(packed: Packed) -> tuple[float, ...]:
     p, topo = packed.params, packed.topology
     found = [p.size, p[ABS_AT + ABS.mode], p[STEER_AT + STEER.compliance_on]]
     found += [p[axle_params(topo, i) + AXLE.x_m] > 0.0 for i in range(topo[TOPOLOGY.n_axles])]
-    for k in range(topo[TOPOLOGY.n_tires]):
-        t = tire_params(topo, k)
-        found += [p[t + field] for field in _SHARED_OF_TIRE]
-        for field in (TIRE.table, TIRE.map_table):
-            at = topo[TOPOLOGY.table_at] + int(p[t + field])
-            found += p[at:at + _TABLE_HEAD].tolist()
+    tires = np.array([tire_params(topo, k) for k in range(topo[TOPOLOGY.n_tires])])
+    laws = p[np.add.outer(tires, _SHARED_OF_TIRE)]
+    tables = topo[TOPOLOGY.table_at] + p[np.add.outer(tires, _TABLES_OF_TIRE)].astype(np.int64)
+    heads = np.unique(tables)[:, None] + np.arange(_TABLE_HEAD)
+    # a truck without tables has nothing where they would begin
+    found += [*laws.ravel(), *p[heads[heads < p.size]]]
     return tuple(float(value) for value in found)

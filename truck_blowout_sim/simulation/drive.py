@@ -9,8 +9,9 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from truck_blowout_sim.physics.layout import GLOBAL_S, N_WORK, TIRE_S
+from truck_blowout_sim.physics.layout import AXLE, GLOBAL_S, N_WORK, TIRE_S, TOPOLOGY, UNIT
 from truck_blowout_sim.physics.observe import output_names
+from truck_blowout_sim.physics.places import axle_params, unit_params
 from truck_blowout_sim.simulation.ending import Ending, ending_of, rolled_over_rad
 from truck_blowout_sim.simulation.equilibrium import InitialState, initial_vector
 from truck_blowout_sim.simulation.loop import WATCH, run_loop
@@ -159,5 +160,7 @@ def names_of(vehicle: Vehicle) -> tuple[str, ...]:
 
 def total_mass_kg(packed: Packed) -> float:
     """Mass of bodies and axles."""
-    return math.fsum(packed.params[i] for name, i in packed.index.items()
-                     if name.endswith(".mass_kg"))
+    p, topo = packed.params, packed.topology
+    units = (unit_params(u) + UNIT.mass_kg for u in range(topo[TOPOLOGY.n_units]))
+    axles = (axle_params(topo, i) + AXLE.mass_kg for i in range(topo[TOPOLOGY.n_axles]))
+    return math.fsum(p[at] for at in (*units, *axles))

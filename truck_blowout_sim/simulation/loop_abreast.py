@@ -18,7 +18,7 @@ from truck_blowout_sim.physics.jit import core
 from truck_blowout_sim.physics.layout import GLOBAL_S, N_INPUTS
 from truck_blowout_sim.physics.observe import observe
 from truck_blowout_sim.physics.octet import EIGHT
-from truck_blowout_sim.physics.octet_arrays import octets
+from truck_blowout_sim.physics.octet_arrays import bare, octets
 from truck_blowout_sim.physics.step import step
 from truck_blowout_sim.simulation.ending import GOING, ended
 from truck_blowout_sim.simulation.equilibrium import settle
@@ -58,6 +58,10 @@ def run_abreast(x: Floats, p: Floats, topo: Integers, held: Floats, dt: float, e
     xs, ps, ws = octets(x), octets(p), octets(work)
     us, limits, sights, found = octets(held), octets(rolls), octets(seen), octets(codes)
     starts, last = octets(origin_s), counts[:, N_STEPS].max()
+    x, p, counts, inputs, watch = bare(x), bare(p), bare(counts), bare(inputs), bare(watch)
+    blow_steps, blow_slots = bare(blow_steps), bare(blow_slots)
+    blow_watch, blow_delays = bare(blow_watch), bare(blow_delays)
+    speed, pilot, path = bare(speed), bare(pilot), bare(path)
     going = counts[:, N_STEPS] > 0
     left = going.sum()
     for k in range(last + 1):
@@ -71,7 +75,7 @@ def run_abreast(x: Floats, p: Floats, topo: Integers, held: Floats, dt: float, e
             _note(going, seen, out, k // every)
         for lane in range(EIGHT):
             left -= _leave(going, x, ends, lane, k == counts[lane, N_STEPS])
-            if going[lane]:
+            if going[lane] and _something_due(k, counts[lane], blow_steps[lane]):
                 n = counts[lane]
                 blows = n[N_BLOWS]
                 act(x[:, lane], p[:, lane], inputs[lane, :n[N_STEPS]], k, dt,
@@ -79,11 +83,23 @@ def run_abreast(x: Floats, p: Floats, topo: Integers, held: Floats, dt: float, e
                     blow_delays[lane, :blows], watch[lane, :n[N_WATCH]],
                     speed[lane, :n[N_SPEEDS]], mass_kg[lane], pilot[lane, :n[N_PILOT]],
                     path[lane, :n[N_PATH]])
+            if going[lane]:
                 for i in range(N_INPUTS):
                     held[i, lane] = inputs[lane, k, i]
         if left == 0:
             break
         step(xs, ps, topo, us, dt, ws)
+
+
+@core
+def _something_due(k: int, counts: Integers, blow_steps: Integers) -> bool:
+    """Whether `act` has anything to do for a truck at step ``k``: most have nothing at most."""
+    if counts[N_WATCH] + counts[N_SPEEDS] + counts[N_PILOT] > 0:
+        return True
+    due = False
+    for b in range(counts[N_BLOWS]):
+        due = due or blow_steps[b] == k
+    return due
 
 
 @core

@@ -54,6 +54,8 @@ class TireLanes(NamedTuple):
     mz_nm: int
     rolling_nm: int
     # between the loops
+    inflation: int  # of `blowout.inflated`
+    collapse: int
     force_slip: int  # slips that make force, the standstill damper included
     force_slip_tan: int
     slope_n: int  # of the force over slip, along and across
@@ -61,6 +63,10 @@ class TireLanes(NamedTuple):
     grip: int  # these divided by the peaks of the force
     grip_tan: int
     soft: int
+    slip_angle_rad: int
+    total: int  # combined slip, in which both curves are
+    shape: int  # the curves there, along and across
+    shape_tan: int
 
 
 LANE = TireLanes(*(k * TIRE_LANES for k in range(len(TireLanes._fields))))

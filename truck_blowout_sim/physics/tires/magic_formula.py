@@ -15,7 +15,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from truck_blowout_sim.physics.choose import where
+from truck_blowout_sim.physics.choose import seldom, where
 from truck_blowout_sim.physics.jit import core
 from truck_blowout_sim.physics.layout import TIRE
 from truck_blowout_sim.physics.scalar import two_ratios
@@ -56,17 +56,19 @@ def shapes(slip: float, c_x: float, e_x: float, c_y: float, e_y: float) -> tuple
 
 
 @core
-def pneumatic_trail_m(p: Floats, t: int, fz_n: float, inflation: float, slip_tan: float) -> float:
-    """Trail [m] at the tangent of a slip angle; Mz = -trail * Fy."""
+def pneumatic_trail_m(p: Floats, t: int, fz_n: float, inflation: float, slip_tan: float,
+                      alpha: float) -> float:
+    """Trail [m] at a slip angle [rad] and its tangent; Mz = -trail * Fy."""
     q = max(inflation, p[t + TIRE.pressure_valid])
     ratio = fz_n / p[t + TIRE.reference_load_n]
     level, slope = p[t + TIRE.trail_0], p[t + TIRE.trail_load]
     # load times trail is a parabola: beyond its vertex there are no data, so it is held there
-    vertex = 0.5 * (level + slope) / slope
-    ratio = where(2.0 * slope * ratio > level + slope, vertex, ratio)
+    beyond = 2.0 * slope * ratio > level + slope
+    if seldom(beyond):
+        ratio = where(beyond, 0.5 * (level + slope) / slope, ratio)
     base = level - slope * (ratio - 1.0)
     stretch = 1.0 + p[t + TIRE.trail_pressure] * (1.0 - q)
-    decay = cosine(p[t + TIRE.trail_shape] * arctan(p[t + TIRE.trail_stretch] * arctan(slip_tan)))
+    decay = cosine(p[t + TIRE.trail_shape] * arctan(p[t + TIRE.trail_stretch] * alpha))
     # cos(atan z) = 1 / sqrt(1 + z^2)
     leaning = math.sqrt(1.0 + slip_tan * slip_tan)
     return p[t + TIRE.unloaded_radius_m] * ratio * base * stretch * decay / leaning
@@ -87,19 +89,26 @@ def limits(p: Floats, t: int, fz_n: float, friction: float, axle_peak: float
 
 
 @core
-def forces(p: Floats, t: int, fz_n: float, inflation: float, slip: float, slip_tan: float,
-           slopes: tuple[float, float], grips: tuple[float, float]) -> tuple[float, float, float]:
-    """Longitudinal and lateral force [N] and aligning moment [N m], rolling forward.
+def combined(slip: float, slip_tan: float, grips: tuple[float, float]) -> tuple[float, float]:
+    """Slip angle [rad], and combined slip in which both curves of the force are; never zero.
 
-    ``slip`` and ``slip_tan`` are the lagged longitudinal slip and the lagged -vy/|vx|: a positive
-    ``slip_tan`` gives a force to the left. ``slopes``: of the forces over slip [N], along and
-    across (K_ya); ``grips``: these divided by the peaks of the forces.
+    ``grips``: slopes of the forces over slip [N], along and across, divided by their peaks.
     """
     alpha = arctan(slip_tan)
     sx, sy = grips[0] * slip, grips[1] * alpha
-    total = max(math.sqrt(sx * sx + sy * sy), _LEAST_SLIP)
-    shape_x, shape_y = shapes(total, p[t + TIRE.shape_x], p[t + TIRE.curvature_x],
-                              p[t + TIRE.shape_y], p[t + TIRE.curvature_y])
-    fx = slopes[0] * slip * shape_x / total
-    fy = slopes[1] * alpha * shape_y / total
-    return fx, fy, -pneumatic_trail_m(p, t, fz_n, inflation, slip_tan) * fy
+    return alpha, max(math.sqrt(sx * sx + sy * sy), _LEAST_SLIP)
+
+
+@core
+def forces(p: Floats, t: int, fz_n: float, inflation: float, slip: float, slip_tan: float,
+           alpha: float, total: float, slopes: tuple[float, float], bent: tuple[float, float]
+           ) -> tuple[float, float, float]:
+    """Longitudinal and lateral force [N] and aligning moment [N m], rolling forward.
+
+    ``slip`` and ``slip_tan`` are the lagged longitudinal slip and the lagged -vy/|vx|: a positive
+    ``slip_tan`` gives a force to the left. ``alpha``, ``total``: of `combined`; ``slopes``: of the
+    forces over slip [N], along and across (K_ya); ``bent``: the `shapes` at ``total``.
+    """
+    fx = slopes[0] * slip * bent[0] / total
+    fy = slopes[1] * alpha * bent[1] / total
+    return fx, fy, -pneumatic_trail_m(p, t, fz_n, inflation, slip_tan, alpha) * fy

@@ -11,7 +11,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from truck_blowout_sim.physics.choose import shared, trucks_in, where
+from truck_blowout_sim.physics.choose import seldom, shared, trucks_in, where
 from truck_blowout_sim.physics.jit import core
 from truck_blowout_sim.physics.layout import TIRE, TIRE_BLOCK, TIRE_LANES
 from truck_blowout_sim.physics.scalar import clip, two_ratios
@@ -38,28 +38,70 @@ def tire_pass(p: Floats, tires_at: int, table_at: int, lanes: Floats, n_tires: i
             carry(p, t + k, lanes, w + k)
         for k in range(wide):
             stretch(p, t + k, lanes, w + k, dt)
-        for k in range(wide):
-            magic_formula_forces(p, t + k, lanes, w + k)
-        others = 0.0
-        for k in range(n):
-            others += shared(p[t + k + TIRE.model])
-        if others > MAGIC_FORMULA:
-            for k in range(n):
-                if shared(p[t + k + TIRE.model]) != MAGIC_FORMULA:
-                    other_forces(p, t + k, table_at, lanes, w + k)
+        formula_pass(p, t, lanes, w, wide)
+        others_pass(p, t, table_at, lanes, w, n)
         for k in range(wide):
             soften(p, t + k, lanes, w + k)
         done, t, w = done + n, t + TIRE_BLOCK, w + LANE_BLOCK
 
 
 @core
+def formula_pass(p: Floats, t: int, lanes: Floats, w: int, wide: int) -> None:
+    """Magic Formula forces of ``wide`` tires, in loops so short that several tires overlap.
+
+    A processor looks a few hundred instructions ahead; a tire's wait for each other.
+    """
+    for k in range(wide):
+        if takes_formula(p, t + k, lanes):
+            combine(lanes, w + k)
+    for k in range(wide):
+        if takes_formula(p, t + k, lanes):
+            bend(p, t + k, lanes, w + k)
+    for k in range(wide):
+        if takes_formula(p, t + k, lanes):
+            magic_formula_forces(p, t + k, lanes, w + k)
+
+
+@core
+def takes_formula(p: Floats, t: int, lanes: Floats) -> bool:
+    """Whether a tire is worked by the Magic Formula: of one truck all, the others' result unused.
+
+    Its tires stand in vectors, which a branch would break up.
+    """
+    return trucks_in(lanes) == 1 or shared(p[t + TIRE.model]) == MAGIC_FORMULA
+
+
+@core
+def others_pass(p: Floats, t: int, table_at: int, lanes: Floats, w: int, n: int) -> None:
+    """Forces of those of ``n`` tires that are map tires or linear ones."""
+    others = 0.0
+    for k in range(n):
+        others += shared(p[t + k + TIRE.model])
+    if others > MAGIC_FORMULA:
+        for k in range(n):
+            if shared(p[t + k + TIRE.model]) != MAGIC_FORMULA:
+                other_forces(p, t + k, table_at, lanes, w + k)
+
+
+@core
 def tire_at_load(p: Floats, t: int, table_at: int, lanes: Floats, w: int, dt: float) -> None:
     """As `tire_pass`, for one tire whose load, rolling radius and rim contact stand in its lane."""
+    fill_inflation(p, t, lanes, w)
     stretch(p, t, lanes, w, dt)
-    magic_formula_forces(p, t, lanes, w)
-    if shared(p[t + TIRE.model]) != MAGIC_FORMULA:
+    if shared(p[t + TIRE.model]) == MAGIC_FORMULA:
+        combine(lanes, w)
+        bend(p, t, lanes, w)
+        magic_formula_forces(p, t, lanes, w)
+    else:
         other_forces(p, t, table_at, lanes, w)
     soften(p, t, lanes, w)
+
+
+@core
+def fill_inflation(p: Floats, t: int, lanes: Floats, w: int) -> None:
+    """How far the tire in lane ``w`` is inflated, see `blowout.inflated`."""
+    lanes[w + LANE.inflation], lanes[w + LANE.collapse] = blowout.inflated(
+        p, t, lanes[w + LANE.pressure_pa])
 
 
 @core
@@ -68,15 +110,19 @@ def carry(p: Floats, t: int, lanes: Floats, w: int) -> None:
     stepped = lanes[w + LANE.stepped] > 0.0
     gauge, above = lanes[w + LANE.pressure_pa], lanes[w + LANE.above_m]
     rim = where(stepped, 0.0, blowout.rim_fraction(p, t, above))
-    fz, deflection = blowout.vertical_load(
-        p, t, gauge, above, lanes[w + LANE.sink_mps], stepped, lanes[w + LANE.row_free_m],
-        lanes[w + LANE.row_stiffness_npm])
+    row_radius, row_free, row_stiffness, row_rolling = 0.0, 0.0, 1.0, 0.0
+    if seldom(stepped):
+        row_radius, row_free = lanes[w + LANE.row_radius_m], lanes[w + LANE.row_free_m]
+        row_stiffness = lanes[w + LANE.row_stiffness_npm]
+        row_rolling = lanes[w + LANE.row_rolling]
+    fz, deflection = blowout.vertical_load(p, t, gauge, above, lanes[w + LANE.sink_mps], stepped,
+                                           row_free, row_stiffness)
     radius = blowout.rolling_radius_m(p, t, deflection, rim)
-    radius = where(stepped, lanes[w + LANE.row_radius_m], radius)
-    collapse = blowout.inflated(p, t, gauge)[1]
-    f = blowout.rolling_coefficient(p, t, collapse, deflection, rim,
+    radius = where(stepped, row_radius, radius)
+    fill_inflation(p, t, lanes, w)
+    f = blowout.rolling_coefficient(p, t, lanes[w + LANE.collapse], deflection, rim,
                                     abs(lanes[w + LANE.vx_mps]), lanes[w + LANE.softness])
-    f = where(stepped, lanes[w + LANE.row_rolling], f)
+    f = where(stepped, row_rolling, f)
     lanes[w + LANE.rim] = rim
     lanes[w + LANE.fz_n] = fz
     lanes[w + LANE.radius_m] = radius
@@ -91,9 +137,8 @@ def stretch(p: Floats, t: int, lanes: Floats, w: int, dt: float) -> None:
     slide_x = lanes[w + LANE.spin_radps] * lanes[w + LANE.radius_m] - vx
     fz, rim = lanes[w + LANE.fz_n], lanes[w + LANE.rim]
     road, axle_peak = lanes[w + LANE.friction], lanes[w + LANE.axle_peak]
-    inflation, collapse = blowout.inflated(p, t, lanes[w + LANE.pressure_pa])
     straight = p[t + TIRE.model] == LINEAR
-    bent = magic_formula.cornering_stiffness_nprad(p, t, fz, inflation)
+    bent = magic_formula.cornering_stiffness_nprad(p, t, fz, lanes[w + LANE.inflation])
     cornering = p[t + TIRE.linear_cornering_nprad] * p[t + TIRE.cornering_scale]
     cornering = where(straight, cornering, bent)
     peak_x, peak_y, slope_x = magic_formula.limits(p, t, fz, road, axle_peak)
@@ -119,18 +164,33 @@ def stretch(p: Floats, t: int, lanes: Floats, w: int, dt: float) -> None:
     lanes[w + LANE.force_slip_tan] = clip(tan + damping * slide_y, -3.0, 3.0)
     lanes[w + LANE.slope_n], lanes[w + LANE.cornering_nprad] = slope_x, cornering
     lanes[w + LANE.grip], lanes[w + LANE.grip_tan] = grip, grip_tan
-    lanes[w + LANE.soft] = max(rim, collapse)
+    lanes[w + LANE.soft] = max(rim, lanes[w + LANE.collapse])
+
+
+@core
+def combine(lanes: Floats, w: int) -> None:
+    """The slips of the tire in lane ``w`` as one."""
+    lanes[w + LANE.slip_angle_rad], lanes[w + LANE.total] = magic_formula.combined(
+        lanes[w + LANE.force_slip], lanes[w + LANE.force_slip_tan],
+        (lanes[w + LANE.grip], lanes[w + LANE.grip_tan]))
+
+
+@core
+def bend(p: Floats, t: int, lanes: Floats, w: int) -> None:
+    """The Magic Formula's curves at the combined slip."""
+    lanes[w + LANE.shape], lanes[w + LANE.shape_tan] = magic_formula.shapes(
+        lanes[w + LANE.total], p[t + TIRE.shape_x], p[t + TIRE.curvature_x],
+        p[t + TIRE.shape_y], p[t + TIRE.curvature_y])
 
 
 @core
 def magic_formula_forces(p: Floats, t: int, lanes: Floats, w: int) -> None:
     """Forces of the tire in lane ``w`` while it is whole."""
-    inflation = blowout.inflated(p, t, lanes[w + LANE.pressure_pa])[0]
     fx, fy, mz = magic_formula.forces(
-        p, t, lanes[w + LANE.fz_n], inflation, lanes[w + LANE.force_slip],
-        lanes[w + LANE.force_slip_tan],
+        p, t, lanes[w + LANE.fz_n], lanes[w + LANE.inflation], lanes[w + LANE.force_slip],
+        lanes[w + LANE.force_slip_tan], lanes[w + LANE.slip_angle_rad], lanes[w + LANE.total],
         (lanes[w + LANE.slope_n], lanes[w + LANE.cornering_nprad]),
-        (lanes[w + LANE.grip], lanes[w + LANE.grip_tan]))
+        (lanes[w + LANE.shape], lanes[w + LANE.shape_tan]))
     lanes[w + LANE.fx_n], lanes[w + LANE.fy_n], lanes[w + LANE.mz_nm] = fx, fy, mz
 
 
@@ -154,9 +214,10 @@ def soften(p: Floats, t: int, lanes: Floats, w: int) -> None:
     stepped, soft = lanes[w + LANE.stepped] > 0.0, lanes[w + LANE.soft]
     fz, mapped = lanes[w + LANE.fz_n], p[t + TIRE.model] == LOOKUP_MAP
     flat = 1.0 - soft * (1.0 - p[t + TIRE.flat_cornering] * p[t + TIRE.flat_cornering_scale])
-    flat = where(stepped, lanes[w + LANE.row_cornering], flat)
     trail = 1.0 - soft * (1.0 - p[t + TIRE.flat_trail])
-    trail = where(stepped, lanes[w + LANE.row_aligning], trail)
+    if seldom(stepped):
+        flat = where(stepped, lanes[w + LANE.row_cornering], flat)
+        trail = where(stepped, lanes[w + LANE.row_aligning], trail)
     # the contact trails behind the wheel: on the other side of it in reverse
     trail *= clip(lanes[w + LANE.vx_mps] / _STANDSTILL_MPS, -1.0, 1.0)
     camber = p[t + TIRE.camber_gain] * (1.0 - soft * (1.0 - p[t + TIRE.flat_camber]))
