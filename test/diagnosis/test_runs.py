@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from truck_blowout_sim.diagnosis.case.runs import Run, prepare_run, rms_sigma, simulate_bins
+from truck_blowout_sim.diagnosis.case.runs import Run, prepare_run, rms_sigma
 from truck_blowout_sim.diagnosis.settings import Settings
 from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.recordings import Blowout, Recording, Series
@@ -128,16 +128,6 @@ def test_what_a_run_can_show(run: Run, drive_it: Drives, truck: Packed, few: Set
     n = run.drive.inputs.shape[0]
     coasting = replace(run, drive=replace(run.drive, inputs=np.zeros((n, 5))))
     assert not coasting.shows("brakes")
-
-
-def test_two_threads_give_the_bits_of_one(run: Run, truck: Packed) -> None:
-    heavier = truck.with_values({"unit.trailer.mass_kg": 1.1 * truck["unit.trailer.mass_kg"]})
-    trucks = [truck, heavier, truck, heavier]
-    jobs = [(run, one) for one in trucks]
-    alone, together = (simulate_bins(jobs, workers, Run.simulated) for workers in (1, 2))
-    assert all(np.array_equal(a, b) for a, b in zip(alone, together, strict=True))
-    assert np.array_equal(alone[0], alone[2])
-    assert not np.array_equal(alone[0], alone[1])
 
 
 def test_a_step_that_does_not_divide_the_samples_corrects_as_well(

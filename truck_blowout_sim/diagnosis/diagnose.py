@@ -141,6 +141,7 @@ class _Case:
                       self.packed, self.rules, self.workers, self.effort.refits)
         if self.kept is not None:
             study.simulated = self.kept.simulated
+            study.simulated_abreast = self.kept.simulated_abreast
         return study
 
     def _cut(self, recording: Recording, role: Role, gate: GateResult) -> Run:

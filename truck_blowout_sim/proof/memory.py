@@ -5,7 +5,7 @@ Validated with: test/diagnosis/test_resume.py.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from truck_blowout_sim.diagnosis import simulation_key
 from truck_blowout_sim.diagnosis.case.runs import Run
+from truck_blowout_sim.diagnosis.case.simulations import Job, simulated_abreast
 from truck_blowout_sim.vehicle import Packed
 
 Floats = NDArray[np.float64]
@@ -44,3 +45,16 @@ class Memory:
         if len(self._seen) < self.most:
             self._seen[key] = bins.copy()
         return bins
+
+    def simulated_abreast(self, jobs: Sequence[Job]) -> list[Floats]:
+        """Bin means of up to eight."""
+        keys = [simulation_key(*job, abreast=True) for job in jobs]
+        found = {key: self._seen[key] for key in keys if key in self._seen}
+        self.hits += len(found)
+        left = {key: job for key, job in zip(keys, jobs, strict=True) if key not in found}
+        if left:
+            for key, bins in zip(left, simulated_abreast(list(left.values())), strict=True):
+                found[key] = bins
+                if len(self._seen) < self.most:
+                    self._seen[key] = bins
+        return [found[key].copy() for key in keys]

@@ -40,12 +40,13 @@ def case_parts(recordings: Mapping[str, Sequence[Recording]], packed: Packed, se
     }
 
 
-def simulation_key(run: Run, truck: Packed) -> bytes:
+def simulation_key(run: Run, truck: Packed, *, abreast: bool = False) -> bytes:
     """Key of a truck's bin means over a run: a hash of all that they follow from.
 
-    A fraction of a millisecond, where the simulation takes tens.
+    A fraction of a millisecond, where the simulation takes tens. ``abreast``: it went as one of
+    eight, which rounds otherwise.
     """
-    return _digest([_driven(run), *_truck(truck)])
+    return _digest([_driven(run), *_truck(truck), abreast])
 
 
 @lru_cache(maxsize=64)

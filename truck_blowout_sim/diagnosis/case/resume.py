@@ -15,7 +15,7 @@ import json
 import os
 import struct
 import zlib
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import BinaryIO, Protocol
@@ -25,6 +25,7 @@ from numpy.typing import NDArray
 
 from truck_blowout_sim.diagnosis.case.fingerprints import KEY_SIZE, simulation_key
 from truck_blowout_sim.diagnosis.case.runs import Run
+from truck_blowout_sim.diagnosis.case.simulations import Job, simulated_abreast
 from truck_blowout_sim.vehicle import Packed
 
 Floats = NDArray[np.float64]
@@ -42,6 +43,9 @@ class Keeps(Protocol):
 
     def simulated(self, run: Run, truck: Packed) -> Floats:
         """Bin means of a truck over a run, the same bits as :meth:`Run.simulated`."""
+
+    def simulated_abreast(self, jobs: Sequence[Job]) -> list[Floats]:
+        """Bin means of up to eight, the same bits as `simulations.simulated_abreast`."""
 
 
 @dataclass(eq=False)
@@ -85,12 +89,21 @@ class Kept:
         """Bin means of a truck over a run: those kept, else simulated and kept."""
         key = simulation_key(run, truck)
         if key in self._places:
-            at, n, m = self._places[key]
-            raw = os.pread(self._file, 8 * n * m, at)
-            return np.frombuffer(raw, dtype=np.float64).reshape(n, m).copy()
+            return self._read(key)
         bins = run.simulated(truck)
         self._add(key, bins)
         return bins
+
+    def simulated_abreast(self, jobs: Sequence[Job]) -> list[Floats]:
+        """Bin means of up to eight: those kept, the others simulated abreast and kept."""
+        keys = [simulation_key(*job, abreast=True) for job in jobs]
+        found = {key: self._read(key) for key in keys if key in self._places}
+        left = {key: job for key, job in zip(keys, jobs, strict=True) if key not in found}
+        if left:
+            for key, bins in zip(left, simulated_abreast(list(left.values())), strict=True):
+                self._add(key, bins)
+                found[key] = bins
+        return [found[key].copy() for key in keys]
 
     def close(self, *, forget: bool = False) -> None:
         """Let go of the file; ``forget``: remove it, and the folder if nothing else is in it."""
@@ -120,6 +133,12 @@ class Kept:
             self.say(f"continuing an interrupted diagnosis: {len(self._places)} simulations "
                      f"are kept in {self.folder}")
         return end
+
+    def _read(self, key: bytes) -> Floats:
+        """What is kept of a simulation."""
+        at, n, m = self._places[key]
+        raw = os.pread(self._file, 8 * n * m, at)
+        return np.frombuffer(raw, dtype=np.float64).reshape(n, m).copy()
 
     def _add(self, key: bytes, bins: Floats) -> None:
         """Append a record in one write, which threads cannot mix; no disk is worth an answer."""

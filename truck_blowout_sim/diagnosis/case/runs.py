@@ -7,8 +7,7 @@ its share is widened by the number of bins it spans.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
-from concurrent.futures import ThreadPoolExecutor
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -229,26 +228,6 @@ def _channel_bins(recording: Recording, name: str, noise: Noise, edges: Floats,
     plain = np.maximum(single / np.sqrt(independent), noise.quantum / 6.0)
     # a gauge that reads nothing, or a computed series, seems noiseless: none is that good
     return mean, np.maximum(plain, _BEST_INSTRUMENT * rule.floor)
-
-
-def simulate_bins(jobs: Sequence[tuple[Run, Packed]], workers: int,
-                  simulated: Callable[[Run, Packed], Floats],
-                  tell: Callable[[float], None] | None = None) -> list[Floats]:
-    """Bin means of each truck over its run, in order; in parallel, same bits as one by one.
-
-    ``tell``: called with the share that is done.
-    """
-    done: list[Floats] = []
-    with ThreadPoolExecutor(workers) as pool:
-        try:
-            for bins in pool.map(lambda job: simulated(*job), jobs):
-                done.append(bins)
-                if tell:
-                    tell(len(done) / len(jobs))
-        except BaseException:
-            pool.shutdown(cancel_futures=True)  # whoever interrupts does not wait for the rest
-            raise
-    return done
 
 
 def rms_sigma(run: Run, model: Floats) -> Mapping[str, float]:

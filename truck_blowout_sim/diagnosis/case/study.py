@@ -13,7 +13,14 @@ from functools import cached_property, partial
 import numpy as np
 from numpy.typing import NDArray
 
-from truck_blowout_sim.diagnosis.case.runs import Run, simulate_bins
+from truck_blowout_sim.diagnosis.case.runs import Run
+from truck_blowout_sim.diagnosis.case.simulations import (
+    Abreast,
+    Alone,
+    Job,
+    simulate_bins,
+    simulated_abreast,
+)
 from truck_blowout_sim.diagnosis.case.trust import grip_used
 from truck_blowout_sim.diagnosis.effects import Effect
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
@@ -51,7 +58,8 @@ class Study:
         quiet: by law of a candidate, what it would change in the baseline runs for each unit of
             its amount.
         seconds: by event, what it would change over each second of the baseline runs.
-        simulations: how many were asked for; ``simulated`` gives the bin means of one.
+        simulations: how many were asked for; ``simulated`` gives the bin means of one,
+            ``simulated_abreast`` those of up to eight.
     """
 
     runs: tuple[Run, ...]
@@ -72,7 +80,8 @@ class Study:
     seconds: dict[tuple[Effect, str], dict[int, list[tuple[float, Floats]]]] = field(
         default_factory=dict)
     simulations: int = 0
-    simulated: Callable[[Run, Packed], Floats] = Run.simulated
+    simulated: Alone = Run.simulated
+    simulated_abreast: Abreast = simulated_abreast
     _projectors: dict[frozenset[str], Projector] = field(default_factory=dict)
     _gram: Floats = field(default_factory=lambda: np.zeros((0, 0)))
     _courses: dict[tuple[Run, bytes], Course] = field(default_factory=dict)
@@ -124,12 +133,12 @@ class Study:
         self._projectors.clear()
         self._gram = np.zeros((0, 0))
 
-    def simulate(self, jobs: Sequence[tuple[Run, Packed]], what: str = "",
+    def simulate(self, jobs: Sequence[Job], what: str = "",
                  progress: Progress | None = None) -> list[Floats]:
         """Bin means of many (run, truck) pairs; ``progress`` is told of them as ``what``."""
         self.simulations += len(jobs)
         tell = partial(progress, what) if progress else None
-        return simulate_bins(jobs, self.workers, self.simulated, tell)
+        return simulate_bins(jobs, self.workers, self.simulated, self.simulated_abreast, tell)
 
     def job(self, run: Run, base: Packed, hypothesis: Hypothesis) -> tuple[Run, Packed]:
         """What to simulate for a hypothesis on top of a truck: an event from its start on only."""
