@@ -90,12 +90,14 @@ class Chance:
         scatter: of the case; ``independent``: how many independent hypotheses were tried.
         rate: share of such searches in which anything may be named.
         questions: what was asked, each with the key of its hypothesis.
+        further: support asked beyond chance, where something else was found already.
     """
 
     scatter: Scatter
     independent: float
     rate: float
     questions: Sequence[tuple[tuple[str, str], Question]] = ()
+    further: float = 0.0
 
     def beside(self, key: tuple[str, str], change: Floats, reach: Floats, left: Floats) -> Scatter:
         """What scatters where a hypothesis acts: all other amounts, with its ``change`` removed.
@@ -109,8 +111,9 @@ class Chance:
 
     @property
     def asked(self) -> float:
-        """Support that chance reaches in ``rate`` of the searches."""
-        return float(chi2.isf(-np.expm1(np.log1p(-self.rate) / self.independent), 1))
+        """Support that chance reaches in ``rate`` of the searches, and what is asked beyond it."""
+        chance = float(chi2.isf(-np.expm1(np.log1p(-self.rate) / self.independent), 1))
+        return chance + self.further
 
     def p_value(self, support: float) -> float:
         """Chance that the best of a search is supported so much where nothing is missing."""

@@ -4,6 +4,8 @@ A wheel that is held back turns slower than it rolls freely, by its drag over it
 What is left of a hub's speed after everything named is fitted with a share of that speed, in
 training and while nothing brakes; the gain of its tachometer, which baseline runs hold, and all
 other nuisances are projected out. Hubs that a blown tire or something named holds are not asked.
+Where the wheel on the other side of the axle lags alike, it is no matter of one wheel: the speed of
+the model, or a drag of the whole axle, is a little off.
 
 References: wheel slip under a drive or brake force (Pacejka 2012, chapter 1); as `scatter.py`.
 Known limits: without baseline runs a lag is a gain of the tachometer, and nothing is said; hubs
@@ -13,7 +15,7 @@ Validated with: test/diagnosis/test_lagging.py (a hub that is held back is named
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -23,14 +25,16 @@ from truck_blowout_sim.diagnosis.case.runs import Run
 from truck_blowout_sim.diagnosis.case.study import Study
 from truck_blowout_sim.diagnosis.case.trust import BRAKES_ON_PA
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
-from truck_blowout_sim.diagnosis.fit.one_channel import ask_channel, asked_of
+from truck_blowout_sim.diagnosis.fit.one_channel import ChannelChange, ask_channel, asked_of
 from truck_blowout_sim.diagnosis.fit.quantiles import NINETY
 from truck_blowout_sim.diagnosis.fit.scatter import Scatter
+from truck_blowout_sim.vehicle import Vehicle
 
 _BRAKES = slice(2, None)  # columns of a drive's inputs
 # 1 sigma of a rolling radius from truck to truck, half of it from day to day: 3 % of load or
 # pressure move a deflection of 25 mm by 0.8 mm, the radius of 0.5 m by a third of that
 _RADIUS = 0.001
+_SHARED = 0.5  # of its lag: what the opposite wheel has of it where it is no matter of one wheel
 _DOUBT = 0.05  # share of drags that may be called a wheel's: asked only where a drag is named
 
 
@@ -85,8 +89,16 @@ def lagging_wheel(study: Study, named: Sequence[Hypothesis], scatter: Scatter) -
         lambda run, mean: mean * _free(run), _RADIUS))}
     least = asked_of(_DOUBT, len(asked))
     behind = [Lag(hub, -one.score.amount, one.score.sigma, one.support)
-              for hub, one in asked.items() if one.score.amount < 0.0 and one.support > least]
+              for hub, one in asked.items() if one.score.amount < 0.0 and one.support > least
+              and not _shared(vehicle, hub, asked)]
     return max(behind, key=lambda lag: lag.evidence, default=None)
+
+
+def _shared(vehicle: Vehicle, hub: str, asked: Mapping[str, ChannelChange]) -> bool:
+    """Whether another wheel of the axle lags alike."""
+    axle, lag = vehicle.axle_of_hub(hub), asked[hub].score.amount
+    return any(other != hub and vehicle.axle_of_hub(other) == axle
+               and one.score.amount / lag >= _SHARED for other, one in asked.items())
 
 
 def _free(run: Run) -> NDArray[np.bool_]:

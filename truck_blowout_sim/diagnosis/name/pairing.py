@@ -12,7 +12,7 @@ Validated with: test/diagnosis/test_together.py, test/diagnosis/test_pairing.py.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,6 +23,7 @@ from truck_blowout_sim.diagnosis.fit.scatter import Chance
 from truck_blowout_sim.diagnosis.fit.support import Beside, supported
 from truck_blowout_sim.diagnosis.fit.together import fit_together
 from truck_blowout_sim.diagnosis.name.judging import (
+    ODDS,
     Found,
     models_with,
     predict_with,
@@ -69,6 +70,7 @@ def pair_with(study: Study, found: Found, disbelieved: Sequence[Ranked], chance:
     strong = [one for one in disbelieved if one.support > _MUCH * chance.asked]
     if not strong:
         return None
+    chance = replace(chance, further=ODDS)
     first = max(strong, key=worth)
     pair = _holds(study, found, [*found.named, first], (), chance) if found.named else None
     if pair is not None or len(found.named) + 2 > most:

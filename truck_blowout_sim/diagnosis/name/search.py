@@ -55,7 +55,9 @@ def search(study: Study, progress: Progress | None = None, most: int = _MOST_EFF
     rounds: list[Sequence[Ranked]] = []
     while len(found.named) < most:
         named = [r.hypothesis for r in found.named]
-        this = shortlist(study, named, progress)
+        # two defects at once are rarer than one, and neither laws nor corrections are exact
+        further = 0.0 if sound and not named else ODDS
+        this = shortlist(study, named, progress, further)
         ranked, found.chance = this.ranked, found.chance or this.chance
         if not rounds:
             found.tried = [Trial(r, Fate("refit", r.promise)) for r in ranked]

@@ -44,9 +44,12 @@ class Round:
     chance: Chance
 
 
-def shortlist(study: Study, named: Sequence[Hypothesis], progress: Progress | None
-              ) -> Round:
-    """All hypotheses not yet named, the promising ones refitted, best first."""
+def shortlist(study: Study, named: Sequence[Hypothesis], progress: Progress | None,
+              further: float = 0.0) -> Round:
+    """All hypotheses not yet named, the promising ones refitted, best first.
+
+    ``further``: support asked beyond chance.
+    """
     taken = {h.key for h in named}
     chi2 = study.projector(named).chi2(study.residual())
     steady = [h for h in steady_candidates(study) if h.key not in taken]
@@ -54,7 +57,7 @@ def shortlist(study: Study, named: Sequence[Hypothesis], progress: Progress | No
     ranked, places = ranking.ranked, _event_places(study, named)
     beside = Beside.of(study, named, study.models)
     chance = Chance(ranking.scatter, ranking.independent, study.settings.alarms_by_name,
-                    ranking.questions)
+                    ranking.questions, further)
     places = _called_for(study, named, places, ranked, chance)
     events = {(effect.name, str(place)) for effect, place in places}
     chance = replace(chance, independent=ranking.independent + len(events))
