@@ -121,7 +121,7 @@ def _best(logs: Sequence[Reading], is_baseline: NDArray[np.bool_]) -> FoundConve
     needed = float(np.log(len(tried) / _FAMILY_P))
     faulty = [log for log, baseline in zip(logs, is_baseline.tolist(), strict=True)
               if everywhere or not baseline]
-    if ratio < needed or _merely_late(faulty, convention):
+    if ratio < needed or _merely_late(faulty, convention) or _merely_quieter(faulty, convention):
         return None
     names = (look_alikes(faulty, convention, _ALIAS)
              if isinstance(convention, GravityConvention) else ())
@@ -137,6 +137,18 @@ def _merely_late(logs: Sequence[Reading], convention: Convention) -> bool:
     channels = sorted(set.union(*(log.concerned(convention) for log in logs)))
     return any(sum(log.late_gain(channel, delay_s, convention) for log in logs) > here
                for channel in channels for delay_s in _DELAYS_S.tolist())
+
+
+def _merely_quieter(logs: Sequence[Reading], convention: Convention) -> bool:
+    """Whether one of two exchanged channels fits worse in the other's place.
+
+    What is exchanged fits in both places; a channel of little noise seems to fit everywhere.
+    """
+    if not isinstance(convention, Swap):
+        return False
+    one, other = convention.channels
+    return any(sum(log.gain_with(a, b, convention) for log in logs) < -_ALIAS
+               for a, b in ((one, other), (other, one)))
 
 
 def _readings(present: set[str]) -> list[Convention]:

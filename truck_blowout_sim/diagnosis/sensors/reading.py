@@ -79,6 +79,12 @@ class Reading:
         return total + _steered(signals) - _steered(self.signals) + (
             _forward(signals) - _forward(self.signals))
 
+    def gain_with(self, channel: str, without: str, convention: Convention) -> float:
+        """The same by the identities that read one channel and not another."""
+        signals = convention.read(self.signals)
+        return sum(self._gain(i, signals) for i in self._touched(convention)
+                   if channel in i.channels and without not in i.channels)  # fmt: skip
+
     def concerned(self, convention: Convention) -> set[str]:
         """Recorded channels of all identities that another reading changes."""
         return {c for i in self._touched(convention) for c in i.channels if c in self.signals}
