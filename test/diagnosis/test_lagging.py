@@ -34,9 +34,10 @@ def in_force(study: Study, amount: float = 0.0) -> Hypothesis:
     return named
 
 
-def held_back(study_of: Studies, truck: Packed, baseline: bool = True) -> Study:
+def held_back(study_of: Studies, truck: Packed, baseline: bool = True,
+              hubs: tuple[str, ...] = (HUB,)) -> Study:
     """One hub rolls as if its bearing seized: its tires resist fifteen times as much."""
-    names = [f"tire.{tire}.rolling_0" for tire in truck.vehicle.tires_of_hub(HUB)]
+    names = [f"tire.{tire}.rolling_0" for hub in hubs for tire in truck.vehicle.tires_of_hub(hub)]
     return study_of({name: 15.0 * truck[name] for name in names}, baseline=baseline)
 
 
@@ -54,6 +55,14 @@ def test_the_wheel_that_is_held_back_is_named_and_by_how_much(
     seen = 1.0 - float(np.nanmean(rolled[run.edges_s[1:] < 4.5]))
     assert lag.slip == pytest.approx(seen, rel=0.3)
     assert HUB in lag.sentence
+
+
+def test_what_both_wheels_of_an_axle_have_is_no_matter_of_one_wheel(
+    study_of: Studies, truck: Packed
+) -> None:
+    study = held_back(study_of, truck, hubs=(HUB, "trailer_2_right"))
+    lag = lagging_wheel(study, [in_force(study)], STILL)
+    assert lag is None or lag.hub not in (HUB, "trailer_2_right")
 
 
 def test_a_drag_that_is_named_rightly_leaves_no_wheel_behind(study_of: Studies) -> None:

@@ -115,6 +115,12 @@ def test_chance_asks_for_more_where_more_is_tried() -> None:
     assert many.p_value(0.0) == pytest.approx(1.0)
 
 
+def test_a_further_cause_is_asked_for_more_than_chance() -> None:
+    one, more = Chance(CERTAIN, 20.0, 0.02), Chance(CERTAIN, 20.0, 0.02, further=6.0)
+    assert more.asked == pytest.approx(one.asked + 6.0)
+    assert more.p_value(15.0) == one.p_value(15.0)
+
+
 def test_alike_columns_ask_one_question() -> None:
     """Twins count once, strangers each."""
     rng = np.random.default_rng(2)

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from types import SimpleNamespace
-from typing import cast
+from typing import Any, cast
 
 import pytest
 
@@ -13,8 +14,9 @@ from truck_blowout_sim.diagnosis.effects import LIBRARY
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.fit.attribute import Ranked
 from truck_blowout_sim.diagnosis.name import candidates
-from truck_blowout_sim.diagnosis.name.judging import Found, excess_of, not_taken_back, slack
+from truck_blowout_sim.diagnosis.name.judging import ODDS, Found, excess_of, not_taken_back, slack
 from truck_blowout_sim.diagnosis.name.search import search
+from truck_blowout_sim.diagnosis.name.shortlist import Round, shortlist
 from truck_blowout_sim.diagnosis.sensors import GateResult
 from truck_blowout_sim.vehicle import Packed
 
@@ -48,6 +50,24 @@ def test_a_turned_axle_is_named(study_of: Studies) -> None:
     assert sum(p.chi2 for p in found.after) < sum(p.chi2 for p in found.before)
     assert "accepted" in {trial.fate.rule for trial in found.tried
                           if trial.ranked.hypothesis.key == best.hypothesis.key}
+
+
+@pytest.mark.parametrize("sound", [True, False])
+def test_a_further_cause_must_be_twenty_times_as_likely(
+    study_of: Studies, monkeypatch: pytest.MonkeyPatch, sound: bool
+) -> None:
+    asked: list[float] = []
+
+    def watched(*given: Any) -> Round:
+        this = shortlist(*given)
+        asked.append(this.chance.asked - replace(this.chance, further=0.0).asked)
+        return this
+
+    monkeypatch.setattr("truck_blowout_sim.diagnosis.name.search.shortlist", watched)
+    found = search(study_of(TURNED, holdout=TURNED), most=2, sound=sound)
+    assert len(found.named) <= 1
+    assert asked[0] == pytest.approx(0.0 if sound else ODDS)
+    assert asked[1:] == pytest.approx([ODDS] * len(found.named))
 
 
 def test_what_does_not_predict_the_holdout_is_refused(study_of: Studies, truck: Packed) -> None:

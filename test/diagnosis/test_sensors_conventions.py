@@ -85,6 +85,17 @@ def test_a_sound_log_and_a_late_channel_are_left_as_they_are() -> None:
     assert names(delayed(["tractor_yaw_rate_radps"], 0.2)(RUN)) == []
 
 
+def test_a_disturbed_channel_is_not_exchanged_for_a_quiet_one_on_a_straight() -> None:
+    """What is exchanged must fit in both places; here only that of the quiet one does."""
+    straight = make_run(20, 15.0, steer=0.05)
+    slow, pushed = straight["trailer_vy_mps"], straight["tractor_ay_mps2"]
+    run = straight.with_channels({
+        "trailer_vy_mps": Series(slow.time_s, slow.value + 0.1 * np.sin(3.0 * slow.time_s)),
+        "tractor_ay_mps2": Series(pushed.time_s, pushed.value + 0.4 * np.sin(2.2 * pushed.time_s)),
+    })
+    assert "channel_swap" not in [name for name, _ in names(run)]
+
+
 def test_two_faults_of_wiring_are_found_one_after_the_other() -> None:
     both = inverted("tractor_yaw_rate_radps")(exchanged("trailer_ax_mps2", "trailer_ay_mps2")(RUN))
     assert {name for name, _ in names(both)} == {"channel_sign", "channel_swap"}
