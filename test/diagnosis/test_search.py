@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from types import SimpleNamespace
-from typing import Any, cast
+from typing import cast
 
 import pytest
 
-from truck_blowout_sim.diagnosis.case.study import Study
+from truck_blowout_sim.diagnosis.case.study import Progress, Study
 from truck_blowout_sim.diagnosis.effects import LIBRARY
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.fit.attribute import Ranked
@@ -58,8 +58,9 @@ def test_a_further_cause_must_be_twenty_times_as_likely(
 ) -> None:
     asked: list[float] = []
 
-    def watched(*given: Any) -> Round:
-        this = shortlist(*given)
+    def watched(study: Study, named: Sequence[Hypothesis], progress: Progress | None,
+                further: float) -> Round:
+        this = shortlist(study, named, progress, further)
         asked.append(this.chance.asked - replace(this.chance, further=0.0).asked)
         return this
 
