@@ -72,9 +72,8 @@ def test_what_went_abreast_is_kept_apart(jobs: list[tuple[Run, Packed]], tmp_pat
     second.begin(case)
     asked = list[int]()
     with pytest.MonkeyPatch.context() as patch:
-        for module in ("diagnosis.case.resume", "proof.memory"):
-            patch.setattr(f"truck_blowout_sim.{module}.simulated_abreast",
-                          lambda those: asked.append(len(those)) or simulated_abreast(those))
+        patch.setattr(simulations, "simulated_abreast",
+                      lambda those: asked.append(len(those)) or simulated_abreast(those))
         after = second.simulated_abreast(jobs[:8])
         remembered = [memory.simulated_abreast(jobs[:n]) for n in (5, 8)]
     second.close()

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from truck_blowout_sim.diagnosis import simulation_key
 from truck_blowout_sim.diagnosis.case.runs import Run
-from truck_blowout_sim.diagnosis.case.simulations import Job, simulated_abreast
+from truck_blowout_sim.diagnosis.case.simulations import Job, known_or_abreast
 from truck_blowout_sim.vehicle import Packed
 
 Floats = NDArray[np.float64]
@@ -38,23 +38,21 @@ class Memory:
     def simulated(self, run: Run, truck: Packed) -> Floats:
         """Bin means of a truck over a run."""
         key = simulation_key(run, truck)
-        if key in self._seen:
-            self.hits += 1
-            return self._seen[key].copy()
-        bins = run.simulated(truck)
-        if len(self._seen) < self.most:
-            self._seen[key] = bins.copy()
-        return bins
+        bins = self._recall(key)
+        if bins is None:
+            bins = run.simulated(truck)
+            self._keep(key, bins)
+        return bins.copy()
 
     def simulated_abreast(self, jobs: Sequence[Job]) -> list[Floats]:
         """Bin means of up to eight."""
-        keys = [simulation_key(*job, abreast=True) for job in jobs]
-        found = {key: self._seen[key] for key in keys if key in self._seen}
-        self.hits += len(found)
-        left = {key: job for key, job in zip(keys, jobs, strict=True) if key not in found}
-        if left:
-            for key, bins in zip(left, simulated_abreast(list(left.values())), strict=True):
-                found[key] = bins
-                if len(self._seen) < self.most:
-                    self._seen[key] = bins
-        return [found[key].copy() for key in keys]
+        return known_or_abreast(jobs, self._recall, self._keep)
+
+    def _recall(self, key: bytes) -> Floats | None:
+        bins = self._seen.get(key)
+        self.hits += bins is not None
+        return bins
+
+    def _keep(self, key: bytes, bins: Floats) -> None:
+        if len(self._seen) < self.most:
+            self._seen[key] = bins

@@ -25,7 +25,7 @@ from numpy.typing import NDArray
 
 from truck_blowout_sim.diagnosis.case.fingerprints import KEY_SIZE, simulation_key
 from truck_blowout_sim.diagnosis.case.runs import Run
-from truck_blowout_sim.diagnosis.case.simulations import Job, simulated_abreast
+from truck_blowout_sim.diagnosis.case.simulations import Job, known_or_abreast
 from truck_blowout_sim.vehicle import Packed
 
 Floats = NDArray[np.float64]
@@ -96,14 +96,8 @@ class Kept:
 
     def simulated_abreast(self, jobs: Sequence[Job]) -> list[Floats]:
         """Bin means of up to eight: those kept, the others simulated abreast and kept."""
-        keys = [simulation_key(*job, abreast=True) for job in jobs]
-        found = {key: self._read(key) for key in keys if key in self._places}
-        left = {key: job for key, job in zip(keys, jobs, strict=True) if key not in found}
-        if left:
-            for key, bins in zip(left, simulated_abreast(list(left.values())), strict=True):
-                self._add(key, bins)
-                found[key] = bins
-        return [found[key].copy() for key in keys]
+        return known_or_abreast(jobs, lambda key: self._read(key) if key in self._places else None,
+                                self._add)
 
     def close(self, *, forget: bool = False) -> None:
         """Let go of the file; ``forget``: remove it, and the folder if nothing else is in it."""

@@ -16,6 +16,7 @@ from concurrent.futures import ThreadPoolExecutor
 import numpy as np
 from numpy.typing import NDArray
 
+from truck_blowout_sim.diagnosis.case.fingerprints import simulation_key
 from truck_blowout_sim.diagnosis.case.runs import Run
 from truck_blowout_sim.simulation.abreast import execute_alike, parts_of
 from truck_blowout_sim.vehicle import Packed
@@ -35,6 +36,22 @@ def simulated_abreast(jobs: Sequence[Job]) -> list[Floats]:
                         [None] * len(jobs))
     return [run.bins_of(each.out) + run.correction
             for (run, _), each in zip(jobs, ran, strict=True)]
+
+
+def known_or_abreast(jobs: Sequence[Job], known: Callable[[bytes], Floats | None],
+                     keep: Callable[[bytes, Floats], None]) -> list[Floats]:
+    """Bin means of up to eight: those that are known by their key, the others simulated and kept.
+
+    Equal jobs are simulated once.
+    """
+    keys = [simulation_key(*job, abreast=True) for job in jobs]
+    found = {key: bins for key in dict.fromkeys(keys) if (bins := known(key)) is not None}
+    left = {key: job for key, job in zip(keys, jobs, strict=True) if key not in found}
+    if left:
+        for key, bins in zip(left, simulated_abreast(list(left.values())), strict=True):
+            keep(key, bins)
+            found[key] = bins
+    return [found[key].copy() for key in keys]
 
 
 def simulate_bins(jobs: Sequence[Job], workers: int, alone: Alone = Run.simulated,
