@@ -91,20 +91,35 @@ def test_verdicts_follow_what_was_found(calm: Study, truck: Packed) -> None:
     assert decide(material(calm, (drag,), faults=1)) == "missing_physics"
 
 
-def test_what_beats_is_unknown_unless_what_was_named_says_more(calm: Study, truck: Packed) -> None:
-    scores = BeatScores(True, np.array([3.1, 3.2]), np.array([1.0, 20.0]), 8.0)
-    beat = Beat(True, 3.2, 20.0, 300.0, "tractor", "tractor_az_mps2", 0.1, 22.0, scores)
+def test_a_beat_that_baseline_runs_lack_is_unknown_unless_what_was_named_says_more(
+    study_of: Studies, truck: Packed
+) -> None:
+    calm, beat = study_of(baseline=True), beats()
     alone = replace(material(calm), beat=beat)
     assert decide(alone) == "unknown"
     told = answer(alone)
     assert "once per wheel turn" in told.sentence
     assert told.evidence.equations[-1] == beat.equation
-    assert told.evidence.beats is scores
+    assert told.evidence.beats is beat.scores
     weak, strong = (replace(material(calm, (ranked(truck, "road_bank", 0.03, delta),)), beat=beat)
                     for delta in (200.0, 500.0))
     assert decide(weak) == "unknown"
     assert decide(strong) == "missing_physics"
     assert "once per wheel turn" in answer(strong).sentence
+
+
+def test_without_baseline_runs_a_wheel_that_beats_is_noted_only(calm: Study) -> None:
+    """Every sound wheel has a runout and an unbalance."""
+    alone = replace(material(calm), beat=beats())
+    assert decide(alone) == decide(material(calm)) == "consistent"
+    told = answer(alone)
+    assert "wheel turn" not in told.sentence
+    assert "Every sound wheel does so" in told.evidence.notes[0]
+
+
+def beats() -> Beat:
+    scores = BeatScores(True, np.array([3.1, 3.2]), np.array([1.0, 20.0]), 8.0)
+    return Beat(True, 3.2, 20.0, 300.0, "tractor", "tractor_az_mps2", 0.1, 22.0, scores)
 
 
 def test_training_that_keeps_more_than_baseline_is_unknown(pushed: Study, truck: Packed) -> None:

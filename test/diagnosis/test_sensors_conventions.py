@@ -8,12 +8,16 @@ from typing import cast
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
+from scipy.signal import lfilter
 from trial_drive import make_run
 from trial_faults import delayed, leaking
 
 from truck_blowout_sim.diagnosis.sensors import conventions, correct, sensor_gate
 from truck_blowout_sim.diagnosis.sensors.conventions import find_conventions
+from truck_blowout_sim.diagnosis.sensors.distortions import Sign
 from truck_blowout_sim.diagnosis.sensors.geometry import stated_geometry, vehicle_geometry
+from truck_blowout_sim.diagnosis.sensors.reading import Reading
 from truck_blowout_sim.diagnosis.sensors.signals import read_signals
 from truck_blowout_sim.recordings import Recording, Series
 from truck_blowout_sim.vehicle import load_vehicle
@@ -141,6 +145,9 @@ class Gained:
     def concerned(self, convention: object) -> set[str]:
         return set()
 
+    def share_explained(self, convention: object) -> NDArray[np.float64]:
+        return np.ones(2)
+
 
 @pytest.mark.parametrize(("train", "baseline", "is_found"), [
     ((9.5, 9.5), (-40.0,), True),
@@ -190,3 +197,31 @@ def test_an_angle_that_is_mounted_askew_is_not_of_the_other_sign() -> None:
     runs = [braking_askew(seed) for seed in range(4)]
     truck = vehicle_geometry(load_vehicle("international_9400i_trailmobile"))
     assert find_conventions([read_signals(r) for r in runs], [False] * 4, runs, truck) == ()
+
+
+def share(change: Callable[[Recording], Recording], channel: str) -> float:
+    """What reading a channel with the other sign explains of the log, changed."""
+    run = change(RUN)
+    product, square = Reading.of(read_signals(run), stated_geometry([run])).share_explained(
+        Sign("channel_sign", "tractor", "", (channel,)))
+    return float(product / square)
+
+
+def test_another_sign_explains_nothing_of_a_sound_log_all_of_a_mirrored_one_half_of_noise() -> None:
+    def only_noise(run: Recording) -> Recording:
+        t = run["tractor_vy_mps"].time_s
+        rng = np.random.default_rng(2)
+        keep = float(np.exp(-np.median(np.diff(t)) / 0.5))
+        push = rng.standard_normal(t.size) * np.sqrt(1.0 - keep**2)
+        return run.with_channels({"tractor_vy_mps": Series(t, lfilter([1.0], [1.0, -keep], push))})
+
+    assert share(lambda run: run, "tractor_vy_mps") == pytest.approx(0.0, abs=0.1)
+    assert share(inverted("tractor_vy_mps"), "tractor_vy_mps") == pytest.approx(1.0, abs=0.1)
+    assert share(only_noise, "tractor_vy_mps") == pytest.approx(0.5, abs=0.1)
+
+
+def test_what_explains_half_of_what_is_left_is_noise_whatever_it_gains() -> None:
+    log = Gained(30.0)
+    log.share_explained = lambda _: np.array([0.58, 1.0])  # type: ignore[method-assign]
+    logs = cast("list[conventions.Reading]", [log])
+    assert conventions._best(logs, np.array([False])) is None

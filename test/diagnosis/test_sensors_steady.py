@@ -11,7 +11,7 @@ from trial_drive import make_run
 
 from truck_blowout_sim.diagnosis.fit.independent import independent_among
 from truck_blowout_sim.diagnosis.sensors import sensor_gate
-from truck_blowout_sim.diagnosis.sensors.steady import moderated
+from truck_blowout_sim.diagnosis.sensors.steady import color_of, moderated
 from truck_blowout_sim.recordings import Recording, Series
 
 MEMORY_S, TIMES = 1.5, 8.0
@@ -68,3 +68,32 @@ def test_a_large_fault_is_named_in_a_rough_log() -> None:
     found = sensor_gate(runs, [rough(make_run(90, 12.0), 9)]).findings[0]
     assert (found.name, found.body) == ("yaw_rate_bias", "tractor")
     assert found.parameters["bias"].value == pytest.approx(np.radians(2.0), rel=0.1)
+
+
+def test_a_tone_and_a_memory_are_taken_out_and_white_noise_is_left_as_it_is() -> None:
+    """What any later part of the log could be foretold by is no sign of a fault."""
+    rng, t = np.random.default_rng(5), 0.1 * np.arange(400)
+    white = rng.standard_normal(t.size)
+    assert color_of([white]).surprise[0, -1] > 0.95
+    for loud in (3.0 * np.sin(2.0 * np.pi * 1.16 * t) + white,
+                 lfilter([1.0], [1.0, -0.9], white)):
+        left = color_of([loud]).whitened(loud[:, None])[:, 0]
+        assert left.std() == pytest.approx(loud.std(), rel=0.25)  # its level stays
+        assert abs(np.corrcoef(left[1:], left[:-1])[0, 1]) < 0.1
+
+
+def test_a_zero_that_drifts_over_minutes_is_no_fault_and_one_that_stays_is() -> None:
+    """Stretches of five seconds alone would take the mean of a drift for a constant."""
+    size = np.radians(0.02)
+
+    def long_run(drift: float, zero: float) -> Recording:
+        run = make_run(95, 240.0)
+        series = run["tractor_yaw_rate_radps"]
+        wave = np.sin(2.0 * np.pi * series.time_s / 200.0 + 0.4)
+        return run.with_channels({"tractor_yaw_rate_radps": Series(
+            series.time_s, series.value + drift * wave + zero)})
+
+    drifting, fixed = (sensor_gate([long_run(*one)]).findings
+                       for one in ((6.0 * size, 0.0), (0.0, 6.0 * size)))
+    assert [f.name for f in fixed] == ["yaw_rate_bias"]
+    assert not drifting

@@ -80,8 +80,13 @@ class Material:
     @property
     def signs(self) -> tuple[words.Sign, ...]:
         """What shows beside a force."""
-        shown = (self.beat, self.lag, self.posture, _moving_on(self))
+        shown = (self.new_beat, self.lag, self.posture, _moving_on(self))
         return tuple(one for one in shown if one is not None)
+
+    @property
+    def new_beat(self) -> Beat | None:
+        """The beat, where baseline runs tell that it is new: every sound wheel beats a little."""
+        return self.beat if self.study.baseline else None
 
 
 def answer(material: Material) -> Diagnosis:
@@ -124,7 +129,7 @@ def decide(material: Material) -> Verdict:
 
 def _beats(material: Material) -> bool:
     """Whether a periodic force says more than everything named."""
-    beat = material.beat
+    beat = material.new_beat
     return beat is not None and beat.evidence > _bought(material)
 
 
@@ -185,7 +190,7 @@ def locate(material: Material) -> Location:
     # along the course both bodies move as one: what turns or beats says which it is, or what was
     # named, by its wheels
     shown: list[str | None] = [
-        one.body for one in (material.posture, material.beat, _moving_on(material)) if one]
+        one.body for one in (material.posture, material.new_beat, _moving_on(material)) if one]
     bodies = shown or [r.hypothesis.place.body for r in material.found.named[:1]]
     best = max(material.wrenches, key=lambda w: (w.history.body in bodies, w.delta))
     history = best.history
@@ -221,6 +226,7 @@ def gather(material: Material) -> Evidence:
     rows = study.columns.shape[0]
     law = (material.law.equation,) if unexplained(material) else ()
     told = tuple(one.equation for one in material.signs)
+    old = (material.beat.ordinary,) if material.beat and not material.new_beat else ()
     return Evidence(
         vehicle=material.vehicle,
         recordings=tuple((r.recording.name, r.role) for r in (*study.runs, *study.holdout)),
@@ -232,7 +238,8 @@ def gather(material: Material) -> Evidence:
         equations=tuple(words.fill(r.hypothesis, r.hypothesis.effect.amount.report(
             r.hypothesis.amount), None)[1] for r in found.named) + law + told,
         assumptions=words.assumptions(study), missing_channels=words.missing_channels(study),
-        notes=(*material.gate.notes, *(note for r in study.runs for note in r.recording.notes)),
+        notes=(*material.gate.notes, *old,
+               *(note for r in study.runs for note in r.recording.notes)),
         facts=(*((f"unnamed wrench on the {w.history.body} buys", f"{w.delta:.0f} with {w.degrees}")
                  for w in material.unnamed),
                *(material.beat.facts if material.beat else ()),

@@ -42,6 +42,11 @@ class Beat:
         return self.speed_mps / self.every if self.turning else 1.0 / self.every
 
     @property
+    def unit(self) -> str:
+        """Of the amplitude."""
+        return "m/s2" if self.channel.endswith("_mps2") else "rad/s"
+
+    @property
     def facts(self) -> tuple[tuple[str, str], ...]:
         """What stands behind it, for the page."""
         what = "once per wheel turn" if self.turning else "at a steady pace"
@@ -51,12 +56,11 @@ class Beat:
     @property
     def equation(self) -> str:
         """For an engineer."""
-        unit = "m/s2" if self.channel.endswith("_mps2") else "rad/s"
         if self.turning:
             return (f"{self.channel} - model = sum_k a_k cos(2 pi k s / {self.every:.3f} m + phi_k)"
                     f", k = 1 to {HARMONICS[-1]}, root of summed a_k^2 = {self.amplitude:.3g} "
-                    f"{unit}")
-        return (f"{self.channel} - model = {self.amplitude:.3g} {unit} * cos(2 pi t / "
+                    f"{self.unit}")
+        return (f"{self.channel} - model = {self.amplitude:.3g} {self.unit} * cos(2 pi t / "
                 f"{self.every:.4f} s + phi)")
 
     @property
@@ -68,6 +72,13 @@ class Beat:
                     f"{self.body}: look at its tires for a loose tread, a flat spot or a bent rim.")
         return (f"The {self.body} surges {self.pace_hz:.2f} times a second at a steady pace, which "
                 "neither the pedals nor a known effect explains.")
+
+    @property
+    def ordinary(self) -> str:
+        """For a driver, where no baseline run tells that it is new."""
+        return (f"The {self.body} shakes once per wheel turn, by {self.amplitude:.2g} {self.unit}. "
+                "Every sound wheel does so a little; without baseline runs this is no sign of a "
+                "fault.")
 
     @property
     def next_test(self) -> str:

@@ -5,9 +5,11 @@ no level of what is left says that something is missing. But baseline runs show 
 leaves of this truck. The mean squares that each run keeps are compared as logarithms by Student's
 test, all of training and its worst run; runs are few, so their scatter has a prior of its own.
 Without baseline runs, training is held against the widths as they were guessed: these are what good
-models of any such truck differ by.
+models of any such truck differ by. A guess errs by a factor of its own: instruments that drift and
+tremble leave as much as a worse model.
 
-References: Student 1908; Gelman et al. 2013, ch. 3 (a scaled inverse chi-square prior).
+References: Student 1908; Satterthwaite 1946 (degrees of freedom of a sum of variances); Gelman et
+al. 2013, ch. 3 (a scaled inverse chi-square prior).
 Known limits: a maneuver much harder than the baseline's leaves more, too; without baseline runs
 only a gross mismatch shows.
 Validated with: test/diagnosis/test_left_over.py.
@@ -33,6 +35,7 @@ _SCATTER = 0.4  # of the logarithm: what a model leaves differs by half from man
 _RUNS = 6.0  # as many runs is that prior worth: cases seldom have more
 _LEAST = 1e-6
 _GUESSED = 1.0  # squares a row, where the widths are what two good models differ by
+_GUESS = 2.0 * np.log(1.5)  # 1 sigma of their logarithm: a guess errs by half (a judgement)
 NAMING_SHARE = 0.5  # of what training keeps more than usual: what explains less is no name for it
 
 
@@ -107,14 +110,24 @@ def excess(study: Study, squares: Sequence[float], usual: float) -> float:
     return sum((squares[i] - usual) * study.runs[i].measured.size for i in study.train)
 
 
-def _test(train: Sequence[float], baseline: Sequence[float]) -> tuple[float, float, float]:
-    """Mean logarithm of baseline, spread of the difference of the means, degrees of freedom."""
+def _test(train: Sequence[float], baseline: Sequence[float], guess: float = 0.0
+          ) -> tuple[float, float, float]:
+    """Mean logarithm of baseline, spread of the difference of the means, degrees of freedom.
+
+    ``guess``: 1 sigma of the logarithm of what stands for baseline runs, where there are none.
+    """
     groups = [np.log(train), np.log(baseline)]
     degrees = sum(one.size - 1 for one in groups) + _RUNS
     pooled = (sum(float(np.sum((one - one.mean()) ** 2)) for one in groups)
               + _RUNS * _SCATTER**2) / degrees
-    spread = np.sqrt(pooled * sum(1.0 / one.size for one in groups))
-    return float(groups[1].mean()), float(spread), float(degrees)
+    return (float(groups[1].mean()),
+            *_with_guess(pooled * sum(1.0 / one.size for one in groups), degrees, guess))
+
+
+def _with_guess(variance: float, degrees: float, guess: float) -> tuple[float, float]:
+    """Spread and degrees of freedom of an estimated variance and one that is known."""
+    total = variance + guess**2
+    return float(np.sqrt(total)), float(degrees * (total / variance) ** 2)
 
 
 def most_by_chance(train: Sequence[float], baseline: Sequence[float], rate: float) -> float:
@@ -126,12 +139,13 @@ def most_by_chance(train: Sequence[float], baseline: Sequence[float], rate: floa
 def chance_of_more(study: Study, squares: Sequence[float]) -> float:
     """Chance that training, or one run of it, keeps so much more where nothing is missing."""
     train, baseline = [squares[i] for i in study.train], _still(study, squares)
-    mean, spread, degrees = _test(train, baseline)
+    guess = 0.0 if study.baseline else _GUESS
+    mean, spread, degrees = _test(train, baseline, guess)
     all_of_it = float(student.sf((np.mean(np.log(train)) - mean) / spread, degrees))
-    return min(2.0 * min(all_of_it, _chance_of_one(train, baseline)), 1.0)
+    return min(2.0 * min(all_of_it, _chance_of_one(train, baseline, guess)), 1.0)
 
 
-def _chance_of_one(train: Sequence[float], baseline: Sequence[float]) -> float:
+def _chance_of_one(train: Sequence[float], baseline: Sequence[float], guess: float) -> float:
     """Chance that the worst of the training runs keeps so much more, as far as the others scatter.
 
     A load that sways may do so in one run only.
@@ -140,7 +154,8 @@ def _chance_of_one(train: Sequence[float], baseline: Sequence[float]) -> float:
     others = logs[:-1]
     degrees = max(others.size - 1, 0) + still.size - 1 + _RUNS
     squares = sum(float(np.sum((one - one.mean()) ** 2)) for one in (others, still) if one.size)
-    spread = np.sqrt((squares + _RUNS * _SCATTER**2) / degrees * (1.0 + 1.0 / still.size))
+    spread, degrees = _with_guess(
+        (squares + _RUNS * _SCATTER**2) / degrees * (1.0 + 1.0 / still.size), degrees, guess)
     return float(logs.size * student.sf((logs[-1] - still.mean()) / spread, degrees))
 
 

@@ -36,6 +36,7 @@ from truck_blowout_sim.recordings import Recording
 _FAMILY_P = 1e-4
 _PER_CHANNEL = 2.0  # log odds that one more channel of an instrument is wired the other way
 _ALIAS = 4.5  # log likelihood ratio within which two readings cannot be told apart
+_EXPLAINED = 0.75  # half-way from noise alone (a half) to all of it
 _MOST = 6
 _DELAYS_S = np.arange(0.05, 0.65, 0.05)  # a late channel must not pass for an inverted one
 _WORDS = {"x": "x position", "y": "y position", "yaw": "heading", "roll": "roll", "pitch": "pitch",
@@ -121,7 +122,8 @@ def _best(logs: Sequence[Reading], is_baseline: NDArray[np.bool_]) -> FoundConve
     needed = float(np.log(len(tried) / _FAMILY_P))
     faulty = [log for log, baseline in zip(logs, is_baseline.tolist(), strict=True)
               if everywhere or not baseline]
-    if ratio < needed or _merely_late(faulty, convention) or _merely_quieter(faulty, convention):
+    if ratio < needed or any(merely(faulty, convention) for merely in (
+            _merely_late, _merely_quieter, _merely_noise)):  # fmt: skip
         return None
     names = (look_alikes(faulty, convention, _ALIAS)
              if isinstance(convention, GravityConvention) else ())
@@ -149,6 +151,16 @@ def _merely_quieter(logs: Sequence[Reading], convention: Convention) -> bool:
     one, other = convention.channels
     return any(sum(log.gain_with(a, b, convention) for log in logs) < -_ALIAS
                for a, b in ((one, other), (other, one)))
+
+
+def _merely_noise(logs: Sequence[Reading], convention: Convention) -> bool:
+    """Whether the change removes what is left no better than a change of noise alone would.
+
+    Of what a wrong reading leaves, the right one explains all; of noise that enters the identities
+    with either sign, it explains half by itself, and a little more by chance.
+    """
+    product, square = np.sum([log.share_explained(convention) for log in logs], axis=0)
+    return bool(product < _EXPLAINED * square)
 
 
 def _readings(present: set[str]) -> list[Convention]:

@@ -46,7 +46,7 @@ def noise_blocks(
     Returns:
         For each lag the covariance of a bump's rows (axis 1) with those ``lag`` later (axis 2).
     """
-    sigma = np.array([_white_equivalent(noise.get(name)) for name in names])
+    sigma = np.array([white_equivalent(noise.get(name)) for name in names])
     gain = np.where(valid[:, :, None], weights * sigma, 0.0)
     differentiated = np.zeros((len(identities), len(names)))
     extra = np.zeros(len(identities))
@@ -78,7 +78,7 @@ def noise_blocks(
     return tuple(blocks)
 
 
-def _white_equivalent(noise: Noise | None) -> float:
+def white_equivalent(noise: Noise | None) -> float:
     """Sigma of white noise with the same power at low frequency."""
     if noise is None:
         return 0.0

@@ -85,6 +85,20 @@ class Reading:
         return sum(self._gain(i, signals) for i in self._touched(convention)
                    if channel in i.channels and without not in i.channels)  # fmt: skip
 
+    def share_explained(self, convention: Convention) -> FloatArray:
+        """Products of what the log as it stands leaves with what the other reading changes.
+
+        With the change's own squares; both relative to what is left, over all identities concerned.
+        """
+        signals, total = convention.read(self.signals), np.zeros(2)
+        for i in self._touched(convention):
+            before = self.left[i.name]
+            found = _unmounted(before, _left(i, signals, self.windows), self.mounted)
+            if found is not None:
+                old, new = found
+                total += np.array([old @ (old - new), (old - new) @ (old - new)]) / np.var(old)
+        return total
+
     def concerned(self, convention: Convention) -> set[str]:
         """Recorded channels of all identities that another reading changes."""
         return {c for i in self._touched(convention) for c in i.channels if c in self.signals}
@@ -132,16 +146,26 @@ def _gain(before: FloatArray, after: FloatArray, mounted: FloatArray, windows: W
 
     Without what errors of mounting add to them, which says nothing of a sign.
     """
-    both = np.isfinite(before) & np.isfinite(after) & np.isfinite(mounted).all(axis=1)
-    if both.sum() < 10:
+    found = _unmounted(before, after, mounted)
+    if found is None:
         return 0.0
-    basis, _ = np.linalg.qr(mounted[both])
-    old, new = (v[both] - basis @ (basis.T @ v[both]) for v in (before, after))
+    old, new = found
     bump_s = windows.step * windows.period_s
     count = min(_independent(old, bump_s), _independent(new, bump_s))
     tiny = 1e-12
     ratio = (float(np.var(old)) + tiny) / (float(np.var(new)) + tiny)
     return 0.5 * count * float(np.log(ratio))
+
+
+def _unmounted(before: FloatArray, after: FloatArray, mounted: FloatArray
+               ) -> tuple[FloatArray, FloatArray] | None:
+    """Both where they are known, without what errors of mounting add; None if that is too short."""
+    both = np.isfinite(before) & np.isfinite(after) & np.isfinite(mounted).all(axis=1)
+    if both.sum() < 10:
+        return None
+    basis, _ = np.linalg.qr(mounted[both])
+    old, new = (v[both] - basis @ (basis.T @ v[both]) for v in (before, after))
+    return old, new
 
 
 def _independent(values: FloatArray, spacing_s: float) -> float:

@@ -20,6 +20,7 @@ from truck_blowout_sim.diagnosis.sensors.covariance import (
     Covariances,
     cholesky_factor,
     noise_blocks,
+    white_equivalent,
 )
 from truck_blowout_sim.diagnosis.sensors.distortions import Distortion
 from truck_blowout_sim.diagnosis.sensors.identities import (
@@ -82,7 +83,7 @@ def build_rows(
     """
     windows = make_windows(signals.period_s)
     smooth = with_kinematic_accelerations(
-        signals.smooth({name: n.sigma for name, n in noise.items()})
+        signals.smooth({name: white_equivalent(n) for name, n in noise.items()})
     )
     centres = windows.centres(signals.time_s.size)
     shape = (centres.size, len(identities))

@@ -11,22 +11,31 @@ together: their ratios of V_own over the modeled V scatter as ``s^2 F(n, m)``. S
 
     V = (m s^2 V_model + n V_own) / (m + n) ,   a' V^-1 a / k ~ F(k, m + n - k) .
 
+The rows are first freed of what their own past foretells, so that neither a memory of seconds nor a
+tone that all channels hear passes for a fault. In long logs the stretches are also taken 4 and 16
+times as long, and the largest chance counts: an instrument may drift over minutes. And the amount
+must stand out both where it was taken out and at none, by the slopes there: a late fit of a noisy
+channel is steep wherever it ends.
+
 A log whose noise is as modeled has many degrees of freedom m, and the model stands; a rough log has
 few, and only what its stretches agree on counts. A fault is stated where chance reaches this in
 less than the rate of false alarms among all independent candidates.
 
 References: Liang and Zeger, Biometrika 73 (1986) 13-22 (covariance from clusters); Smyth, Stat.
 Appl. Genet. Mol. Biol. 3 (2004) 3 (variances moderated by those of all questions; his equations for
-m and s are used); Li and Ji, Heredity 95 (2005) 221-227 (independent among correlated candidates).
-Known limits: an error that is alike in all stretches (a noisy channel that is its own regressor)
-passes; in a rough log, a fault that shows in one stretch alone does not.
+m and s are used); Li and Ji, Heredity 95 (2005) 221-227 (independent among correlated candidates);
+Cochrane and Orcutt 1949 (least squares with autoregressive errors); Rao 1948 (score test).
+Known limits: an error that is alike in all stretches (a noisy channel that is its own regressor, a
+zero that drifted away and stays) passes; in a rough log, a fault that shows in one stretch alone
+does not.
 Validated with: test/diagnosis/test_sensors_steady.py.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -34,6 +43,7 @@ from scipy.optimize import brentq
 from scipy.special import polygamma, psi
 from scipy.stats import f as f_law
 
+from truck_blowout_sim.diagnosis.case.color import Color, autocovariance
 from truck_blowout_sim.diagnosis.fit.independent import independent_among
 from truck_blowout_sim.diagnosis.sensors.case import Applied, Case, Hypothesis
 from truck_blowout_sim.diagnosis.sensors.solve import Unknowns, gram_of, unknowns_of
@@ -48,6 +58,10 @@ FloatArray = NDArray[np.float64]
 
 # Longer than what instruments remember (0.05 to 2 s), short enough for a few in each run.
 _STRETCH_S = 5.0
+_REMEMBERS = 20  # bumps of 0.1 s: as far back as a row is foretold from
+_ROWS_A_LAG = 20  # rows, as many at least for each lag
+_TIMES = (4, 16)  # stretches of long logs are longer, too: an instrument may drift over minutes
+_ENOUGH = 6  # stretches
 _FEWEST = 1.5  # stretches that carry a figure before its scatter says anything
 _CERTAIN = 1e6  # degrees of freedom of a variance that is known
 _LEAST = 1e-2
@@ -67,13 +81,47 @@ class Usual:
     degrees: float
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class _Rows:
-    """Whitened rows of all recordings, each with the stretch that it lies in."""
+    """Whitened rows of all recordings, each with the stretch that it lies in.
+
+    Attributes:
+        left: of each row; ``slopes``: [rows, unknowns].
+        key: [rows, 2] recording, and number of the stretch in it; ``stretch``: number in all.
+        series: rows of each identity in each recording, by the identity's name.
+    """
 
     left: FloatArray
     slopes: FloatArray
-    stretch: NDArray[np.int64]
+    key: NDArray[np.int64]
+    series: Mapping[str, Sequence[NDArray[np.int64]]]
+
+    @cached_property
+    def stretch(self) -> NDArray[np.int64]:
+        """Number of each row's stretch, over all recordings."""
+        return np.asarray(np.unique(self.key, axis=0, return_inverse=True)[1].ravel())
+
+    @property
+    def many(self) -> bool:
+        """Whether the stretches are enough to show how an amount drifts."""
+        return int(self.stretch.max()) >= _ENOUGH - 1
+
+    def grouped(self, times: int) -> _Rows:
+        """The same rows in stretches so many times as long."""
+        return replace(self, key=self.key // np.array([1, times]))
+
+    def whitened(self, noise: FloatArray) -> _Rows:
+        """The same rows, with what the color of ``noise`` lets foretell taken out.
+
+        Instruments that remember and tones that all of them hear look like faults otherwise.
+        """
+        left, slopes = self.left.copy(), self.slopes.copy()
+        for parts in self.series.values():
+            color = color_of([noise[part] for part in parts])
+            for part in parts:
+                left[part] = color.whitened(left[part][:, None])[:, 0]
+                slopes[part] = color.whitened(slopes[part][:, None])[:, 0]
+        return replace(self, left=left, slopes=slopes)
 
     def sums(self, values: FloatArray) -> FloatArray:
         """Sums over each stretch, (stretches, ...)."""
@@ -94,25 +142,38 @@ def chances(
         amounts: of each, as estimated, in full.
         inflation: factor on the noise of each identity.
     """
-    if not chosen:
-        return []
     taken = [Applied(h, tuple(a)) for h, a in zip(chosen, amounts, strict=True)]
+    found = []
+    for k, amount in enumerate(amounts):
+        without = [*taken[:k], *taken[k + 1:]]
+        found.append(max(_told(case, chosen, one, k, start, inflation) for one, start in (
+            (taken, np.array(amount)), (without, np.zeros(len(amount))))))
+    return found
+
+
+def _told(case: Case, chosen: Sequence[Hypothesis], taken: Sequence[Applied], which: int,
+          start: FloatArray, inflation: Mapping[str, float]) -> float:  # fmt: skip
+    """Chance of one fault's amount, by the slopes of a log with the given faults taken out.
+
+    ``start``: what was taken out of that fault itself.
+    """
     system = assemble(case, taken)
     every = unknowns_of(case, system.faults, case.hypotheses)
     rows = _rows(system, every, inflation)
     gram = every.prior + rows.slopes.T @ rows.slopes
+    rows = rows.whitened(rows.left - rows.slopes @ np.linalg.solve(gram, rows.slopes.T @ rows.left))
+    gram = every.prior + rows.slopes.T @ rows.slopes
     kept = _columns_of(case, chosen, every)
     inverse = np.linalg.inv(gram[np.ix_(kept, kept)])
     slopes = rows.slopes[:, kept]
-    left = rows.left - slopes @ (inverse @ (slopes.T @ rows.left))
-    usual = _usual(rows, gram, kept, inverse, left)
-    found, at = [], every.first_fault
-    for amount in amounts:
-        own = slice(at, at + len(amount))
-        found.append(_chance(rows, slopes @ inverse[:, own], left, inverse[own, own],
-                             np.array(amount), usual))  # fmt: skip
-        at += len(amount)
-    return found
+    away = inverse @ (slopes.T @ rows.left)
+    left = rows.left - slopes @ away
+    first = every.first_fault + sum(len(h.distortion.parameters) for h in chosen[:which])
+    own = slice(first, first + start.size)
+    longer = (rows.grouped(times) for times in _TIMES)
+    return max(_chance(one, slopes @ inverse[:, own], left, inverse[own, own], start + away[own],
+                       _usual(one, gram, kept, inverse, left))
+               for one in (rows, *(one for one in longer if one.many)))
 
 
 def _chance(
@@ -173,6 +234,19 @@ def moderated(ratio: FloatArray, degrees: FloatArray) -> Usual:
     return Usual(max(factor, 1.0), m)
 
 
+def color_of(series: Sequence[FloatArray]) -> Color:
+    """Autoregression of a noise seen in several pieces, as long as it pays (Akaike 1974)."""
+    count = sum(one.size for one in series)
+    lags = min(_REMEMBERS, count // _ROWS_A_LAG)
+    covariance = np.sum([autocovariance(one, lags) for one in series], axis=0)
+    if covariance[0] <= 0.0:
+        return Color.white(1)
+    covariance = covariance / covariance[0]
+    surprise = Color.of(covariance[None]).surprise[0]
+    order = int(np.argmin(2.0 * count * np.log(surprise) + 2.0 * np.arange(lags + 1)))
+    return Color.of(covariance[None, :order + 1])
+
+
 def _columns_of(case: Case, chosen: Sequence[Hypothesis], every: Unknowns) -> list[int]:
     """Unknowns of a solution with the chosen faults alone, among those with all candidates."""
     start, at = {}, every.first_fault
@@ -185,14 +259,20 @@ def _columns_of(case: Case, chosen: Sequence[Hypothesis], every: Unknowns) -> li
 
 def _rows(system: System, unknowns: Unknowns, inflation: Mapping[str, float]) -> _Rows:
     residuals, slopes, keys = [], [], []
+    series: dict[str, list[NDArray[np.int64]]] = {}
     for k, is_baseline in enumerate(system.case.is_baseline):
         acts = unknowns.in_baseline if is_baseline else unknowns.in_recordings
         for time_s, e, j in whitened_parts(system.rows[k], system.slow[k], inflation):
             residuals.append(e)
             slopes.append(j[:, unknowns.column] * acts)
             keys += [(k, int(number)) for number in time_s // _STRETCH_S]
-    _, stretch = np.unique(np.array(keys), axis=0, return_inverse=True)
-    return _Rows(np.concatenate(residuals), np.concatenate(slopes), stretch.ravel())
+        rows = system.rows[k]
+        if rows is not None:  # the last part
+            first, width = len(keys) - rows.residual.size, len(rows.identities)
+            for a, identity in enumerate(rows.identities):
+                series.setdefault(identity.name, []).append(
+                    np.arange(first + a, len(keys), width, dtype=np.int64))
+    return _Rows(np.concatenate(residuals), np.concatenate(slopes), np.array(keys), series)
 
 
 def independent_candidates(case: Case, normal: Normal) -> float:
