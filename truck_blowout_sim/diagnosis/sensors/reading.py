@@ -28,6 +28,7 @@ from truck_blowout_sim.diagnosis.sensors.windows import Windows, make_windows
 FloatArray = NDArray[np.float64]
 
 WHEEL = "steering_wheel_angle_rad"
+_TINY = 1e-12  # of a residual's variance: that of a computed log may vanish
 _LONGEST_S = 2.0  # of the correlation of a residual
 _DRIVES_MPS = 5.0  # no truck reverses faster
 _BACKWARD = 20.0  # log odds against one that does, over a whole recording
@@ -96,7 +97,8 @@ class Reading:
             found = _unmounted(before, _left(i, signals, self.windows), self.mounted)
             if found is not None:
                 old, new = found
-                total += np.array([old @ (old - new), (old - new) @ (old - new)]) / np.var(old)
+                moved = old - new
+                total += np.array([old @ moved, moved @ moved]) / (np.var(old) + _TINY)
         return total
 
     def concerned(self, convention: Convention) -> set[str]:
@@ -152,8 +154,7 @@ def _gain(before: FloatArray, after: FloatArray, mounted: FloatArray, windows: W
     old, new = found
     bump_s = windows.step * windows.period_s
     count = min(_independent(old, bump_s), _independent(new, bump_s))
-    tiny = 1e-12
-    ratio = (float(np.var(old)) + tiny) / (float(np.var(new)) + tiny)
+    ratio = (float(np.var(old)) + _TINY) / (float(np.var(new)) + _TINY)
     return 0.5 * count * float(np.log(ratio))
 
 
