@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 from scipy.signal import lfilter
 
-from truck_blowout_sim.diagnosis.case.color import autocovariance
 from truck_blowout_sim.diagnosis.case.restlessness import (
     colors,
     long_run_variance,
@@ -17,6 +16,7 @@ from truck_blowout_sim.diagnosis.case.restlessness import (
     whiten,
 )
 from truck_blowout_sim.diagnosis.case.study import Study
+from truck_blowout_sim.diagnosis.fit.color import autocovariance
 
 Studies = Callable[..., Study]
 CHANNEL = "tractor_yaw_rate_radps"

@@ -9,9 +9,8 @@ from typing import cast
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from scipy.signal import lfilter
 from trial_drive import make_run
-from trial_faults import delayed, leaking
+from trial_faults import delayed, leaking, remembering
 
 from truck_blowout_sim.diagnosis.sensors import conventions, correct, sensor_gate
 from truck_blowout_sim.diagnosis.sensors.conventions import find_conventions
@@ -210,10 +209,8 @@ def share(change: Callable[[Recording], Recording], channel: str) -> float:
 def test_another_sign_explains_nothing_of_a_sound_log_all_of_a_mirrored_one_half_of_noise() -> None:
     def only_noise(run: Recording) -> Recording:
         t = run["tractor_vy_mps"].time_s
-        rng = np.random.default_rng(2)
-        keep = float(np.exp(-np.median(np.diff(t)) / 0.5))
-        push = rng.standard_normal(t.size) * np.sqrt(1.0 - keep**2)
-        return run.with_channels({"tractor_vy_mps": Series(t, lfilter([1.0], [1.0, -keep], push))})
+        noise = remembering(t, 0.5, np.random.default_rng(2))
+        return run.with_channels({"tractor_vy_mps": Series(t, noise)})
 
     assert share(lambda run: run, "tractor_vy_mps") == pytest.approx(0.0, abs=0.1)
     assert share(inverted("tractor_vy_mps"), "tractor_vy_mps") == pytest.approx(1.0, abs=0.1)

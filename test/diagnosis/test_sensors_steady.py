@@ -25,9 +25,7 @@ def rough(run: Recording, seed: int) -> Recording:
     for name, series in run.channels.items():
         size = next((s for end, s in sizes.items() if name.endswith(end)), 0.0)
         if size and name.startswith(("tractor", "trailer")):
-            keep = float(np.exp(-np.median(np.diff(series.time_s)) / MEMORY_S))
-            push = rng.standard_normal(series.value.size) * np.sqrt(1.0 - keep**2)
-            colored = TIMES * size * lfilter([1.0], [1.0, -keep], push)
+            colored = TIMES * size * faults.remembering(series.time_s, MEMORY_S, rng)
             changed[name] = Series(series.time_s, series.value + colored)
     return run.with_channels(changed)
 

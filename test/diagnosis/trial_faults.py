@@ -12,6 +12,7 @@ from collections.abc import Callable, Sequence
 import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import gaussian_filter1d
+from scipy.signal import lfilter
 
 from truck_blowout_sim.recordings import Recording, Series
 
@@ -21,6 +22,13 @@ _SMOOTH_SAMPLES = 5.0
 
 Change = Callable[[Recording], Recording]
 """Spoils a recording."""
+
+
+def remembering(time_s: FloatArray, memory_s: float, rng: np.random.Generator) -> FloatArray:
+    """Noise of unit size that remembers so long."""
+    keep = float(np.exp(-np.median(np.diff(time_s)) / memory_s))
+    push = rng.standard_normal(time_s.size) * np.sqrt(1.0 - keep**2)
+    return np.asarray(lfilter([1.0], [1.0, -keep], push), dtype=np.float64)
 
 
 def scaled(channel: str, error: float) -> Change:

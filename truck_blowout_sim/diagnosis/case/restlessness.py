@@ -25,10 +25,10 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from truck_blowout_sim.diagnosis.case.color import Color, autocovariance
 from truck_blowout_sim.diagnosis.case.runs import Run
 from truck_blowout_sim.diagnosis.case.study import Study, row_ranges
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
+from truck_blowout_sim.diagnosis.fit.color import Color, autocovariance
 
 Floats = NDArray[np.float64]
 _LASTS_S = 1.0  # as far back as a bin is foretold from

@@ -13,9 +13,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from truck_blowout_sim.diagnosis.case.color import Color
 from truck_blowout_sim.diagnosis.case.trust import BRAKES_ON_PA, wider
 from truck_blowout_sim.diagnosis.case.widths import rms_around, swings, widths
+from truck_blowout_sim.diagnosis.fit.color import Color
 from truck_blowout_sim.diagnosis.result.evidence import Role
 from truck_blowout_sim.diagnosis.sensors import Noise, channel_noise
 from truck_blowout_sim.diagnosis.settings import Settings

@@ -36,6 +36,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -43,7 +44,7 @@ from scipy.optimize import brentq
 from scipy.special import polygamma, psi
 from scipy.stats import f as f_law
 
-from truck_blowout_sim.diagnosis.case.color import Color, autocovariance
+from truck_blowout_sim.diagnosis.fit.color import Color, autocovariance
 from truck_blowout_sim.diagnosis.fit.independent import independent_among
 from truck_blowout_sim.diagnosis.sensors.case import Applied, Case, Hypothesis
 from truck_blowout_sim.diagnosis.sensors.solve import Unknowns, gram_of, unknowns_of
@@ -142,38 +143,65 @@ def chances(
         amounts: of each, as estimated, in full.
         inflation: factor on the noise of each identity.
     """
+    if not chosen:
+        return []
     taken = [Applied(h, tuple(a)) for h, a in zip(chosen, amounts, strict=True)]
-    found = []
+    fitted, found = _Fit.of(case, chosen, taken, inflation), []
     for k, amount in enumerate(amounts):
-        without = [*taken[:k], *taken[k + 1:]]
-        found.append(max(_told(case, chosen, one, k, start, inflation) for one, start in (
-            (taken, np.array(amount)), (without, np.zeros(len(amount))))))
+        none = _Fit.of(case, chosen, [*taken[:k], *taken[k + 1:]], inflation)
+        found.append(max(fitted.chance(k, np.array(amount)),
+                         none.chance(k, np.zeros(len(amount)))))
     return found
 
 
-def _told(case: Case, chosen: Sequence[Hypothesis], taken: Sequence[Applied], which: int,
-          start: FloatArray, inflation: Mapping[str, float]) -> float:  # fmt: skip
-    """Chance of one fault's amount, by the slopes of a log with the given faults taken out.
+@dataclass(frozen=True, eq=False)
+class _Fit:
+    """The chosen faults beside the normal errors, by the slopes of a log as it was cleaned.
 
-    ``start``: what was taken out of that fault itself.
+    Attributes:
+        rows: freed of color, in stretches of each length that the log has enough of, with how far
+            covariances lie from the modeled one there.
+        slopes: of the unknowns; ``inverse``: of their sums of squares.
+        away: each unknown as estimated, from what was taken out; ``left``: what they leave over.
+        own: unknowns of each chosen fault.
     """
-    system = assemble(case, taken)
-    every = unknowns_of(case, system.faults, case.hypotheses)
-    rows = _rows(system, every, inflation)
-    gram = every.prior + rows.slopes.T @ rows.slopes
-    rows = rows.whitened(rows.left - rows.slopes @ np.linalg.solve(gram, rows.slopes.T @ rows.left))
-    gram = every.prior + rows.slopes.T @ rows.slopes
-    kept = _columns_of(case, chosen, every)
-    inverse = np.linalg.inv(gram[np.ix_(kept, kept)])
-    slopes = rows.slopes[:, kept]
-    away = inverse @ (slopes.T @ rows.left)
-    left = rows.left - slopes @ away
-    first = every.first_fault + sum(len(h.distortion.parameters) for h in chosen[:which])
-    own = slice(first, first + start.size)
-    longer = (rows.grouped(times) for times in _TIMES)
-    return max(_chance(one, slopes @ inverse[:, own], left, inverse[own, own], start + away[own],
-                       _usual(one, gram, kept, inverse, left))
-               for one in (rows, *(one for one in longer if one.many)))
+
+    rows: Sequence[tuple[_Rows, Usual]]
+    slopes: FloatArray
+    inverse: FloatArray
+    away: FloatArray
+    left: FloatArray
+    own: Sequence[slice]
+
+    @staticmethod
+    def of(case: Case, chosen: Sequence[Hypothesis], taken: Sequence[Applied],
+           inflation: Mapping[str, float]) -> _Fit:  # fmt: skip
+        """With the given faults taken out of the log."""
+        system = assemble(case, taken)
+        every = unknowns_of(case, system.faults, case.hypotheses)
+        rows = _rows(system, every, inflation)
+        gram = every.prior + rows.slopes.T @ rows.slopes
+        rows = rows.whitened(
+            rows.left - rows.slopes @ np.linalg.solve(gram, rows.slopes.T @ rows.left))
+        gram = every.prior + rows.slopes.T @ rows.slopes
+        kept = _columns_of(case, chosen, every)
+        inverse = np.linalg.inv(gram[np.ix_(kept, kept)])
+        slopes = rows.slopes[:, kept]
+        away = inverse @ (slopes.T @ rows.left)
+        left = rows.left - slopes @ away
+        sizes = [len(h.distortion.parameters) for h in chosen]
+        ends = every.first_fault + np.cumsum([0, *sizes])
+        longer = (rows.grouped(times) for times in _TIMES)
+        return _Fit([(one, _usual(one, gram, kept, inverse, left))
+                     for one in (rows, *(one for one in longer if one.many))],
+                    slopes, inverse, away, left, [slice(*e) for e in pairwise(ends.tolist())])
+
+    def chance(self, which: int, start: FloatArray) -> float:
+        """Of one fault's amount; ``start``: what was taken out of it."""
+        own = self.own[which]
+        weight, model = self.slopes @ self.inverse[:, own], self.inverse[own, own]
+        return max(_chance(rows, weight, self.left, model, start + self.away[own], usual)
+                   for rows, usual in self.rows)
 
 
 def _chance(
