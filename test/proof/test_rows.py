@@ -23,7 +23,7 @@ def scored(tmp_path: Path, write_case: Callable[..., Path], name: str, line: dic
         path, known = tmp_path / "sigma_b.json", {}
         if path.is_file():
             known = json.loads(path.read_text())
-        measured = {"sigma_b": [sigma_b], "individual": [individual]}
+        measured = {"sigma_b": [sigma_b] * len(effects), "individual": [individual] * len(effects)}
         path.write_text(json.dumps({**known, name: {
             key: one for key, one in measured.items() if one[0]}}))
     truth = read_truth(answer)
@@ -116,3 +116,16 @@ def test_unseen_runs_are_counted_apart_where_physics_was_named(
     every, where = (found[f"holdout better{tail}"] for tail in ("", ", where physics was named"))
     assert (every.hits, every.trials) == (1, 3)
     assert (where.hits, where.trials) == (1, 2)
+
+
+def test_a_pair_counts_where_both_exceed_what_sound_vehicles_differ_by(
+        tmp_path: Path, write_case: Callable[..., Path], line: Maker, cause: Maker, effect: Maker
+) -> None:
+    """A detector that sees all differences between vehicles does not make them effects."""
+    two = (cause(), cause("crosswind"))
+    faint, plain = (scored(tmp_path, write_case, name, line(name, effects=(effect(),)), "pair",
+                           two, 100.0, individual) for name, individual in
+                    (("a", 2.0), ("b", 50.0)))
+    found = dict(rows([faint[0], plain[0]], {s.case: t for s, t in (faint, plain)}))
+    both = found["both of a pair"]
+    assert (both.hits, both.trials) == (0, 1)

@@ -100,6 +100,11 @@ class Cause:
         return self.sigma_b / math.sqrt(1.0 + (self.sigma_b / max(self.individual, 1e-9))**2)
 
     @property
+    def visibility(self) -> float | None:
+        """sigma_b with the spread of sound vehicles where that is known, else without."""
+        return self.sigma_b if self.individual is None else self.beyond_spread
+
+    @property
     def measured(self) -> bool:
         """Whether how visible it is can be told: for older sets nothing is known, and it counts."""
         return self.sigma_b is not None or self.individual is None

@@ -44,9 +44,10 @@ def score_run(cases: Sequence[Case], lines: Mapping[str, Mapping[str, Any]], out
     found, uniform = rows(scores, truths), uniformity(scores)
     figures["rows"], figures["null_p_values_uniform"] = as_json(found), uniform
     figures["seen"] = seen_effects([
-        (cause.name, cause.sigma_b, scored.aliased) for score in scores
+        (cause.name, cause.visibility, scored.aliased) for score in scores
         for scored, cause in zip(score.causes, truths[score.case].causes, strict=True)
-        if cause.kind == "physics" and score.group in ("single", "pair")])
+        if cause.kind == "physics" and score.group in ("single", "pair")
+        and cause.sigma_b is not None])
     figures["each"] = [asdict(score) for score in scores]
     out.mkdir(parents=True, exist_ok=True)
     _write(out / "proof.json", json_text(figures))

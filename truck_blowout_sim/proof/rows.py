@@ -1,9 +1,9 @@
 """What must hold in every world, row by row, with Wilson intervals.
 
 An effect counts where an ideal detector sees it: sigma_b of at least 6, from ``sigma_b.json``
-beside the cases (`python -m proving_ground sigma`); without that file every effect counts. A second
-row includes what sound vehicles differ by in the effect's own number: a road that banks by no more
-than roads do is none that something is missing on.
+beside the cases (`python -m proving_ground sigma`); without that file every effect counts. What
+sound vehicles differ by in the effect's own number is included: on a road that banks by no more
+than roads do, nothing is missing. One row leaves that out.
 
 Validated with: test/proof/test_rows.py.
 """
@@ -32,7 +32,8 @@ def rows(scores: Sequence[CaseScore], truths: Mapping[str, Truth]) -> list[Row]:
         return [s for s in scores if s.group == group]
 
     def seen(score: CaseScore) -> bool:
-        return all(c.sigma_b is None or c.sigma_b >= VISIBLE for c in truths[score.case].causes)
+        return all(c.visibility is None or c.visibility >= VISIBLE
+                   for c in truths[score.case].causes)
 
     def share(chosen: Sequence[CaseScore], holds: Callable[[CaseScore], bool | None]
               ) -> Proportion:

@@ -19,8 +19,6 @@ BINS = (2.0, 6.0, 15.0, 40.0)  # of sigma_b; the last has no end
 # sought in W1, W2, W3 and W4, by the words of `rows.py`
 SOUGHT: Mapping[str, tuple[str, str, str, str]] = {
     "false alarms, nothing missing": ("≤ 2 %",) * 4,
-    "effects seen by an ideal detector, among the causes named":
-        ("≥ 92 %", "≥ 88 %", "≥ 85 %", "≥ 80 %"),
     "effects beyond six spreads of sound vehicles, among the causes named":
         ("≥ 92 %", "≥ 88 %", "≥ 85 %", "≥ 80 %"),
     "a wrong name stated, something missing": ("≤ 3 %", "≤ 4 %", "≤ 5 %", "≤ 4 %"),
