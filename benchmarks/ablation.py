@@ -42,7 +42,7 @@ STEP_S = 0.0025  # as `truck-blowout prove`
 COUNTS: Mapping[str, str] = {
     "false alarms, nothing missing": "false alarms",
     "effects seen by an ideal detector, among the causes named": "visible effects named",
-    "effects beyond six spreads of sound vehicles, among the causes named":
+    "effects beyond six spreads of fault-free vehicles, among the causes named":
         "effects beyond six spreads named",
     "a wrong name stated, something missing": "wrong names",
 }

@@ -46,7 +46,7 @@ ROUNDS, STEPS = 40, 2000
 SOUGHT = "500, better 650"
 # what, vehicle, its blown tires
 ROWS: tuple[tuple[str, str, tuple[str, ...]], ...] = (
-    ("sound", VEHICLE, ()),
+    ("tires intact", VEHICLE, ()),
     ("both duals of a trailer hub blown", VEHICLE, PAIR),
     ("thesis vehicle (force maps, table of steps), steer tire blown", f"{VEHICLE}_thesis",
      ("steer_left",)),

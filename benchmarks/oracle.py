@@ -31,7 +31,7 @@ from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.proof.cases import LIBRARY, SIGMA_B, find_cases, read_truth
 from truck_blowout_sim.report.marked import put_on_page
 
-ROW = "effects beyond six spreads of sound vehicles, among the causes named"
+ROW = "effects beyond six spreads of fault-free vehicles, among the causes named"
 app = typer.Typer(no_args_is_help=True, add_completion=False, help=__doc__)
 
 

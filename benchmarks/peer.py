@@ -25,7 +25,7 @@ ROUNDS, PART_S = 40, 2.0
 SOUGHT = "0.65, better 0.5"
 FLAGS = ("-std=c++17", "-O3", "-march=native", "-w")
 ROWS: tuple[tuple[str, tuple[str, ...]], ...] = (
-    ("sound", ()), ("steer tire blown", ("steer_left",)),
+    ("tires intact", ()), ("steer tire blown", ("steer_left",)),
     ("both duals of a trailer hub blown", PAIR))  # fmt: skip
 
 

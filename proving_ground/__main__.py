@@ -104,7 +104,7 @@ def sigma(
                                         "for all sets of the worlds")] = Path("out/nulls"),
     trucks: Annotated[int, typer.Option(help="how many; 100 for a figure to publish")] = 100,
     spreads_only: Annotated[bool, typer.Option(
-        "--spreads-only", help="only each strength in spreads of sound vehicles: no simulation"
+        "--spreads-only", help="only each strength in spreads of fault-free vehicles: no simulation"
     )] = False,
 ) -> None:
     """Measure sigma_b of every effect of a set of a world on nulls of that world; resumes."""

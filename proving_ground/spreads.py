@@ -1,4 +1,4 @@
-"""What single sound vehicles, roads and days differ by, beside what an effect makes of one.
+"""What single fault-free vehicles, roads and days differ by, beside what an effect makes of one.
 
 An effect is told from a sound vehicle of the kind by no less than what these differ by in its own
 number. The scoring joins this with sigma_b (`truck_blowout_sim/proof/cases.py`, `beyond_spread`).
@@ -25,7 +25,7 @@ def _spreads() -> Mapping[str, Mapping[str, Any]]:
 
 
 def individual(strength: Mapping[str, Any], car: bool = False) -> float:
-    """Strength of an effect in standard deviations of what sound vehicles differ by in it.
+    """Strength of an effect in standard deviations of what fault-free vehicles differ by in it.
 
     Infinite for what no sound vehicle has.
     """

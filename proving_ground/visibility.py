@@ -1,6 +1,6 @@
 """sigma_b of every effect of a generated set of a world, into `sigma_b.json` beside the cases.
 
-With it, how far each is from what sound vehicles differ by in the same number (`spreads.py`).
+With it, how far each is from what fault-free vehicles differ by in the same number (`spreads.py`).
 """
 
 from __future__ import annotations
@@ -48,7 +48,7 @@ def measure(out: Path, nulls: Path, trucks: int) -> Iterator[tuple[str, list[flo
 
 
 def count_spreads(out: Path) -> dict[str, Any]:
-    """Each effect's strength in spreads of sound vehicles, beside the sigma_b known already.
+    """Each effect's strength in spreads of fault-free vehicles, beside the sigma_b known already.
 
     Raises:
         ValueError: a case is of no world.

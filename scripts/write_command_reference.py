@@ -20,7 +20,8 @@ PAGE = Path(__file__).resolve().parents[1] / "docs" / "reference" / "commands.md
 HEAD = """# Commands
 
 `truck-blowout VERB`, or `ros2 run truck_blowout_sim VERB` in a ROS 2 workspace. Exit status: 0
-done; 2 bad usage or bad input, in one line; 1 an internal failure (`--traceback` shows where).
+done; 2 bad usage or bad input, in one line; 1 an internal failure (`--traceback` shows where);
+130 interrupted.
 This page is written from the programs' own help.
 """
 

@@ -14,7 +14,7 @@ from truck_blowout_sim.report.marked import marks
 ROWS = {
     "false alarms, nothing missing": (1, 62),
     "effects seen by an ideal detector, among the causes named": (0, 0),
-    "effects beyond six spreads of sound vehicles, among the causes named": (21, 52),
+    "effects beyond six spreads of fault-free vehicles, among the causes named": (21, 52),
     "a wrong name stated, something missing": (2, 88),
 }
 

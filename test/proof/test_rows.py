@@ -12,6 +12,8 @@ from truck_blowout_sim.proof.rows import rows, uniformity, wrong_name
 from truck_blowout_sim.proof.score import CaseScore, score_case
 
 Maker = Callable[..., dict[str, Any]]
+SEEN = "effects seen by an ideal detector, among the causes named"
+BEYOND = "effects beyond six spreads of fault-free vehicles, among the causes named"
 
 
 def scored(tmp_path: Path, write_case: Callable[..., Path], name: str, line: dict[str, Any],
@@ -39,7 +41,7 @@ def test_only_effects_that_can_be_seen_count(
     lost = scored(tmp_path, write_case, "c", line("c", "consistent"), "single", (cause(),), 8.0)
     found = dict(rows([s for s, _ in (faint, plain, lost)],
                       {s.case: t for s, t in (faint, plain, lost)}))
-    named = found["effects seen by an ideal detector, among the causes named"]
+    named = found[SEEN]
     assert (named.hits, named.trials) == (1, 2)
 
 
@@ -53,8 +55,7 @@ def test_what_sound_vehicles_differ_by_counts_in_a_row_of_its_own(
     assert usual[1].causes[0].beyond_spread < 2.0
     assert strong[1].causes[0].beyond_spread == pytest.approx(44.7, abs=0.1)
     found = dict(rows([usual[0], strong[0]], {s.case: t for s, t in (usual, strong)}))
-    seen = found["effects seen by an ideal detector, among the causes named"]
-    beyond = found["effects beyond six spreads of sound vehicles, among the causes named"]
+    seen, beyond = found[SEEN], found[BEYOND]
     assert (seen.hits, seen.trials, beyond.hits, beyond.trials) == (1, 2, 1, 1)
 
 
@@ -73,8 +74,8 @@ def test_without_sigma_b_the_spread_alone_counts_and_no_effect_is_called_seen(
     strong = scored(tmp_path, write_case, "a", line("a", "consistent"), "single", (cause(),),
                     individual=50.0)
     found = dict(rows([strong[0]], {strong[0].case: strong[1]}))
-    assert found["effects seen by an ideal detector, among the causes named"].trials == 0
-    assert found["effects beyond six spreads of sound vehicles, among the causes named"].trials == 1
+    assert found[SEEN].trials == 0
+    assert found[BEYOND].trials == 1
 
 
 def test_a_name_beside_the_true_one_is_wrong_unless_aliased(

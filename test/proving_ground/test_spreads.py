@@ -1,4 +1,4 @@
-"""What sound vehicles differ by: a spread with a source for every strength, closed forms."""
+"""What fault-free vehicles differ by: a spread with a source for every strength, closed forms."""
 
 from __future__ import annotations
 

@@ -15,7 +15,7 @@ from truck_blowout_sim.recordings.mat_thesis import THESIS_CHANNELS
 
 @reads_logs
 def command(
-    bag: Path = typer.Argument(help="rosbag2 folder or .mcap file, finished or not."),
+    bag: Path = typer.Argument(help="Log or bag of any kind, finished or not."),
     output: Path = typer.Option(
         ..., "-o", "--output", help="File to write: .csv; .mat and .mcap work too."
     ),

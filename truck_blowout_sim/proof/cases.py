@@ -75,7 +75,7 @@ class Cause:
         where: body, axle, hub, tire; None where it does not apply.
         sigma: how visible it is in the training runs; None if not calibrated.
         sigma_b: how visible to an ideal detector of its world; None if not measured.
-        individual: its strength in standard deviations of what sound vehicles differ by in it.
+        individual: its strength in standard deviations of what fault-free vehicles differ by in it.
         onset_s: instant in each run, empty for what is always there.
         strength: (name, value, unit).
     """
@@ -101,7 +101,7 @@ class Cause:
 
     @property
     def visibility(self) -> float | None:
-        """sigma_b with the spread of sound vehicles where that is known, else without."""
+        """sigma_b with the spread of fault-free vehicles where that is known, else without."""
         return self.sigma_b if self.individual is None else self.beyond_spread
 
     @property

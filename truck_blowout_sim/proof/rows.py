@@ -2,8 +2,8 @@
 
 An effect counts where an ideal detector sees it: sigma_b of at least 6, from ``sigma_b.json``
 beside the cases (`python -m proving_ground sigma`); without that file every effect counts. What
-sound vehicles differ by in the effect's own number is included: on a road that banks by no more
-than roads do, nothing is missing. One row leaves that out.
+fault-free vehicles differ by in the effect's own number is included: on a road that banks by no
+more than roads do, nothing is missing. One row leaves that out.
 
 Validated with: test/proof/test_rows.py.
 """
@@ -49,7 +49,7 @@ def rows(scores: Sequence[CaseScore], truths: Mapping[str, Truth]) -> list[Row]:
     return [
         ("false alarms, nothing missing", share(of("null"), lambda s: s.detected)),
         ("effects seen by an ideal detector, among the causes named", proportion(visible)),
-        ("effects beyond six spreads of sound vehicles, among the causes named",
+        ("effects beyond six spreads of fault-free vehicles, among the causes named",
          proportion(beyond)),
         ("a wrong name stated, something missing",
          share(missing, lambda s: wrong_name(s, truths[s.case]))),

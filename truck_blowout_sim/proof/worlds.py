@@ -19,7 +19,7 @@ BINS = (2.0, 6.0, 15.0, 40.0)  # of sigma_b; the last has no end
 # sought in W1, W2, W3 and W4, by the words of `rows.py`
 SOUGHT: Mapping[str, tuple[str, str, str, str]] = {
     "false alarms, nothing missing": ("≤ 2 %",) * 4,
-    "effects beyond six spreads of sound vehicles, among the causes named":
+    "effects beyond six spreads of fault-free vehicles, among the causes named":
         ("≥ 92 %", "≥ 88 %", "≥ 85 %", "≥ 80 %"),
     "a wrong name stated, something missing": ("≤ 3 %", "≤ 4 %", "≤ 5 %", "≤ 4 %"),
     "of no list: unknown": ("≥ 85 %", "≥ 80 %", "≥ 70 %", "≥ 60 %"),
