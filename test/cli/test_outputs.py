@@ -7,9 +7,11 @@ from pathlib import Path
 
 import pytest
 
+from truck_blowout_sim.cli.diagnose import _free
 from truck_blowout_sim.cli.main import main
 from truck_blowout_sim.cli.outputs import claim, say
-from truck_blowout_sim.errors import InputError
+from truck_blowout_sim.errors import InputError, StorageError
+from truck_blowout_sim.recordings.atomic import replacing
 
 
 def made(path: Path) -> Path:
@@ -38,6 +40,8 @@ def test_what_exists_is_replaced_only_with_force(tmp_path: Path, name: str) -> N
     (["view", "-o", "FOLDER.html"], "is a folder; expected a file to write"),
     (["inspect", "--write-map", "FOLDER"], "is a folder; expected a file to write"),
     (["calibrate", "-o", "FOLDER.yaml"], "is a folder; expected a file to write"),
+    (["export", "-o", "FOLDER.csv", "--force"], "is a folder; expected a file to write"),
+    (["export", "-o", "."], "is a folder that exists; expected a new name in it"),
     (["plot", "-o", "FOLDER", "--start", "5", "--end", "2"], "expected a start before the end"),
     (["view", "--start", "nan", "-o", "x.html"], "expected a start before the end"),
 ])  # fmt: skip
@@ -46,7 +50,7 @@ def test_an_output_or_span_that_cannot_be_is_refused(
     capsys: pytest.CaptureFixture[str],
 ) -> None:
     monkeypatch.chdir(tmp_path)
-    for name in ("FOLDER", "FOLDER.html", "FOLDER.yaml"):
+    for name in ("FOLDER", "FOLDER.html", "FOLDER.yaml", "FOLDER.csv"):
         (tmp_path / name).mkdir()
     assert main([words[0], "test_2013_steer_blowout", *words[1:]]) == 2
     assert problem in capsys.readouterr().err
@@ -76,6 +80,36 @@ def test_output_onto_input_is_refused_even_with_force(
     (tmp_path / "link.csv").symlink_to(tmp_path / "a.csv")
     with pytest.raises(InputError, match="onto the input"):
         claim(tmp_path / written, force=True, inputs=[tmp_path / read], writes=writes)
+
+
+@pytest.mark.parametrize("words", [
+    ["diagnose", "-o", "out", "--vehicle", "out/vehicle.yaml"],
+    ["calibrate", "-o", "out/vehicle.yaml", "--vehicle", "out/vehicle.yaml"],
+])  # fmt: skip
+def test_a_vehicle_is_not_written_onto_itself_and_that_is_told_before_any_work(
+    words: list[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    made(tmp_path / "out/vehicle.yaml")
+    made(tmp_path / "out/diagnosis.json")
+    assert main([words[0], "test_2013_steer_blowout", *words[1:], "--force"]) == 2
+    assert "would be written onto the input out/vehicle.yaml" in capsys.readouterr().err
+    assert [p.read_text() for p in (tmp_path / "out").iterdir()] == ["kept", "kept"]
+
+
+def test_a_file_never_replaces_a_folder(tmp_path: Path) -> None:
+    made(tmp_path / "results/thesis.txt")
+    with pytest.raises(StorageError), replacing(tmp_path / "results") as temporary:
+        temporary.write_text("one file")
+    assert (tmp_path / "results/thesis.txt").read_text() == "kept"
+
+
+def test_corrected_recordings_of_one_name_do_not_replace_each_other() -> None:
+    taken: set[str] = set()
+    for name in ("drive", "drive", "Drive", "drive_2"):
+        taken.add(_free(name, taken).lower())
+    assert taken == {"drive", "drive_2", "drive_3", "drive_2_2"}
 
 
 def test_a_shipped_name_is_no_path(tmp_path: Path) -> None:

@@ -10,8 +10,9 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from truck_blowout_sim.errors import InputError
+from truck_blowout_sim.recordings import read_recording
 from truck_blowout_sim.recordings.logs import open_log
-from truck_blowout_sim.recordings.mapping.rules import TimeRule
+from truck_blowout_sim.recordings.mapping.rules import Rules, Source, TimeRule
 from truck_blowout_sim.recordings.mapping.times import times_of
 
 IN_TMP = settings(suppress_health_check=[HealthCheck.function_scoped_fixture], max_examples=40)
@@ -66,6 +67,28 @@ def test_columns_units_and_time_are_found(
     assert {n: opened.column(n).unit for n in columns} == columns
     last = list(columns)[-1]
     np.testing.assert_array_equal(opened.column(last).values, -np.arange(30.0))
+
+
+def test_a_clock_of_digits_goes_on_counting_after_midnight(tmp_path: Path) -> None:
+    """A satellite receiver's day ends in the afternoon in America."""
+    rows = "".join(
+        f"009 {'2359' if i < 15 else '0000'}{(59.85 + 0.01 * i) % 60.0:05.2f} {3000 + 0.01 * i:.2f}"
+        f" {80 + 0.1 * i:07.3f}\n" for i in ROWS)
+    text = f"[header]\nsats\n[column names]\nsats time lat velocity\n[data]\n{rows}"
+    times = times_of(open_log(log(tmp_path, text, "log.vbo")), TimeRule())
+    assert (times.column, times.unit, times.named) == ("time", "hhmmss", True)
+    np.testing.assert_allclose(times.time_s - times.time_s[0], 0.01 * np.arange(30), atol=1e-6)
+
+
+def test_a_distance_is_not_taken_for_time_and_a_column_without_unit_is_told(tmp_path: Path
+                                                                           ) -> None:
+    grows = "".join(f"{0.2 * i:.1f},{0.01 * i:.2f},{-i}\n" for i in ROWS)
+    path = log(tmp_path, f"Distance [m],clk,SWA\n{grows}")
+    times = times_of(open_log(path), TimeRule())
+    assert (times.column, times.named) == ("clk", False)
+    mapping = Rules(channels={"steering_wheel_angle_rad": Source("SWA", unit="deg")})
+    note = next(n for n in read_recording(path, mapping=mapping).notes if "'clk'" in n)
+    assert "is taken for it" in note
 
 
 @pytest.mark.parametrize("cell", [

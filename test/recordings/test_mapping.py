@@ -172,6 +172,16 @@ def test_a_second_file_brings_the_steering_to_the_thesis_s_mat(tmp_path: Path) -
     assert hve["tractor_vx_mps"].value[0] == pytest.approx(54.0 * 0.44704)
 
 
+def test_further_files_may_come_one_at_a_time(log: Path, tmp_path: Path) -> None:
+    """An iterator is used up by looking into it."""
+    path = tmp_path / "own.csv"
+    path.write_text("time_s,tractor_vx_mps\n0,20\n0.1,20\n0.2,20\n")
+    (tmp_path / "b.csv").write_text("time_s,throttle\n0,0.5\n0.1,0.5\n0.2,0.5\n")
+    assert "throttle" in read_recording(path, also=iter([tmp_path / "b.csv"]))
+    with pytest.raises(InputError, match="no such file"):
+        read_recording(path, also=iter([tmp_path / "absent.csv"]))
+
+
 def test_files_on_absolute_clocks_are_laid_on_the_first_ones(log: Path) -> None:
     rows = "".join(f"2024-02-01 12:00:{0.01 * i:06.3f},{80 + 0.1 * i}\n" for i in range(N))
     log.write_text("time,Speed [km/h]\n" + rows)

@@ -52,8 +52,9 @@ def test_a_table_a_page_and_one_object_of_json(
     assert "exists already; expected a new name, or --force" in capsys.readouterr().err
 
 
+@pytest.mark.parametrize("force", [False, True])
 def test_an_interrupted_sweep_goes_on_and_gives_the_same_table(
-    plan: Plan, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    plan: Plan, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, force: bool
 ) -> None:
     monkeypatch.setattr(sweeping, "_PART_RUNS", 2)
 
@@ -62,10 +63,11 @@ def test_an_interrupted_sweep_goes_on_and_gives_the_same_table(
             raise KeyboardInterrupt
 
     with pytest.raises(KeyboardInterrupt):
-        run_sweep(plan, tmp_path / "a", workers=1, progress=stop)
+        run_sweep(plan, tmp_path / "a", workers=1, progress=stop, force=force)
     assert [p.name for p in (tmp_path / "a/parts").iterdir()] == ["000000.parquet"]
     told: list[int] = []
-    resumed = run_sweep(plan, tmp_path / "a", progress=lambda done, total: told.append(done))
+    resumed = run_sweep(plan, tmp_path / "a", force=force,
+                        progress=lambda done, total: told.append(done))
     assert told == [2, 3, 4]
     whole = run_sweep(plan, tmp_path / "b")
     assert resumed.table.equals(whole.table)

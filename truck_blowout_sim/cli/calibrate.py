@@ -59,7 +59,7 @@ def command(
     from truck_blowout_sim.simulation.replay import implausible_inputs
     from truck_blowout_sim.vehicle import load_vehicle
 
-    claim(output, inputs=logs.inputs(*recordings, *holdout), force=force, one_file=True)
+    claim(output, inputs=[*logs.inputs(*recordings, *holdout), vehicle], force=force, one_file=True)
     if output.suffix not in (".yaml", ".yml"):
         raise InputError("is no name of a vehicle file", file=output, expected="a name in .yaml")
     loaded = load_vehicle(vehicle)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import gc
 import re
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence, Set
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -92,7 +92,8 @@ def command(
     """
     from truck_blowout_sim.diagnosis import diagnose, effort, keeping
 
-    _claim(output, corrected, logs.inputs(*recordings, *baseline, *holdout), force)
+    inputs = [*logs.inputs(*recordings, *baseline, *holdout), Path(vehicle)]
+    _claim(output, corrected, inputs, force)
     loaded = _vehicle(vehicle, settings, without)
     train, base, hold = _read(logs, loaded, recordings, baseline, holdout)
     _check(loaded, [*train, *base, *hold], impose_speed, yes)
@@ -162,12 +163,20 @@ def _write_corrected(answer: Diagnosis, runs: Mapping[str, Sequence[Recording]],
     from truck_blowout_sim.diagnosis.sensors import correct
     from truck_blowout_sim.recordings import write_recording
 
+    folder.mkdir(parents=True, exist_ok=True)
+    taken: set[str] = set()
     for role, group in runs.items():
         faults = [f for f in answer.evidence.findings if f.in_baseline or role != "baseline"]
         for run in group:
-            folder.mkdir(parents=True, exist_ok=True)
-            name = re.sub(r"\W+", "_", run.name).strip("_")
+            name = _free(re.sub(r"\W+", "_", run.name).strip("_") or role, taken)
             write_recording(correct(run, faults), folder / f"{name}.csv")
+            taken.add(name.lower())
+
+
+def _free(name: str, taken: Set[str]) -> str:
+    """A name that no other recording has: two folders may hold a `drive.csv` each."""
+    tries = (name, *(f"{name}_{k}" for k in range(2, len(taken) + 3)))
+    return next(one for one in tries if one.lower() not in taken)
 
 
 def _write(answer: Diagnosis, vehicle: Vehicle, base: str, values: Mapping[str, float],

@@ -12,6 +12,8 @@ from truck_blowout_sim.cli.reading import AS_IT_IS, LogOptions, reads_logs, say_
 from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.recordings.mat_thesis import THESIS_CHANNELS
 
+_FILE_ENDINGS = (".csv", ".mat", ".mcap")
+
 
 @reads_logs
 def command(
@@ -35,7 +37,8 @@ def command(
 
     Example: truck-blowout export out/steer_axle_blowout -o blowout.csv
     """
-    claim(output, inputs=logs.inputs(bag), force=force)
+    claim(output, inputs=logs.inputs(bag), force=force,
+          one_file=output.suffix.lower() in _FILE_ENDINGS)
     recording = logs.read(bag)
     say_notes(recording)
     if thesis_variables:

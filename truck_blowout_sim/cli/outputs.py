@@ -69,6 +69,8 @@ def claim(output: str | PathLike[str], *, force: bool = False,
             written there.
     """
     target = Path(output)
+    if not writes and target.name in ("", ".."):
+        raise InputError("is a folder that exists", file=target, expected="a new name in it")
     written = [target / name for name in writes] if writes else [target]
     for source in (Path(i) for i in inputs):
         for path in written:

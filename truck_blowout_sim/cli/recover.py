@@ -28,7 +28,7 @@ def command(
             "no such file or directory", file=bag, expected="an .mcap file or a rosbag2 folder"
         )
     if output is not None:
-        claim(output, inputs=[bag], force=force)
+        claim(output, inputs=[bag], force=force, one_file=not bag.is_dir())
     saved = recover(bag, output)
     lost = f", {saved.lost_bytes} bytes of a broken tail left out" if saved.lost_bytes else ""
     result = {"output": str(saved.path), "messages": saved.messages,

@@ -13,6 +13,7 @@ from truck_blowout_sim.motion.source import Floats, Source
 from truck_blowout_sim.motion.tracks import UnitTrack, unit_tracks
 from truck_blowout_sim.motion.wheels import WheelTrack, wheel_tracks
 from truck_blowout_sim.recordings import Recording
+from truck_blowout_sim.recordings.stray_time import require_span
 from truck_blowout_sim.vehicle import Vehicle
 
 
@@ -42,9 +43,11 @@ def motion_of(recording: Recording, vehicle: Vehicle, *, rate_hz: float = 50.0) 
         rate_hz: instants a second.
 
     Raises:
-        InputError: nothing was recorded, or a blown tire is none of the vehicle's.
+        InputError: nothing was recorded, or more than a day; or a blown tire is none of the
+            vehicle's.
     """
     _check(recording, vehicle)
+    require_span(recording)
     n = max(math.floor((recording.end_s - recording.start_s) * rate_hz + 1e-6), 1) + 1
     source = Source(recording, recording.start_s + np.arange(n) / rate_hz)
     units = unit_tracks(source, vehicle)

@@ -16,7 +16,7 @@ def replacing(path: Path) -> Iterator[Path]:
     """Give a temporary path beside the wanted one; rename it there if the body succeeds.
 
     Works for a file and for a folder; an older one of that name is replaced in the end, and left
-    alone if the body fails.
+    alone if the body fails. A file never replaces a folder.
 
     Raises:
         StorageError: the operating system refuses.
@@ -36,8 +36,8 @@ def replacing(path: Path) -> Iterator[Path]:
 
 
 def _swap(temporary: Path, path: Path) -> None:
-    if not path.is_dir():
-        os.replace(temporary, path)
+    if not (path.is_dir() and temporary.is_dir()):
+        os.replace(temporary, path)  # which refuses to put a file in place of a folder
         return
     old = path.with_name(f".{path.name}.{os.getpid()}.old")
     os.replace(path, old)

@@ -23,6 +23,7 @@ from truck_blowout_sim.recordings.mapping.finish import (
 )
 from truck_blowout_sim.recordings.mapping.odd_sizes import odd_sizes
 from truck_blowout_sim.recordings.recording import Blowout, Recording
+from truck_blowout_sim.recordings.stray_time import stray_times
 from truck_blowout_sim.recordings.topic_names import channels_on
 
 
@@ -60,14 +61,15 @@ def read_recording(
         InputError: one line: file, place, value, expectation.
     """
     path = Path(path)
-    blow = tuple(blow)
-    if mapping is None and not tuple(also):
+    blow, also = tuple(blow), tuple(also)
+    if mapping is None and not also:
         read = read_native(path, tires=tires, hubs=hubs, namespace=namespace, remap=remap,
                            source=source)  # fmt: skip
         if not read.channels:
             raise InputError("holds no numbers", file=path, expected="samples of a channel")
         foreign = channels_on((remap or {}).values(), read.channels)
         read = with_local_origin(without_planar_zeros(read, foreign))
+        read = replace(read, notes=(*read.notes, *stray_times(read)))
         return with_blowouts(read, blow, tires=tires, hubs=hubs) if blow else read
     rules = mapping if isinstance(mapping, Rules) else load_mapping(mapping) if mapping else Rules()
     files = open_test(path, rules, also=map(Path, also), namespace=namespace, source=source)
@@ -77,7 +79,8 @@ def read_recording(
                          expected=f"a mapping with channels ({BEGIN_MAPPING})")  # fmt: skip
     read = without_planar_zeros(without_excluded(read, rules), _foreign(files, rules, read))
     read = with_local_origin(at_base_link(read, rules.sensors))
-    read = replace(read, notes=(*read.notes, *contradictions(read), *odd_sizes(read)))
+    read = replace(read, notes=(*read.notes, *contradictions(read), *odd_sizes(read),
+                                *stray_times(read)))
     stated = with_blowouts(read, rules.blowouts, tires=tires, hubs=hubs, file=rules.file or path)
     return with_blowouts(stated, blow, tires=tires, hubs=hubs)
 

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.recordings import INPUT_NAMES, Blowout, Recording, Series, channels_for
+from truck_blowout_sim.recordings.stray_time import require_span
 from truck_blowout_sim.simulation.drive import (
     Drive,
     Ran,
@@ -39,8 +40,10 @@ def drive_from(recording: Recording, vehicle: Vehicle, *, step_s: float = 0.001,
         impose_speed: None: impose the recorded speed where throttle or a brake pressure is missing.
 
     Raises:
-        InputError: no steering, no speed to impose, or a blown tire the vehicle does not have.
+        InputError: no steering, no speed to impose, a blown tire the vehicle does not have, or a
+            log of more than a day.
     """
+    require_span(recording)
     missing = set(recording.missing_inputs) - _not_at_work(vehicle)
     if "steering_wheel_angle_rad" in missing:
         raise InputError("steering_wheel_angle_rad was not recorded", file=recording.name,

@@ -83,6 +83,9 @@ def prepare(vehicle: Vehicle | Packed, scenario: Scenario, *, step_s: float = 0.
     packed = _on_the_road(vehicle if isinstance(vehicle, Packed) else pack(vehicle), scenario)
     spec = scenario.spec
     n_steps = round((spec.end_s - spec.start_s) / step_s)
+    if n_steps < 1:
+        raise InputError(f"end_s: lasts {spec.end_s - spec.start_s:g} s", file=scenario.path,
+                         expected=f"{step_s:g} s or more, one step of the simulation")
     times = spec.start_s + step_s * np.arange(n_steps, dtype=np.float64)
     every = max(round(1.0 / rate_hz / step_s), 1)
     blowouts = scenario.blowouts_of(packed.vehicle)

@@ -107,12 +107,12 @@ def column_of(cells: Sequence[str], decimal: str) -> tuple[FloatArray, str, int 
         times = np.array([seconds(cell) for cell in cells])
         if np.isfinite(times).sum() > 0.5 * max(told.sum(), 1):
             wrong = told & np.isnan(times)
-            return _past_midnight(times), "clock", _first(wrong)
+            return past_midnight(times), "clock", _first(wrong)
     return values, "", _first(wrong)
 
 
-def _past_midnight(times: FloatArray) -> FloatArray:
-    """Times of day that go on counting after midnight."""
+def past_midnight(times: FloatArray) -> FloatArray:
+    """Times of day [s] that go on counting after midnight; nothing was measured where NaN."""
     there = np.flatnonzero(np.isfinite(times))
     steps = np.diff(times[there])
     days = np.concatenate(([0], np.cumsum(steps < -0.5 * _DAY_S)))

@@ -146,6 +146,9 @@ def _open(path: Path, stated: str, time: TimeRule, rules: Rules, namespace: str 
         if not thesis_without_time:
             raise
     else:
+        if not opened.rows.named:
+            opened.notes.append(f"{path.name}: no column is called time; {opened.rows.column!r} is"
+                                " taken for it, because it increases in every row")
         if opened.rows.guessed and opened.rows.unit != "s":
             opened.notes.append(f"{path.name}: time column {opened.rows.column!r} is taken to be in"
                                 f" {opened.rows.unit}, by its numbers")  # fmt: skip

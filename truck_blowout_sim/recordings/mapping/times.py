@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from truck_blowout_sim.errors import InputError, nearest, quoted
+from truck_blowout_sim.recordings.logs.cells import past_midnight
 from truck_blowout_sim.recordings.logs.log import Column, Log, no_column
 from truck_blowout_sim.recordings.mapping.rules import TimeRule
 from truck_blowout_sim.recordings.units import find_unit
@@ -42,6 +43,7 @@ class Times:
         unit: as stated or guessed.
         guessed: whether the unit is a guess.
         absolute: a time of day or date: the recording begins at 0 then.
+        named: whether the mapping or the column's name says that it is time.
     """
 
     time_s: FloatArray
@@ -49,6 +51,7 @@ class Times:
     unit: str
     guessed: bool = False
     absolute: bool = False
+    named: bool = True
 
 
 def times_of(log: Log, rule: TimeRule, where: str = "key time") -> Times:
@@ -79,19 +82,32 @@ def times_of(log: Log, rule: TimeRule, where: str = "key time") -> Times:
     time_s = _seconds(column.values, unit)
     first = time_s[np.isfinite(time_s)][:1]
     absolute = unit in CLOCK_UNITS or bool(first.size and first[0] > _EPOCH_S)
-    return Times(time_s, name, unit, guessed, absolute)
+    named = bool(rule.column or _NAME.fullmatch(name.strip()))
+    return Times(time_s, name, unit, guessed, absolute, named)
 
 
 def time_column(log: Log) -> str | None:
-    """The column that is time by its name, or else the first that always increases."""
+    """The column that is time by its name, or else the first that always increases.
+
+    A column with the unit of another quantity, as a distance, is not time, however it increases.
+    """
     for name in log.names:
-        if _NAME.fullmatch(name.strip()) and _mostly_increases(log.column(name).values):
+        if _NAME.fullmatch(name.strip()) and _mostly_increases(_comparable(log.column(name))):
             return name
     for name in list(log.names)[:3]:
-        values = log.column(name).values
+        column = log.column(name)
+        unit = find_unit(column.unit)
+        if unit is not None and unit.quantity != "time":
+            continue
+        values = column.values
         if _mostly_increases(values) and bool(np.all(np.diff(values[np.isfinite(values)]) > 0)):
             return name
     return None
+
+
+def _comparable(column: Column) -> FloatArray:
+    """Numbers that increase with time: digits of a clock begin again at midnight."""
+    return _seconds(column.values, "hhmmss") if column.unit == "hhmmss" else column.values
 
 
 def _mostly_increases(values: FloatArray) -> bool:
@@ -123,4 +139,4 @@ def _seconds(values: FloatArray, unit: str) -> FloatArray:
     hours, rest = np.divmod(values, 10_000.0)
     minutes, seconds = np.divmod(rest, 100.0)
     # rest of a division loses digits: hundredths of seconds are what the format has
-    return np.asarray(3600.0 * hours + 60.0 * minutes + np.round(seconds, 6))
+    return past_midnight(3600.0 * hours + 60.0 * minutes + np.round(seconds, 6))

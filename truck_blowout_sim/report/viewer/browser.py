@@ -143,9 +143,8 @@ class Browser:
         message: dict[str, Any] = {"id": self._next, "method": method, "params": params}
         if self._session:
             message["sessionId"] = self._session
-        data = json.dumps(message).encode() + b"\0"
-        while data:
-            data = data[os.write(self._write, data):]
+        if not self._send(json.dumps(message).encode() + b"\0"):
+            raise InputError(f"the browser ended at {method}")
         for answer in self._messages():
             if answer.get("id") == self._next:
                 if "error" in answer:
@@ -154,6 +153,15 @@ class Browser:
             if answer.get("method") == "Runtime.exceptionThrown":
                 self.errors.append(_words(answer["params"]["exceptionDetails"]))
         raise InputError(f"the browser ended at {method}")
+
+    def _send(self, data: bytes) -> bool:
+        """Whether the browser takes it; a broken pipe is the browser's, not that of stdout."""
+        try:
+            while data:
+                data = data[os.write(self._write, data):]
+        except BrokenPipeError:
+            return False
+        return True
 
     def _messages(self) -> Iterator[dict[str, Any]]:
         end = time.monotonic() + self._timeout_s

@@ -74,7 +74,10 @@ def write_film(page: Path, path: Path, film: Film, progress: Callable[[float], N
         for k in range(count):
             time_s = start + k * film.speed / film.rate_hz
             picture = browser.evaluate(f"app.picture({time_s}, {film.size[0]}, {film.size[1]})")
-            encoder.stdin.write(base64.b64decode(picture.partition(",")[2]))
+            try:
+                encoder.stdin.write(base64.b64decode(picture.partition(",")[2]))
+            except BrokenPipeError:  # ffmpeg has ended; below it says why
+                break
             progress((k + 1) / count)
         _, problem = encoder.communicate()
         if encoder.returncode:

@@ -121,7 +121,8 @@ def _begin(plan: Plan, folder: Path, force: bool) -> bool:
     """
     words = json.loads(json.dumps({**asdict(plan), "code": code_hash()}))
     found = _read_plan(folder / PLAN)
-    if force:
+    unfinished = found == words and not (folder / TABLE).exists()
+    if force and not unfinished:
         shutil.rmtree(folder / PARTS, ignore_errors=True)
         (folder / TABLE).unlink(missing_ok=True)
     elif found != words and (found is not None or (folder / TABLE).exists()):
