@@ -10,6 +10,7 @@ from truck_blowout_sim.diagnosis.sensors.case import Case, Hypothesis, make_case
 from truck_blowout_sim.diagnosis.sensors.judgement import admissible, family_p
 from truck_blowout_sim.diagnosis.sensors.solve import noise_inflation, refine, solve
 from truck_blowout_sim.diagnosis.sensors.system import assemble, normal_equations
+from truck_blowout_sim.recordings import Recording, Series
 
 
 def hypothesis(case: Case, name: str, instrument: str, *, everywhere: bool = True) -> Hypothesis:
@@ -123,3 +124,19 @@ def test_no_instrument_sits_beside_the_truck_or_where_it_is_said_to_sit(
     arm = next(h for h in case.hypotheses if h.distortion.name == "lever_arm"
                and [n for n, _ in h.distortion.parameters] == ["forward", "left"])
     assert admissible(arm, (forward, left)) is sensible
+
+
+@pytest.mark.parametrize("rate", [1e-3, 0.0, -1e-3])
+def test_a_trailer_with_a_clock_of_its_own_is_a_normal_error(rate: float) -> None:
+    """After 20 s it is 20 ms late, ten times what a channel is late by otherwise."""
+    def slow(run: Recording) -> Recording:
+        return run.with_channels({name: Series(series.time_s * (1.0 - rate), series.value)
+                                  for name, series in run.channels.items()
+                                  if name.startswith("trailer_")})
+
+    case = make_case([slow(make_run(20 + k, 20.0)) for k in range(2)], [], None)
+    found = solve(case, normal_equations(assemble(case), {}), ())
+    names = [i.distortion.name for i in case.usual for _ in i.usual]
+    k = names.index("clock")
+    assert found.usual[k] == pytest.approx(rate, abs=4.0 * found.usual_sigma[k])
+    assert found.usual_sigma[k] < 1e-4

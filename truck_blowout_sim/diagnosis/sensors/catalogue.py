@@ -17,6 +17,7 @@ import numpy as np
 
 from truck_blowout_sim.diagnosis.sensors.distortions import (
     Bias,
+    Clock,
     Delay,
     Distortion,
     LevelAxes,
@@ -38,6 +39,8 @@ _UNKNOWN_TILT_SCALE = 0.3
 # A roll reckoned from gyros misses what the frame twists: part of that is left.
 _RECKONED_TILT_SCALE = 0.02
 _DELAY_S = 0.003  # a good part of a sample, and unequal filters
+# Loggers without a common clock: an uncompensated crystal and its software gain up to this.
+_CLOCK = 1e-3
 _POSITION_M, _HITCH_M = 0.02, 0.03
 # Bodies that twist move like instruments half a metre higher or lower.
 _HEIGHT_M = 0.5
@@ -85,6 +88,7 @@ def imperfections(
     ]  # fmt: skip
     hubs = tuple(sorted(c for c in present if c.startswith("hub_speed_")))
     found.append(Imperfection(Delay("channel_delay", "", "hub speeds", hubs), (_HUB_DELAY_S,)))
+    found.append(Imperfection(_own_clock("trailer"), (_CLOCK,)))
     kept = [(i, _recorded(i.distortion, present)) for i in found]
     return tuple(Imperfection(d, i.usual) for i, d in kept if d is not None)
 
@@ -198,6 +202,13 @@ def _lever_groups() -> tuple[tuple[str, tuple[str, ...]], ...]:
         ("position and velocity", position + velocity),
         ("whole instrument", position + velocity + accelerometer),
     )  # fmt: skip
+
+
+def _own_clock(unit: str) -> Clock:
+    """Of all instruments of one unit, against those of the other."""
+    n = channel_names(unit)
+    channels = tuple(n[key] for _, keys in _delay_groups() if len(keys) == 1 for key in keys)
+    return Clock("clock", unit, f"{unit} clock", channels)
 
 
 def _scale(name: str, unit: str, key: str) -> Scale:

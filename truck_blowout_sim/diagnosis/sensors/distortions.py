@@ -129,6 +129,22 @@ class Delay(Distortion):
 
 
 @dataclass(frozen=True)
+class Clock(Distortion):
+    """Measured(t) = true(t + clock_rate t): the instrument's own clock runs slow or fast."""
+
+    @property
+    def parameters(self) -> tuple[tuple[str, str], ...]:
+        """Seconds a second, gained since the recording began."""
+        return (("clock_rate", "1"),)
+
+    def slope(self, index: int, channel: str, read: Reader, period_s: float) -> FloatArray:
+        """The time derivative, times the time since the beginning."""
+        del index
+        value = read(channel)
+        return np.asarray(period_s * np.arange(value.size) * np.gradient(value, period_s))
+
+
+@dataclass(frozen=True)
 class RollLeak(Distortion):
     """Measured ay = true ay + leak * g * sin(roll)."""
 

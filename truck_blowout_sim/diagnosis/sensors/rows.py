@@ -63,6 +63,13 @@ class Rows:
         """Variance of each row, (bumps, identities)."""
         return np.asarray(np.einsum("kaa->ka", self.blocks[0]))
 
+    def gains_of(self, smooth: Signals, channel: str) -> list[FloatArray]:
+        """By identity, d(algebraic part) / d(channel) under each bump."""
+        windows, smooth = make_windows(smooth.period_s), with_kinematic_accelerations(smooth)
+        centres = windows.centres(smooth.time_s.size)
+        none = np.zeros_like(smooth.time_s)
+        return [channel_gains(smooth, i).get(channel, none)[centres] for i in self.identities]
+
 
 def build_rows(
     signals: Signals,
@@ -82,9 +89,7 @@ def build_rows(
             which rows are valid, and hardly on a fault that was taken out.
     """
     windows = make_windows(signals.period_s)
-    smooth = with_kinematic_accelerations(
-        signals.smooth({name: white_equivalent(n) for name, n in noise.items()})
-    )
+    smooth = with_kinematic_accelerations(smoothed_signals(signals, noise))
     centres = windows.centres(signals.time_s.size)
     shape = (centres.size, len(identities))
     residual = np.full(shape, np.nan)
@@ -115,6 +120,23 @@ def build_rows(
         blocks=memory[key][0],
         factor=memory[key][1],
     )
+
+
+def smoothed_signals(signals: Signals, noise: Mapping[str, Noise]) -> Signals:
+    """What regressors are made of: signals freed of as much noise as can be."""
+    return signals.smooth({name: white_equivalent(n) for name, n in noise.items()})
+
+
+def fault_slopes(
+    smooth: Signals, rows: Rows, columns: Sequence[tuple[Distortion, int]]
+) -> FloatArray:
+    """Slopes of some unknowns for other smooth signals, (bumps, identities, columns)."""
+    windows, smooth = make_windows(smooth.period_s), with_kinematic_accelerations(smooth)
+    slope_of = channel_slopes(smooth, columns, smooth.period_s)
+    shape = (rows.residual.shape[0], len(columns))
+    slopes = [_identity_slopes(windows, i, channel_gains(smooth, i), slope_of, shape)
+              for i in rows.identities]
+    return np.where(rows.valid[:, :, None], np.stack(slopes, axis=1), 0.0)
 
 
 def whiten(rows: Rows, inflation: FloatArray) -> tuple[FloatArray, FloatArray]:
