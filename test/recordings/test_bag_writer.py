@@ -157,6 +157,39 @@ def test_a_full_disk_can_be_left_to_the_state(tmp_path: Path) -> None:
     assert len(read_recording(tmp_path / "full.mcap")["throttle"]) > 1000
 
 
+def test_a_disk_that_is_gone_ends_the_bag_and_not_its_writer(tmp_path: Path) -> None:
+    """Pulled out: no write, and no cutting back either."""
+    path = tmp_path / "gone.mcap"
+    writer = BagWriter(path, background=False, raise_errors=False)
+    writer.write(0.0, {"throttle": 0.25})
+    writer.flush()
+    pull_out(writer)
+    writer.write(1.0, {"throttle": 0.5})
+    writer.flush()
+    assert "cannot write: No space left on device; 1 messages saved" in writer.state.error
+    assert writer.state.dropped == 1
+    writer.close()
+    assert read_recording(path)["throttle"].value.tolist() == [0.25]
+
+
+def test_the_thread_that_writes_says_when_the_disk_is_gone(tmp_path: Path) -> None:
+    writer = BagWriter(tmp_path / "gone.mcap", flush_s=0.1, raise_errors=False)
+    pull_out(writer)
+    writer.write(0.0, {"throttle": 0.5})
+    deadline = time.monotonic() + 60.0
+    while not writer.state.error:
+        assert time.monotonic() < deadline, "the thread ended without a word"
+        time.sleep(0.02)
+    writer.close()
+
+
+def pull_out(writer: BagWriter) -> None:
+    """Put a device there that takes no byte and cannot be cut."""
+    gone = os.open("/dev/full", os.O_WRONLY)
+    os.dup2(gone, writer._file._file.fileno())
+    os.close(gone)
+
+
 def run_on_full_disk(path: Path, mode: str) -> str:
     done = subprocess.run([sys.executable, "-c", FULL_DISK, str(path), mode],
                           capture_output=True, text=True, check=False)  # fmt: skip

@@ -22,7 +22,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from truck_blowout_sim.errors import StorageError
 from truck_blowout_sim.recordings.bag_metadata import (
     as_yaml,
     describe,
@@ -42,7 +41,7 @@ from truck_blowout_sim.recordings.channels import (
 from truck_blowout_sim.recordings.chunk import Chunk
 from truck_blowout_sim.recordings.chunk_sink import ChunkSink
 from truck_blowout_sim.recordings.encoder import RowEncoder
-from truck_blowout_sim.recordings.mcap_file import McapFile
+from truck_blowout_sim.recordings.mcap_file import McapFile, storage_error
 from truck_blowout_sim.recordings.topic_registry import TopicRegistry
 
 METADATA_NAME = "truck_blowout_sim"
@@ -192,8 +191,9 @@ class BagWriter:
         self._sink.stop()
         try:
             self._finish()
-        except StorageError as error:
-            self._sink.error = self._sink.error or error
+        except OSError as error:  # also from closing the file, which may write
+            told = storage_error(self.path, error, "the bag has no end")
+            self._sink.error = self._sink.error or told
         self._raise_if_due()
 
     def __enter__(self) -> BagWriter:

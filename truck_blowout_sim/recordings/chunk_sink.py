@@ -7,7 +7,7 @@ from collections.abc import Callable
 
 from truck_blowout_sim.errors import StorageError
 from truck_blowout_sim.recordings.chunk import Chunk
-from truck_blowout_sim.recordings.mcap_file import McapFile
+from truck_blowout_sim.recordings.mcap_file import McapFile, storage_error
 
 _CHUNK_SIZE = 1 << 20
 _MOST_WAITING = 1 << 28
@@ -65,8 +65,9 @@ class ChunkSink:
             if chunk.size and self.error is None:
                 try:
                     self.file.write_chunk(chunk)
-                except StorageError as error:
-                    self.error = error
+                except OSError as error:  # any: nobody hears what ends the writer's thread
+                    saved = f"{self.file.contents.message_count} messages saved before that"
+                    self.error = storage_error(self.file.path, error, saved)
                     self.dropped += chunk.message_count
 
     def stop(self) -> None:

@@ -94,10 +94,11 @@ class McapFile:
         self.path = path
         self.contents = Contents()
         self.size = 0
+        self._torn = False
         try:
             self._file = io.FileIO(path, "wb")
         except OSError as error:
-            raise _storage_error(path, error, "nothing written") from error
+            raise storage_error(path, error, "nothing written") from error
         self._compressor = zstandard.ZstdCompressor(level=_ZSTD_LEVEL)
         self._write(MAGIC + to_bytes(records.Header(profile="ros2", library=LIBRARY)))
 
@@ -155,8 +156,9 @@ class McapFile:
     def close(self) -> None:
         """Write the summary and close; the file is closed even if that fails."""
         try:
-            end = to_bytes(records.DataEnd(data_section_crc=0))
-            self._write(end + _summary(self.contents, self.size + len(end)) + MAGIC)
+            if not self._torn:  # behind half a chunk, a summary would mislead: it gives offsets
+                end = to_bytes(records.DataEnd(data_section_crc=0))
+                self._write(end + _summary(self.contents, self.size + len(end)) + MAGIC)
         finally:
             self._file.close()
 
@@ -171,14 +173,17 @@ class McapFile:
                 left = left[self._file.write(left) or 0 :]
         except OSError as error:
             self._cut_back()
-            raise _storage_error(
+            raise storage_error(
                 self.path, error, f"{self.contents.message_count} messages saved before that"
             ) from error
         self.size += len(data)
 
     def _cut_back(self) -> None:
-        os.ftruncate(self._file.fileno(), self.size)
-        self._file.seek(self.size)
+        try:
+            os.ftruncate(self._file.fileno(), self.size)
+            self._file.seek(self.size)
+        except OSError:  # the disk is gone: why the write failed says more
+            self._torn = True
 
 
 def to_bytes(record: records.McapRecord) -> bytes:
@@ -216,6 +221,9 @@ def _summary(contents: Contents, start: int) -> bytes:
     return body + offsets + head + struct.pack("<I", crc)
 
 
-def _storage_error(path: Path, error: OSError, saved: str) -> StorageError:
+def storage_error(path: Path, error: OSError, saved: str) -> StorageError:
+    """What the operating system refused, as the error that says what was saved before."""
+    if isinstance(error, StorageError):
+        return error
     words = error.strerror or str(error)
     return StorageError(f"cannot write: {words}; {saved}", file=path, number=error.errno or 5)
