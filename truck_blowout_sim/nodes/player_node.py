@@ -117,8 +117,8 @@ class Player:
         next_s = self.playlist.next_s
         if next_s is None or next_s > self.end_s:
             return ""
-        self._publish_until(next_s)
         self.time.move_to(next_s)
+        self._publish_until(next_s)
         return f"played {next_s - self.playlist.recording.start_s:.3f} s"
 
     def seek(self, time_s: float) -> None:
@@ -154,7 +154,7 @@ class Player:
         if self.pace:
             self.pace.begin()
         if not self.paused:
-            self.time.go()
+            self.time.start()
 
     def _finish(self, executor: Executor) -> None:
         self.simulator.settle(executor, 2.0)

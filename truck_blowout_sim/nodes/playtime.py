@@ -57,7 +57,8 @@ class WallTime:
             start_s: the instant.
             warn: takes a sentence about what is waited for.
         """
-        self._origin_ns, self._origin_s = self._ros_ns(executor, stop, warn), start_s
+        self._await_clock(executor, stop, warn)
+        self._lay(start_s)
 
     def stamp_ns(self, time_s: float) -> int:
         """Stamp for a message of an instant: the recording laid upon the node's clock."""
@@ -75,23 +76,35 @@ class WallTime:
         self._position_s, self._since_s = self.position_s, None
 
     def go(self) -> None:
-        """Go on."""
+        """Go on after a pause."""
+        self._lay(self._position_s)
+        self.start()
+
+    def start(self) -> None:
+        """Run from where playback began, with the stamps as `begin` laid them."""
         self._since_s = self._now_s()
 
     def move_to(self, time_s: float) -> None:
         """Jump; goes on or stays paused as before."""
         self._position_s = time_s
+        self._lay(time_s)
         if self._since_s is not None:
             self._since_s = self._now_s()
+
+    def _lay(self, time_s: float) -> None:
+        """This instant of the recording is now, for the stamps of what follows."""
+        self._origin_ns, self._origin_s = self._clock_now_ns(), time_s
 
     def _now_s(self) -> float:
         return monotonic()
 
-    def _ros_ns(
-        self, executor: Executor, stop: StopFlag | None, warn: Callable[[str], object]
-    ) -> int:
-        del executor, stop, warn
+    def _clock_now_ns(self) -> int:
         return int(self._node.get_clock().now().nanoseconds)
+
+    def _await_clock(
+        self, executor: Executor, stop: StopFlag | None, warn: Callable[[str], object]
+    ) -> None:
+        """The wall is always there."""
 
 
 class ClockTime(WallTime):
@@ -109,14 +122,17 @@ class ClockTime(WallTime):
         return math.inf if wait_s > 1e-9 else 0.0
 
     def _now_s(self) -> float:
-        return (self._clock_ns or 0) / NS
+        return self._clock_now_ns() / NS
+
+    def _clock_now_ns(self) -> int:
+        return self._clock_ns or 0
 
     def _take(self, message: Clock) -> None:
         self._clock_ns = message.clock.sec * NS + message.clock.nanosec
 
-    def _ros_ns(
+    def _await_clock(
         self, executor: Executor, stop: StopFlag | None, warn: Callable[[str], object]
-    ) -> int:
+    ) -> None:
         # What was heard before a reset may be old: only a reading from now on counts.
         self._clock_ns = None
         warn_s = monotonic() + _SILENCE_S
@@ -128,4 +144,3 @@ class ClockTime(WallTime):
                     "use_sim_time is set and nobody publishes /clock: waiting; start the simulator,"
                     " or play by wall time with use_sim_time false"
                 )
-        return self._clock_ns or 0
