@@ -72,6 +72,26 @@ def test_ctrl_c_ends_the_bag_that_the_player_began(
     assert runs(client)
 
 
+@pytest.mark.parametrize("first", ["resume", "play_next"])
+def test_a_player_that_starts_paused_keeps_the_simulator_waiting(
+    simulator: Any, start: Any, client: Any, bags: Path, first: str
+) -> None:
+    odometry = client.listen(Odometry, "/truck/tractor/odometry")
+    player = start("player", log(bags / "waiting.csv"), "--start-paused")
+    player.wait_for("simulator at 15.00 m/s")
+    client.meet("/truck/player")
+    client.spin(1.0)
+    odometry.clear()
+    client.spin(0.5)
+    assert not odometry, "the truck drove on without the recording"
+    assert client.call(Trigger, f"/truck/player/{first}").success
+    client.until(lambda: len(odometry) > 10, what="the truck to drive")
+    speed_mps = odometry[0].twist.twist.linear.x
+    assert speed_mps == pytest.approx(15.0, abs=0.1), "it had not waited where it was put"
+    assert player.stop() == 0
+    assert runs(client)
+
+
 def test_a_simulator_at_another_speed_than_the_recording_is_told(
     simulator: Any, start: Any, client: Any, bags: Path
 ) -> None:

@@ -82,6 +82,8 @@ class Player:
         self.simulator = SimulatorClient(node, values["simulator"], lambda: bool(self._stop))
         self.simulator.prepare_blowouts({t for b in recording.blowouts for t in b.tires})
         self.stage = Stage(self.simulator, values["record_path"], self.log.info)
+        self._under_way = False  # from the first resume or play_next of a pass on
+        self._stepped = False  # play_next came before
         self.published = 0
         self.blown: list[str] = []
         serve(node, self)
@@ -117,6 +119,7 @@ class Player:
         next_s = self.playlist.next_s
         if next_s is None or next_s > self.end_s:
             return ""
+        self._stepped = True
         self.time.move_to(next_s)
         self._publish_until(next_s)
         return f"played {next_s - self.playlist.recording.start_s:.3f} s"
@@ -130,11 +133,13 @@ class Player:
         """Pause or go on."""
         if paused != self.paused:
             self.paused = paused
-            self.time.hold() if paused else self.time.go()
+            if self._under_way:
+                self.time.hold() if paused else self.time.go()
 
     # inside
 
     def _begin(self, executor: Executor, present: bool) -> None:
+        self._under_way = self._stepped = False
         self.playlist.seek(self.start_s)
         self.time.hold()
         self.time.move_to(self.start_s)
@@ -146,13 +151,18 @@ class Player:
         if present:
             self.stage.record(executor)
         self.time.begin(executor, self._stop, self.start_s, self.log.warning)
-        if not self.paused:
-            self._publish_until(self.start_s)
-            self._deliver(COMMANDS & self.publishers.keys())
-        if prepare:
+
+    def _set_off(self, executor: Executor) -> None:
+        """Send the first commands and let the simulator run, which waits for them."""
+        if not self._stepped:
+            self.time.move_to(self.time.position_s)
+            self._publish_until(self.time.position_s)
+        self._deliver(COMMANDS & self.publishers.keys())
+        if self.stage.waiting:
             self.stage.resume(executor)
         if self.pace:
             self.pace.begin()
+        self._under_way = True
         if not self.paused:
             self.time.start()
 
@@ -163,6 +173,8 @@ class Player:
 
     def _play(self, executor: Executor, stop: StopFlag) -> None:
         while not stop:
+            if not self._under_way and (self._stepped or not self.paused):
+                self._set_off(executor)
             next_s = self.playlist.next_s
             if next_s is None or next_s > self.end_s:
                 return

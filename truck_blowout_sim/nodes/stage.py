@@ -42,6 +42,11 @@ class Stage:
         self._recording = False
         self._paused = False
 
+    @property
+    def waiting(self) -> bool:
+        """Whether the simulator stands paused where the recording begins."""
+        return self._paused
+
     def set(self, executor: Executor, recording: Recording) -> None:
         """Pause the simulator and put it where the recording begins.
 
