@@ -11,6 +11,7 @@ import pytest
 from nav_msgs.msg import Odometry
 from rcl_interfaces.msg import Parameter, ParameterType, ParameterValue
 from rcl_interfaces.srv import SetParameters
+from rclpy.serialization import deserialize_message
 from rosbags.rosbag2 import StoragePlugin, Writer
 from rosbags.typesys import Stores, get_typestore
 from sensor_msgs.msg import FluidPressure, Imu
@@ -189,6 +190,19 @@ def test_a_gauge_that_reads_below_zero_at_rest_is_no_refused_command() -> None:
     sent = dict(zip((c.name for c in log_rows(log)), track.values.T.tolist(), strict=True))
     assert sent == {"steering_wheel_angle_rad": [-0.5, 0.0, 0.5], "throttle": [0.0, 0.5, 1.0],
                     "brake_pressure_trailer_pa": [2e5, 3e3, 0.0]}
+
+
+def test_what_was_commanded_before_an_instant_holds_there() -> None:
+    """Commands of three rates, begun at 1 s: a pedal held since 0.3 s, one that is due itself."""
+    log = Recording("log", {
+        "throttle": Series(np.array([0.0, 0.3, 2.0]), np.array([0.1, 0.4, 0.9])),
+        "steering_wheel_angle_rad": Series(np.array([0.9, 1.0, 1.1]), np.array([0.1, 0.2, 0.3])),
+        "brake_pressure_steer_pa": Series(np.array([1.5, 1.6]), np.array([1e5, 2e5])),
+    })  # fmt: skip
+    held = Playlist(log).held(1.0)
+    assert {topic: deserialize_message(data, Float64).data for topic, data in held.items()} == {
+        "throttle": 0.4
+    }
 
 
 def log_rows(log: Recording) -> list[Any]:

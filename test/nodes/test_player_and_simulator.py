@@ -92,6 +92,26 @@ def test_a_player_that_starts_paused_keeps_the_simulator_waiting(
     assert runs(client)
 
 
+def test_a_replay_from_behind_the_blowout_has_the_flat_tire_and_the_held_pedal(
+    simulator: Any, start: Any, client: Any, bags: Path
+) -> None:
+    early_s = np.array([0.0, 0.4])
+    pedal = {"throttle": Series(early_s, np.array([0.0, 0.6]))}
+    path = bags / "behind.csv"
+    blowout = (Blowout(0.5, ("steer_left",)),)
+    write_recording(Recording("behind", {**channels(), **pedal}, blowout), path)
+    player = start("player", path, "--start-offset", 2.0, "--playback-duration", 1.0,
+                   "--record-path", bags / "replayed_behind")  # fmt: skip
+    assert player.wait() == 0, player.output
+    replayed = read_recording(bags / "replayed_behind")
+    (blown,) = replayed.blowouts
+    assert blown.tires == ("steer_left",)
+    assert blown.time_s == pytest.approx(replayed["tractor_vx_mps"].time_s[0], abs=1e-6)
+    assert replayed["tire_pressure_steer_left_pa"].value[-1] < 1e5
+    assert replayed["throttle"].value.max() == pytest.approx(0.6)  # until its timeout
+    assert runs(client)
+
+
 def test_a_simulator_at_another_speed_than_the_recording_is_told(
     simulator: Any, start: Any, client: Any, bags: Path
 ) -> None:

@@ -119,8 +119,10 @@ class Player:
         next_s = self.playlist.next_s
         if next_s is None or next_s > self.end_s:
             return ""
-        self._stepped = True
         self.time.move_to(next_s)
+        if not (self._stepped or self._under_way):
+            self._apply_what_holds()
+        self._stepped = True
         self._publish_until(next_s)
         return f"played {next_s - self.playlist.recording.start_s:.3f} s"
 
@@ -156,9 +158,11 @@ class Player:
         """Send the first commands and let the simulator run, which waits for them."""
         if not self._stepped:
             self.time.move_to(self.time.position_s)
+            self._apply_what_holds()
             self._publish_until(self.time.position_s)
         self._deliver(COMMANDS & self.publishers.keys())
         if self.stage.waiting:
+            self.simulator.settle(executor, _DELIVERY_S)
             self.stage.resume(executor)
         if self.pace:
             self.pace.begin()
@@ -184,15 +188,27 @@ class Player:
             else:
                 self._publish_until(min(self.time.position_s, self.end_s))
 
+    def _apply_what_holds(self) -> None:
+        """Commands given before the start, and on a truck that was put there the blown tires."""
+        if self.stage.waiting:
+            for due in self.playlist.blown_before(self.start_s):
+                self._blow(due)
+        for topic, data in self.playlist.held(self.time.position_s).items():
+            if topic in COMMANDS:
+                self._publish(topic, data)
+
     def _publish_until(self, time_s: float) -> None:
         for due in self.playlist.due(time_s):
             stamp_ns = self.time.stamp_ns(due.time_s)
             for topic, data in self.playlist.messages(due, stamp_ns).items():
-                publisher = self.publishers.get(topic)
-                if publisher is not None:
-                    publisher.publish(data)
-                    self.published += 1
+                self._publish(topic, data)
             self._blow(due)
+
+    def _publish(self, topic: str, data: bytes) -> None:
+        publisher = self.publishers.get(topic)
+        if publisher is not None:
+            publisher.publish(data)
+            self.published += 1
 
     def _blow(self, due: Due) -> None:
         at_s = due.time_s - self.playlist.recording.start_s

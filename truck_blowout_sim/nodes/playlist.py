@@ -96,6 +96,24 @@ class Playlist:
             tires = self.recording.blowouts[row].tires if track < 0 else ()
             yield Due(time_s, tires, track, row)
 
+    def blown_before(self, time_s: float) -> Iterator[Due]:
+        """Blowouts that lie behind an instant, in order of time."""
+        for row, blowout in enumerate(self.recording.blowouts):
+            if blowout.time_s < time_s - _NOWHERE:
+                yield Due(blowout.time_s, blowout.tires, -1, row)
+
+    def held(self, time_s: float) -> dict[str, bytes]:
+        """Last message of each topic that has none at an instant, unstamped, by relative topic."""
+        last: dict[str, tuple[float, bytes]] = {}
+        for track in self.tracks:
+            row = int(np.searchsorted(track.time_s, time_s + _NOWHERE, side="right")) - 1
+            if row >= 0:
+                at_s = float(track.time_s[row])
+                for topic, data in track.encoder.messages(0, track.values[row]).items():
+                    if topic not in last or at_s > last[topic][0]:
+                        last[topic] = at_s, data
+        return {topic: data for topic, (at_s, data) in last.items() if at_s < time_s - _NOWHERE}
+
     def messages(self, due: Due, stamp_ns: int) -> dict[str, bytes]:
         """Serialised messages of an entry by relative topic, stamped as told."""
         if due.track < 0:
