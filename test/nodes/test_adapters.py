@@ -16,12 +16,13 @@ import pytest
 
 from truck_blowout_sim import InitialState, load_vehicle
 from truck_blowout_sim.nodes.adapters import ackermann, attach_all, autoware, interfaces
+from truck_blowout_sim.nodes.adapters.commands import ForeignCommands
 from truck_blowout_sim.nodes.inputs import InputBank
 from truck_blowout_sim.nodes.plant import Plant
 from truck_blowout_sim.nodes.simulator_parameters import SPECS, inputs_of
 
 RATIO = 22.0
-DEFAULTS: dict[str, Any] = {spec.name: spec.default for spec in SPECS}
+DEFAULTS: dict[str, Any] = {spec.name: spec.default for spec in SPECS} | {"input_timeout_s": 0.0}
 
 
 class Topic:
@@ -37,9 +38,9 @@ class Topic:
 class Simulator:
     """The parts of the node that adapters use."""
 
-    def __init__(self) -> None:
-        vehicle = load_vehicle("international_9400i_trailmobile")
-        bank = InputBank(inputs_of(DEFAULTS))
+    def __init__(self, name: str = "international_9400i_trailmobile") -> None:
+        vehicle = load_vehicle(name)
+        bank = InputBank(inputs_of(DEFAULTS, vehicle.spec.brakes))
         self.plant = Plant(vehicle, 0.001, InitialState(speed_mps=20.0), bank)
         self.plant.build()
         self.commands = [Topic(one) for one in bank.inputs]
@@ -160,6 +161,23 @@ def test_ackermann_brakes_all_circuits_to_slow_down(
     pressures = {v for name, v in applied.items() if name.startswith("brake")}
     assert len(pressures) == 1
     assert 1e5 < pressures.pop() < 1e6
+
+
+@pytest.mark.parametrize(
+    "vehicle", ["international_9400i_trailmobile", "rigid_truck", "bmw_320i", "ferrari_250lm"]
+)
+def test_every_vehicle_brakes_and_turns_its_wheels_as_told(vehicle: str) -> None:
+    simulator = Simulator(vehicle)
+    commands = ForeignCommands(simulator)  # type: ignore[arg-type]
+    speeds_mps = []
+    for _ in range(20):
+        speed_mps = commands.speed_mps
+        commands.take(0.01, speed_mps, -2.0)  # no error of speed: the feed-forward alone
+        simulator.plant.advance(100)
+        speeds_mps.append(speed_mps)
+    # air brakes build up over half a second; air and tires brake, too
+    assert speeds_mps[10] - speeds_mps[-1] == pytest.approx(0.9 * 2.0, rel=0.2)
+    assert 0.005 < commands.steer_rad < 0.011  # a steering gear gives way under load
 
 
 class Report(SimpleNamespace):

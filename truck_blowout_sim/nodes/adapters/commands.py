@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from truck_blowout_sim.nodes.adapters.longitudinal import speed_controller
 from truck_blowout_sim.nodes.steering_gear import hand_wheel_rad
+from truck_blowout_sim.vehicle.places import hub_places
 
 if TYPE_CHECKING:
     from truck_blowout_sim.nodes.simulator_node import Simulator
@@ -27,8 +28,8 @@ class ForeignCommands:
         self._controller = speed_controller(vehicle)
         names = list(simulator.plant.output_names)
         self._speed = names.index("tractor_vx_mps")
-        steered = [name for name in names if name.endswith("_steer_rad")]
-        self._steer = [names.index(name) for name in steered if name.startswith("steer_")]
+        steered = [place.hub for place in hub_places(vehicle) if place.steered]
+        self._steer = [names.index(f"{hub}_steer_rad") for hub in steered]
 
     @property
     def speed_mps(self) -> float:
@@ -61,4 +62,5 @@ class ForeignCommands:
         self.steer(steer_rad)
         self._inputs["throttle"].take(throttle)
         for name in _BRAKES:
-            self._inputs[name].take(brake_pa)
+            topic = self._inputs[name]
+            topic.take(min(brake_pa, topic.guarded.high))

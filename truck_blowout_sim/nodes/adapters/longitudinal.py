@@ -1,7 +1,7 @@
 """Speed and acceleration wishes turned into throttle and brake pressure. Knows nothing of ROS.
 
 References: drive force = throttle * power / speed - (1 - throttle) * engine drag, as in
-`physics/driveline.py`; brakes taken as proportional.
+`physics/driveline.py`; brakes as in `brake_curve.py`.
 Known limits: road grade and tire drag are left to the feedback on speed.
 """
 
@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from truck_blowout_sim.nodes.adapters.brake_curve import BrakeCurve, brake_curve
 from truck_blowout_sim.vehicle import Vehicle
 
 _LOWEST_SPEED_MPS = 1.0
@@ -24,8 +25,8 @@ class SpeedController:
         power_w: at full throttle.
         max_force_n: of the drive at low speed.
         drag_n: of the engine with the throttle closed.
+        brakes: braking force over control pressure.
         gain_ps: acceleration per speed error.
-        brake_papmps2: control pressure per deceleration.
         max_deceleration_mps2: what is asked of the brakes at most.
     """
 
@@ -33,8 +34,8 @@ class SpeedController:
     power_w: float
     max_force_n: float
     drag_n: float
+    brakes: BrakeCurve
     gain_ps: float = 0.5
-    brake_papmps2: float = 110e3
     max_deceleration_mps2: float = 6.0
 
     def pedals(
@@ -52,7 +53,7 @@ class SpeedController:
         if force_n >= -self.drag_n:
             return self._throttle(force_n, speed_mps), 0.0
         deceleration = min(-(force_n + self.drag_n) / self.mass_kg, self.max_deceleration_mps2)
-        return 0.0, deceleration * self.brake_papmps2
+        return 0.0, self.brakes.pressure_pa(deceleration * self.mass_kg)
 
     def _rolling_n(self) -> float:
         return 0.006 * self.mass_kg * _GRAVITY_MPS2
@@ -64,7 +65,7 @@ class SpeedController:
 
 
 def speed_controller(vehicle: Vehicle) -> SpeedController:
-    """A controller for a vehicle, from its masses and driveline."""
+    """A controller for a vehicle, from its masses, driveline and brakes."""
     bodies_kg = sum(
         unit.body.mass_kg + sum(block.mass_kg for block in unit.payload.values())
         for unit in vehicle.unit_specs.values()
@@ -76,4 +77,5 @@ def speed_controller(vehicle: Vehicle) -> SpeedController:
         power_w=driveline.power_w,
         max_force_n=driveline.max_force_n,
         drag_n=driveline.drag_n,
+        brakes=brake_curve(vehicle),
     )
