@@ -18,7 +18,8 @@ from sensor_msgs.msg import FluidPressure
 from std_msgs.msg import Float64
 from std_srvs.srv import Trigger
 
-from truck_blowout_sim.nodes import player_parameters
+from truck_blowout_sim.errors import InputError
+from truck_blowout_sim.nodes import player_parameters, urdf
 from truck_blowout_sim.nodes.lane_keeper_node import SPECS as LANE_KEEPER_SPECS
 from truck_blowout_sim.nodes.parameters import Spec, markdown
 from truck_blowout_sim.nodes.simulator_parameters import PLAIN_SPECS, SPECS, inputs_markdown
@@ -171,6 +172,34 @@ def test_the_documentation_lists_the_parameters_as_they_are(specs: tuple[Spec, .
     page = (ROOT / "docs" / "ros.md").read_text()
     assert markdown(specs) in page
     assert inputs_markdown() in page
+
+
+def test_a_lone_text_is_a_list_of_one() -> None:
+    row = next(spec for spec in player_parameters.SPECS if spec.name == "also")
+    assert row.checked("other.csv") == ["other.csv"]
+    assert row.checked(("a.csv", "b.csv")) == ["a.csv", "b.csv"]
+    for bad in (5, [1, 2], None, True):
+        with pytest.raises(InputError, match=r"also: .* is no list of texts"):
+            row.checked(bad)
+
+
+def test_a_robot_description_is_written_where_nothing_is(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    target = tmp_path / "new" / "truck.urdf"
+    assert urdf.main(["rigid_truck", "-o", str(target)]) == 0
+    assert target.read_text().startswith("<?xml")
+    target.write_text("mine")
+    assert urdf.main(["rigid_truck", "-o", str(target)]) == 2
+    assert "exists already" in capsys.readouterr().err
+    assert target.read_text() == "mine"
+    assert urdf.main(["rigid_truck", "-o", str(target), "--force"]) == 0
+    assert target.read_text() != "mine"
+    assert urdf.main(["rigid_truck", "-o", str(target / "below.urdf")]) == 2
+    assert urdf.main(["rigid_truck", "-o", str(tmp_path), "--force"]) == 2
+    assert urdf.main(["rigid_truck", "--no-such-option"]) == 2
+    assert urdf.main(["no_such_truck"]) == 2
+    assert [line[:5] for line in capsys.readouterr().err.splitlines()] == ["urdf:"] * 4
 
 
 def test_specs_have_defaults_of_their_own_type() -> None:

@@ -169,6 +169,13 @@ def _foreign_odometry(store: Any) -> Any:
         (("LOG", "--start-offset", "99"), "start_offset 99 s lies behind its end"),
         (("LOG", "--rate", "0"), "rate"),
         (("LOG", "--no-such-option"), "unrecognized arguments"),
+        (("LOG", "--measured", "a b"), "measured: 'a b'"),
+        (("LOG", "--simulator", "a//b"), "simulator: 'a//b'"),
+        (("LOG", "--ros-args", "-p", "also:=5"), "also: 5 is no list of texts"),
+        (("LOG", "--ros-args", "-p", "also:=[1, 2]"), "also: "),
+        (("LOG", "--ros-args", "-p", "also:=other.csv"), "other.csv: "),
+        (("LOG", "--ros-args", "-p", "remap:=nonsense"), "'nonsense' is no remapping"),
+        (("LOG", "--ros-args", "-r", "__ns:=/a b"), "a b"),
     ],
 )
 def test_bad_usage_is_one_line_and_status_2(

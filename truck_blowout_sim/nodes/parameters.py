@@ -53,7 +53,7 @@ class Spec:
         if isinstance(self.default, float) and type(value) is int:
             value = float(value)  # `100` in a YAML file is as good as `100.0`
         if isinstance(self.default, list):
-            value = list(value)  # type: ignore[call-overload]
+            value = _texts(value)
         if type(value) is not type(self.default):
             raise InputError(
                 f"{quoted(value)} is no {_type_name(self.default)}",
@@ -133,6 +133,14 @@ def markdown(specs: Sequence[Spec]) -> str:
         marks = ", ".join([" ".join(filter(None, (default, spec.unit))), *["*live*"] * spec.live])
         lines.append(f"- `{spec.name}` ({marks}): {spec.text}")
     return "\n".join(lines) + "\n"
+
+
+def _texts(value: object) -> object:
+    """A list of texts, also from a lone one; anything else as it is, without becoming a list."""
+    texts = [value] if isinstance(value, str) else value
+    if isinstance(texts, Sequence) and all(isinstance(one, str) for one in texts):
+        return list(texts)
+    return tuple(texts) if isinstance(texts, list) else value
 
 
 def _yaml(value: Value) -> str:

@@ -21,7 +21,7 @@ from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.nodes import runtime
 from truck_blowout_sim.nodes.pace_watch import PaceWatch
 from truck_blowout_sim.nodes.parameters import check_changes
-from truck_blowout_sim.nodes.player_parameters import SPECS, remappings
+from truck_blowout_sim.nodes.player_parameters import SPECS, check_names, remappings
 from truck_blowout_sim.nodes.player_services import serve
 from truck_blowout_sim.nodes.playlist import Due, Playlist
 from truck_blowout_sim.nodes.playtime import ClockTime, WallTime
@@ -50,6 +50,7 @@ class Player:
     def __init__(self, node: Node, values: dict[str, Any]) -> None:
         if not values["recording"]:
             raise InputError("no recording named", expected="player RECORDING, or -p recording:=…")
+        check_names(values)
         self.node = node
         self.values = values
         self.log = node.get_logger()
@@ -60,7 +61,7 @@ class Player:
                              expected="the mapping file alone; it names topics, too")  # fmt: skip
         recording = read_recording(
             find_recording(values["recording"]), remap=remap or None,
-            mapping=values["map"] or None, also=filter(None, values["also"]),
+            mapping=values["map"] or None, also=[word for word in values["also"] if word],
             blow=parse_blowouts([word for word in values["blow"].split(",") if word.strip()]),
         )  # fmt: skip
         self.playlist = Playlist(recording)

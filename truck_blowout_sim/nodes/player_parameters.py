@@ -2,6 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from typing import Any
+
+from rclpy.exceptions import NameValidationException
+from rclpy.expand_topic_name import expand_topic_name
+from rclpy.validate_full_topic_name import validate_full_topic_name
+from rclpy.validate_topic_name import validate_topic_name
+
 from truck_blowout_sim.errors import InputError, quoted
 from truck_blowout_sim.nodes.parameters import Spec
 
@@ -35,6 +43,25 @@ SPECS: tuple[Spec, ...] = (
     Spec("seek_to_s", 0.0, "Where `~/seek` goes, from the beginning of the recording.", "s",
          0, 1e7, live=True),
 )  # fmt: skip
+
+
+def check_names(values: Mapping[str, Any]) -> None:
+    """Judge what becomes part of a name of ROS 2.
+
+    Raises:
+        InputError: with it, no topic or service can have that name.
+    """
+    for name in ("measured", "simulator"):
+        try:
+            topic = f"{values[name].rstrip('/')}/x"
+            validate_topic_name(topic)
+            validate_full_topic_name(expand_topic_name(topic, "player", "/truck"))
+        except NameValidationException as error:
+            problem = str(error).splitlines()[0]
+            raise InputError(
+                f"{quoted(values[name])}: {problem}", file="parameter", where=name,
+                expected="letters, digits and _, in parts joined by /",
+            ) from error  # fmt: skip
 
 
 def remappings(words: list[str]) -> dict[str, str]:

@@ -135,10 +135,15 @@ def _life(
         node.destroy_node()
 
 
-class _Parser(argparse.ArgumentParser):
+class OneLineParser(argparse.ArgumentParser):
     """A parser whose errors are one line, with the nearest option for a typo."""
 
     def error(self, message: str) -> NoReturn:
+        """Refuse the command line.
+
+        Raises:
+            InputError: always.
+        """
         expected = "options as --help shows them"
         wrong = next((w for w in message.split() if w.startswith("--")), "").split("=")[0]
         if wrong and message.startswith("unrecognized"):
@@ -149,7 +154,7 @@ class _Parser(argparse.ArgumentParser):
 def _parse(
     name: str, specs: Sequence[Spec], about: str, words: Sequence[str], positional: str | None
 ) -> list[Parameter[Any]]:
-    parser = _Parser(
+    parser = OneLineParser(
         prog=name,
         description=about,
         epilog="Every option is a parameter, too: --ros-args -p name:=value, --params-file FILE.",
