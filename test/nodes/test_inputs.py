@@ -10,6 +10,7 @@ import pytest
 from diagnostic_msgs.msg import DiagnosticArray
 from std_msgs.msg import Float64
 
+from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.nodes.inputs import Input
 from truck_blowout_sim.nodes.simulator_parameters import SPECS, inputs_of
 
@@ -126,3 +127,26 @@ def test_pressures_are_bounded_by_the_kind_of_brakes() -> None:
     assert highest == {"air": 1.0e6, "hydraulic": 2.5e7}
     stated = values | {"inputs.brake_pressure_trailer_pa.max": 5.0e5}
     assert inputs_of(stated, "hydraulic")[-1].high == 5.0e5
+
+
+@pytest.mark.parametrize("name", ["throttle", "steering_wheel_angle_rad"])
+def test_a_greatest_value_of_zero_is_zero_where_it_is_no_pressure(name: str) -> None:
+    values: dict[str, Any] = {spec.name: spec.default for spec in SPECS}
+    (one,) = (i for i in inputs_of(values | {f"inputs.{name}.max": 0.0}) if i.name == name)
+    assert "refused" in one.offer(0.01, 0)
+    assert one.offer(0.0, 0) == ""
+
+
+@pytest.mark.parametrize(
+    ("given", "said"),
+    [
+        ({"throttle.min": 0.8, "throttle.max": 0.2}, r"inputs\.throttle\.min: 0\.8 lies above max"),
+        ({"throttle.max": 0.5, "throttle.safe_value": 0.7}, "expected min to max, 0 to 0.5"),
+        ({"steering_wheel_angle_rad.min": 1.0}, "safe_value: 0 is out of range"),
+        ({"brake_pressure_drive_pa.safe_value": 2.0e6}, "0 to 1e"),
+    ],
+)
+def test_a_range_that_excludes_what_applies_is_refused(given: dict[str, float], said: str) -> None:
+    values: dict[str, Any] = {spec.name: spec.default for spec in SPECS}
+    with pytest.raises(InputError, match=said):
+        inputs_of(values | {f"inputs.{key}": value for key, value in given.items()})

@@ -128,6 +128,7 @@ def test_parameters_describe_themselves_and_keep_their_ranges(start: Any, client
         (("--ros-args", "-p", "publish_rate_hz:=fast"), "publish_rate_hz: 'fast' is no number"),
         (("--ros-args", "-p", "real_time_factor:=-2.0"), "real_time_factor"),
         (("--ros-args", "--no-such-argument"), "no-such-argument"),
+        (("--inputs.throttle.min", "0.9", "--inputs.throttle.max", "0.1"), "lies above max, 0.1"),
         (("--initial-sped-mps", "20"), "--initial-speed-mps (the nearest)"),
     ],
 )

@@ -14,7 +14,7 @@ from truck_blowout_sim.nodes import blow_schedule
 from truck_blowout_sim.nodes.clock import WallPace
 from truck_blowout_sim.nodes.parameters import check_changes
 from truck_blowout_sim.nodes.recorder import check_inside
-from truck_blowout_sim.nodes.simulator_parameters import SPECS, timeout_of
+from truck_blowout_sim.nodes.simulator_parameters import SPECS, check_safe_value, timeout_of
 
 if TYPE_CHECKING:
     from truck_blowout_sim.nodes.simulator_node import Simulator
@@ -50,7 +50,7 @@ class LiveParameters:
         """What a row alone cannot judge; the plan of blowouts, if there is one.
 
         Raises:
-            InputError: an unknown tire or input, or a bag elsewhere.
+            InputError: an unknown tire or input, a bag elsewhere, or a safe value out of range.
         """
         plans: dict[str, Any] = {}
         for change in changes:
@@ -60,6 +60,9 @@ class LiveParameters:
                 self._simulator.lockstep.inputs_named(change.value)
             elif change.name == "record_path":
                 check_inside(self._simulator.recorder.folder, change.value)
+            for one in self._simulator.plant.bank.inputs:
+                if change.name == f"inputs.{one.name}.safe_value":
+                    check_safe_value(one, float(change.value))
         return plans
 
     def _apply(self) -> None:

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.nodes.inputs import Input
 from truck_blowout_sim.nodes.outputs import GROUPS
 from truck_blowout_sim.nodes.parameters import Spec
@@ -131,18 +132,39 @@ def inputs_of(values: Values, brakes: str = "air") -> list[Input]:
     Args:
         values: parameters.
         brakes: what is in the vehicle's brake lines; bounds pressures whose `max` is 0.
+
+    Raises:
+        InputError: a range without a value in it, or a safe value outside of it.
     """
-    return [
-        Input(
+    found = []
+    for name, (topic, _, _, most) in _COMMANDS.items():
+        high = values[f"inputs.{name}.max"]
+        one = Input(
             name=name,
-            topic=command[0],
+            topic=topic,
             low=values[f"inputs.{name}.min"],
-            high=values[f"inputs.{name}.max"] or command[3] or _MOST_PA[brakes],
+            high=high if high or most else _MOST_PA[brakes],
             timeout_s=timeout_of(values, name),
             safe_value=values[f"inputs.{name}.safe_value"],
         )
-        for name, command in _COMMANDS.items()
-    ]
+        if not one.low <= one.high:
+            raise InputError(f"{one.low:g} lies above max, {one.high:g}", file="parameter",
+                             where=f"inputs.{name}.min", expected="min <= max")  # fmt: skip
+        check_safe_value(one, one.safe_value)
+        found.append(one)
+    return found
+
+
+def check_safe_value(one: Input, value: float) -> None:
+    """What applies without messages must be a value that a message may bring.
+
+    Raises:
+        InputError: it lies outside of the input's range.
+    """
+    if not one.low <= value <= one.high:
+        raise InputError(f"{value:g} is out of range", file="parameter",
+                         where=f"inputs.{one.name}.safe_value",
+                         expected=f"min to max, {one.low:g} to {one.high:g}")  # fmt: skip
 
 
 def timeout_of(values: Values, name: str) -> float:
