@@ -389,6 +389,33 @@ def test_interfaces_play_pause_and_stop(served: Any, simulator: Any) -> None:
     assert simulator.done == ["reset", "quit"]
 
 
+@pytest.mark.parametrize("how", ["resume and pause", "step"])
+def test_a_stopped_simulator_that_went_on_is_not_stopped(
+    served: Any, simulator: Any, how: str
+) -> None:
+    set_state(served, State.STATE_STOPPED)
+    if how == "step":
+        assert served("step_simulation", steps=1).result.result == Result.RESULT_OK
+    else:
+        simulator.resume()
+    simulator.plant.advance(10)
+    simulator.pause()
+    assert served("get_simulation_state").state.state == State.STATE_PAUSED
+    simulator.done.clear()
+    assert set_state(served, State.STATE_STOPPED) == Result.RESULT_OK
+    assert simulator.done == ["reset"], "stopped means the initial state"
+
+
+def test_a_refused_stop_stops_nothing(
+    served: Any, simulator: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    simulator.pause()
+    with monkeypatch.context() as compiling:
+        compiling.setattr(simulator, "ready", lambda: (False, "being compiled"))
+        assert set_state(served, State.STATE_STOPPED) == Result.RESULT_OPERATION_FAILED
+    assert served("get_simulation_state").state.state == State.STATE_PAUSED
+
+
 def test_interfaces_step_and_reset(served: Any, simulator: Any) -> None:
     assert served("step_simulation", steps=1).result.result == Result.RESULT_OPERATION_FAILED
     simulator.pause()

@@ -107,9 +107,9 @@ class InterfaceServices:
             return response
         act = acts[wanted]
         reply = (act if wanted == state.STATE_QUITTING else once_ready(self._simulator, act))()
-        self._answer(response, reply, self._result.RESULT_OPERATION_FAILED)
-        self._stopped = wanted == state.STATE_STOPPED
-        return response
+        if reply[0]:
+            self._stopped = wanted == state.STATE_STOPPED
+        return self._answer(response, reply, self._result.RESULT_OPERATION_FAILED)
 
     def step(self, request: Any, response: Any) -> Any:  # noqa: ANN401
         """As many publishing periods as asked."""
@@ -133,7 +133,9 @@ class InterfaceServices:
     def _present(self) -> int:
         if not self._simulator.paused:
             return int(self._state.STATE_PLAYING)
-        return int(self._state.STATE_STOPPED if self._stopped else self._state.STATE_PAUSED)
+        # the simulator's own services may have let it run or step since
+        stopped = self._stopped and self._simulator.plant.elapsed_ns == 0
+        return int(self._state.STATE_STOPPED if stopped else self._state.STATE_PAUSED)
 
     def _answer(self, response: Any, reply: tuple[bool, str], failure: int) -> Any:  # noqa: ANN401
         response.result.result = self._result.RESULT_OK if reply[0] else failure
