@@ -3,6 +3,7 @@
 # ruff: noqa: ANN401 (fixtures and messages come from rclpy, which has no types for them)
 from __future__ import annotations
 
+import signal
 from pathlib import Path
 from typing import Any
 
@@ -110,6 +111,33 @@ def test_a_replay_from_behind_the_blowout_has_the_flat_tire_and_the_held_pedal(
     assert replayed["tire_pressure_steer_left_pa"].value[-1] < 1e5
     assert replayed["throttle"].value.max() == pytest.approx(0.6)  # until its timeout
     assert runs(client)
+
+
+def test_ctrl_c_while_the_player_prepares_is_a_quiet_end(
+    start: Any, client: Any, bags: Path
+) -> None:
+    """A simulator that is ready, pauses, and then takes no parameters."""
+    asked: list[str] = []
+
+    def serve(name: str) -> None:
+        def answer(_: Any, response: Any) -> Any:
+            asked.append(name)
+            response.success = True
+            return response
+
+        client.node.create_service(Trigger, f"/stand_in/{name}", answer)
+
+    for name in ("ready", "pause", "resume"):
+        serve(name)
+    player = start("player", log(bags / "asked.csv"), "--ros-args", "-r", "__ns:=/stand_in")
+    client.until(lambda: "pause" in asked, what="the player to prepare")
+    client.spin(0.5)
+    player.process.send_signal(signal.SIGINT)
+    client.until(lambda: player.process.poll() is not None, what="its end")
+    assert player.wait() == 0, player.output
+    assert "stopped by SIGINT" in player.output
+    assert "did not answer" not in player.output
+    assert asked[-1] == "resume"
 
 
 def test_a_simulator_at_another_speed_than_the_recording_is_told(

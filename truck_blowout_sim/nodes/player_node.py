@@ -106,6 +106,9 @@ class Player:
                     self._finish(executor)
                 if stop or not self.values["loop"]:
                     break
+        except InputError:
+            if not stop:  # what was waited for did not come because the wait was ended
+                raise
         finally:
             # also when the recording cannot be played, or Ctrl-C has come
             self.stage.leave(executor)
