@@ -34,6 +34,10 @@ class StopFlag:
 
     def __enter__(self) -> StopFlag:
         for number in CAUGHT:
+            # `nohup` asks to outlive the terminal. An ignored SIGINT only says that a script put
+            # the node into the background; who sends it one (`kill -INT`, a launcher) means it.
+            if number == signal.SIGHUP and signal.getsignal(number) == signal.SIG_IGN:
+                continue
             self._before[number] = signal.signal(number, self._catch)
         return self
 
