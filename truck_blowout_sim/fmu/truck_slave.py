@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from pythonfmu3 import Boolean, Float64, Fmi3Causality, Fmi3Slave, Fmi3Variability
+from pythonfmu3 import Boolean, Float64, Fmi3Causality, Fmi3Slave, Fmi3Status, Fmi3Variability
 from pythonfmu3.default_experiment import DefaultExperiment
 
 from truck_blowout_sim import InitialState, Inputs, load_vehicle
@@ -35,6 +35,7 @@ class Truck(Fmi3Slave):  # type: ignore[misc]
         self.switches = dict.fromkeys(self.vehicle.tires, False)
         self.start_s = 0.0
         self.model: Model | None = None
+        self.ended = False
         self.results = dict.fromkeys(self._outputs(), 0.0)
         self._register()
 
@@ -71,6 +72,7 @@ class Truck(Fmi3Slave):  # type: ignore[misc]
         """Settle the truck at its speed with the inputs as they are."""
         initial = InitialState(speed_mps=self.initial_speed_mps, time_s=self.start_s,
                                inputs=Inputs(**self.commands))
+        self.ended = False
         self.model = Model(self.vehicle, step_s=_STEP_S, initial=initial)
         self._look()
 
@@ -86,7 +88,15 @@ class Truck(Fmi3Slave):  # type: ignore[misc]
                 self.model.blow(tire)
         self.model.advance(Inputs(**self.commands), n)
         self._look()
-        return self.model.finite
+        return self._goes_on(self.model)
+
+    def _goes_on(self, model: Model) -> bool:
+        """Whether there is a next step; why not is said once."""
+        ending = model.ending
+        if ending and not self.ended:
+            self.log(f"{ending.words} at {ending.time_s:.3f} s", Fmi3Status.discard)
+        self.ended = ending is not None
+        return not self.ended
 
     def _look(self) -> None:
         assert self.model is not None
