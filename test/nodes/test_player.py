@@ -14,6 +14,7 @@ from rcl_interfaces.srv import SetParameters
 from rclpy.serialization import deserialize_message
 from rosbags.rosbag2 import StoragePlugin, Writer
 from rosbags.typesys import Stores, get_typestore
+from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import FluidPressure, Imu
 from std_msgs.msg import Float64, String
 from std_srvs.srv import Trigger
@@ -158,6 +159,31 @@ def _foreign_odometry(store: Any) -> Any:
     from truck_blowout_sim.recordings.channels import ODOMETRY
 
     return store.deserialize_cdr(template(ODOMETRY, child_frame_id="ins"), ODOMETRY)
+
+
+def test_a_clock_that_stands_a_rounding_before_a_message_does_not_hold_it(
+    start: Any, client: Any, tmp_path: Path
+) -> None:
+    """At 1000 times the speed a nanosecond of the clock is a microsecond of the recording."""
+    path = tmp_path / "fine.csv"
+    angle = Series(np.array([0.0, 0.0100005, 0.02]), np.array([0.1, 0.2, 0.3]))
+    write_recording(Recording("fine", {"steering_wheel_angle_rad": angle}), path)
+    wheel = client.listen(Float64, "/truck/steering_wheel_angle")
+    player = start("player", path, "--rate", 1000, *ALONE, "--delay", 2.0,
+                   "--ros-args", "-p", "use_sim_time:=true")  # fmt: skip
+    client.until(lambda: client.node.count_publishers("/truck/steering_wheel_angle"), what="player")
+    client.meet("/truck/player")
+    clock = client.node.create_publisher(Clock, "/clock", 10)
+
+    def heard(messages: int, clock_ns: int) -> bool:
+        message = Clock()
+        message.clock.nanosec = clock_ns
+        clock.publish(message)
+        return len(wheel) == messages
+
+    for messages, clock_ns in ((1, 0), (2, 10_000), (3, 20_000)):
+        client.until(lambda m=messages, at=clock_ns: heard(m, at), 20.0, f"message {messages}")
+    assert player.wait(20.0) == 0
 
 
 @pytest.mark.parametrize(

@@ -190,7 +190,8 @@ class Player:
             if wait_s > 0.0:
                 executor.spin_once(timeout_sec=min(wait_s, _IDLE_S))
             else:
-                self._publish_until(min(self.time.position_s, self.end_s))
+                # what the time calls due is played: a difference of rounding must not spin for ever
+                self._publish_until(min(max(self.time.position_s, next_s), self.end_s))
 
     def _apply_what_holds(self) -> None:
         """Commands given before the start, and on a truck that was put there the blown tires."""
