@@ -12,6 +12,7 @@ import time
 from collections.abc import Callable, Iterator
 from contextlib import suppress
 from pathlib import Path
+from types import ModuleType
 from typing import IO, Any
 
 import pytest
@@ -247,3 +248,20 @@ def module_client(domain: int) -> Iterator[Client]:
     made = Client(domain)
     yield made
     made.close()
+
+
+@pytest.fixture
+def install(monkeypatch: pytest.MonkeyPatch) -> Callable[..., None]:
+    """Puts a stand-in for a package of messages where it is imported from."""
+
+    def put(package: str, **modules: dict[str, Any]) -> None:
+        top = ModuleType(package)
+        monkeypatch.setitem(sys.modules, package, top)
+        for name, members in modules.items():
+            module = ModuleType(f"{package}.{name}")
+            for key, value in members.items():
+                setattr(module, key, value)
+            setattr(top, name, module)
+            monkeypatch.setitem(sys.modules, f"{package}.{name}", module)
+
+    return put

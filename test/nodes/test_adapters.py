@@ -3,19 +3,17 @@
 # ruff: noqa: ANN401 (stand-ins have whatever fields the adapter asks for)
 from __future__ import annotations
 
-import asyncio
 import logging
-import sys
 from collections.abc import Callable
 from importlib.util import find_spec
-from types import ModuleType, SimpleNamespace
+from types import SimpleNamespace
 from typing import Any, ClassVar
 
 import numpy as np
 import pytest
 
 from truck_blowout_sim import InitialState, load_vehicle
-from truck_blowout_sim.nodes.adapters import ackermann, attach_all, autoware, interfaces
+from truck_blowout_sim.nodes.adapters import ackermann, attach_all, autoware
 from truck_blowout_sim.nodes.adapters.commands import ForeignCommands
 from truck_blowout_sim.nodes.inputs import InputBank
 from truck_blowout_sim.nodes.plant import Plant
@@ -46,33 +44,6 @@ class Simulator:
         self.commands = [Topic(one) for one in bank.inputs]
         self.reports: list[Callable[[int], None]] = []
         self.outputs = SimpleNamespace(also=self.reports.append)
-        self.paused = False
-        self.done: list[str] = []
-
-    def __getattr__(self, name: str) -> Callable[[], tuple[bool, str]]:
-        if name not in ("reset", "quit"):
-            raise AttributeError(name)
-
-        def act() -> tuple[bool, str]:
-            self.done.append(name)
-            return True, name
-
-        return act
-
-    def ready(self) -> tuple[bool, str]:
-        return True, "ready"
-
-    def step_by(self, periods: int) -> tuple[bool, str]:
-        self.done += ["step"] * periods
-        return self.paused, "step works while paused"
-
-    def pause(self) -> tuple[bool, str]:
-        self.paused = True
-        return True, "paused"
-
-    def resume(self) -> tuple[bool, str]:
-        self.paused = False
-        return True, "running"
 
     @property
     def applied(self) -> dict[str, float]:
@@ -110,17 +81,6 @@ class Node:
         self.served[name] = callback
 
 
-def install(monkeypatch: pytest.MonkeyPatch, package: str, **modules: dict[str, Any]) -> None:
-    top = ModuleType(package)
-    monkeypatch.setitem(sys.modules, package, top)
-    for name, members in modules.items():
-        module = ModuleType(f"{package}.{name}")
-        for key, value in members.items():
-            setattr(module, key, value)
-        setattr(top, name, module)
-        monkeypatch.setitem(sys.modules, f"{package}.{name}", module)
-
-
 simulator = pytest.fixture(name="simulator")(lambda: Simulator())
 node = pytest.fixture(name="node")(lambda: Node())
 
@@ -137,9 +97,9 @@ def test_nothing_is_active_without_the_packages(node: Any, simulator: Any) -> No
 
 
 def test_ackermann_steers_by_the_ratio_and_accelerates(
-    monkeypatch: pytest.MonkeyPatch, node: Any, simulator: Any
+    install: Any, node: Any, simulator: Any
 ) -> None:
-    install(monkeypatch, "ackermann_msgs", msg={"AckermannDriveStamped": object})
+    install("ackermann_msgs", msg={"AckermannDriveStamped": object})
     assert ackermann.attach(node, simulator)
     drive = SimpleNamespace(steering_angle=0.05, speed=22.0, acceleration=0.0)
     node.taken["ackermann_cmd"](SimpleNamespace(drive=drive))
@@ -150,9 +110,9 @@ def test_ackermann_steers_by_the_ratio_and_accelerates(
 
 
 def test_ackermann_brakes_all_circuits_to_slow_down(
-    monkeypatch: pytest.MonkeyPatch, node: Any, simulator: Any
+    install: Any, node: Any, simulator: Any
 ) -> None:
-    install(monkeypatch, "ackermann_msgs", msg={"AckermannDriveStamped": object})
+    install("ackermann_msgs", msg={"AckermannDriveStamped": object})
     ackermann.attach(node, simulator)
     drive = SimpleNamespace(steering_angle=0.0, speed=15.0, acceleration=-1.0)
     node.taken["ackermann_cmd"](SimpleNamespace(drive=drive))
@@ -202,9 +162,9 @@ AUTOWARE = {
 
 
 @pytest.fixture
-def autoware_messages(monkeypatch: pytest.MonkeyPatch) -> None:
-    install(monkeypatch, "autoware_control_msgs", msg={"Control": object})
-    install(monkeypatch, "autoware_vehicle_msgs", msg=AUTOWARE, srv={"ControlModeCommand": object})
+def autoware_messages(install: Any) -> None:
+    install("autoware_control_msgs", msg={"Control": object})
+    install("autoware_vehicle_msgs", msg=AUTOWARE, srv={"ControlModeCommand": object})
 
 
 @pytest.mark.usefixtures("autoware_messages")
@@ -272,161 +232,3 @@ def test_autoware_changes_mode_and_gear(node: Any, simulator: Any) -> None:
     take(command)
     assert simulator.applied["throttle"] == 0.0
     assert simulator.applied["brake_pressure_drive_pa"] > 0.0
-
-
-class Goal:
-    """A goal of the action, as rclpy hands it over."""
-
-    def __init__(self, steps: int, cancel_after: int = 10**9) -> None:
-        self.request = SimpleNamespace(steps=steps)
-        self.told: list[tuple[int, int]] = []
-        self.end = ""
-        self._cancel_after = cancel_after
-
-    @property
-    def is_cancel_requested(self) -> bool:
-        return len(self.told) >= self._cancel_after
-
-    def publish_feedback(self, feedback: Any) -> None:
-        self.told.append((feedback.completed_steps, feedback.remaining_steps))
-
-    def __getattr__(self, name: str) -> Callable[[], None]:
-        if name not in ("succeed", "abort", "canceled"):
-            raise AttributeError(name)
-        return lambda: setattr(self, "end", name)
-
-
-@pytest.mark.parametrize(
-    ("paused", "goal", "end", "steps"),
-    [
-        (True, Goal(3), "succeed", 3),
-        (True, Goal(9, 2), "canceled", 2),
-        (False, Goal(3), "abort", 0),
-    ],
-    ids=["done", "canceled", "not paused"],
-)
-def test_the_action_steps_with_feedback(
-    simulator: Any, paused: bool, goal: Goal, end: str, steps: int
-) -> None:
-    simulator.paused = paused
-    made = SimpleNamespace(
-        Result=lambda: SimpleNamespace(result=SimpleNamespace(result=-1, error_message="")),
-        Feedback=SimpleNamespace,
-    )
-    action = interfaces.StepsAction(
-        simulator, SimpleNamespace(Result=Result), SimpleNamespace(SimulateSteps=made)
-    )
-    result = asyncio.run(action.execute(goal))
-    assert goal.end == end
-    wanted = goal.request.steps
-    assert goal.told == [(n, wanted - n) for n in range(1, steps + 1)]
-    assert (result.result.result == Result.RESULT_OK) == (end == "succeed")
-
-
-class Result:
-    RESULT_FEATURE_UNSUPPORTED, RESULT_OK, RESULT_NOT_FOUND = 0, 1, 2
-    RESULT_INCORRECT_STATE, RESULT_OPERATION_FAILED = 3, 4
-
-
-class State:
-    STATE_STOPPED, STATE_PLAYING, STATE_PAUSED, STATE_QUITTING, STATE_NO_WORLD = range(5)
-
-
-class Features:
-    SIMULATION_RESET, SIMULATION_RESET_STATE = 20, 22
-    SIMULATION_STATE_GETTING, SIMULATION_STATE_SETTING, SIMULATION_STATE_PAUSE = 24, 25, 26
-    STEP_SIMULATION_SINGLE, STEP_SIMULATION_MULTIPLE, STEP_SIMULATION_ACTION = 31, 32, 33
-
-
-def service(**members: dict[str, int]) -> Any:
-    return SimpleNamespace(**{k: SimpleNamespace(**v) for k, v in members.items()})
-
-
-@pytest.fixture
-def served(monkeypatch: pytest.MonkeyPatch, node: Any, simulator: Any) -> Any:
-    scopes = {"SCOPE_DEFAULT": 0, "SCOPE_TIME": 1, "SCOPE_STATE": 2, "SCOPE_ALL": 255}
-    answers = {"ALREADY_IN_TARGET_STATE": 101, "INCORRECT_TRANSITION": 103}
-    install(
-        monkeypatch, "simulation_interfaces",
-        msg={"Result": Result, "SimulationState": State, "SimulatorFeatures": Features},
-        srv={
-            "GetSimulatorFeatures": service(), "GetSimulationState": service(),
-            "SetSimulationState": service(Response=answers),
-            "StepSimulation": service(), "ResetSimulation": service(Request=scopes),
-        },
-        action={"SimulateSteps": object},
-    )  # fmt: skip
-    monkeypatch.setattr(interfaces, "ActionServer", lambda *_, **__: None)
-    assert interfaces.attach(node, simulator)
-
-    def call(name: str, **request: Any) -> Any:
-        empty = SimpleNamespace(
-            result=SimpleNamespace(result=-1, error_message=""),
-            state=SimpleNamespace(state=-1), features=SimpleNamespace(features=[], custom_info=""),
-        )  # fmt: skip
-        return node.served[name](SimpleNamespace(**request), empty)
-
-    return call
-
-
-def set_state(served: Any, state: int) -> int:
-    return int(served("set_simulation_state", state=SimpleNamespace(state=state)).result.result)
-
-
-def test_interfaces_play_pause_and_stop(served: Any, simulator: Any) -> None:
-    assert served("get_simulation_state").state.state == State.STATE_PLAYING
-    assert set_state(served, State.STATE_PLAYING) == 101
-    assert set_state(served, State.STATE_PAUSED) == Result.RESULT_OK
-    assert served("get_simulation_state").state.state == State.STATE_PAUSED
-    assert set_state(served, State.STATE_STOPPED) == Result.RESULT_OK
-    assert simulator.done == ["reset"]
-    assert served("get_simulation_state").state.state == State.STATE_STOPPED
-    assert set_state(served, State.STATE_PAUSED) == 103
-    assert set_state(served, State.STATE_PLAYING) == Result.RESULT_OK
-    assert not simulator.paused
-    assert set_state(served, State.STATE_NO_WORLD) == Result.RESULT_FEATURE_UNSUPPORTED
-    assert set_state(served, State.STATE_QUITTING) == Result.RESULT_OK
-    assert simulator.done == ["reset", "quit"]
-
-
-@pytest.mark.parametrize("how", ["resume and pause", "step"])
-def test_a_stopped_simulator_that_went_on_is_not_stopped(
-    served: Any, simulator: Any, how: str
-) -> None:
-    set_state(served, State.STATE_STOPPED)
-    if how == "step":
-        assert served("step_simulation", steps=1).result.result == Result.RESULT_OK
-    else:
-        simulator.resume()
-    simulator.plant.advance(10)
-    simulator.pause()
-    assert served("get_simulation_state").state.state == State.STATE_PAUSED
-    simulator.done.clear()
-    assert set_state(served, State.STATE_STOPPED) == Result.RESULT_OK
-    assert simulator.done == ["reset"], "stopped means the initial state"
-
-
-def test_a_refused_stop_stops_nothing(
-    served: Any, simulator: Any, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    simulator.pause()
-    with monkeypatch.context() as compiling:
-        compiling.setattr(simulator, "ready", lambda: (False, "being compiled"))
-        assert set_state(served, State.STATE_STOPPED) == Result.RESULT_OPERATION_FAILED
-    assert served("get_simulation_state").state.state == State.STATE_PAUSED
-
-
-def test_interfaces_step_and_reset(served: Any, simulator: Any) -> None:
-    assert served("step_simulation", steps=1).result.result == Result.RESULT_OPERATION_FAILED
-    simulator.pause()
-    simulator.done.clear()
-    assert served("step_simulation", steps=3).result.result == Result.RESULT_OK
-    assert simulator.done == ["step"] * 3
-    assert served("reset_simulation", scope=0).result.result == Result.RESULT_OK
-    unsupported = served("reset_simulation", scope=1).result
-    assert unsupported.result == Result.RESULT_FEATURE_UNSUPPORTED
-    assert "time goes on" in unsupported.error_message
-
-
-def test_interfaces_list_what_they_support(served: Any) -> None:
-    assert 26 in served("get_simulator_features").features.features
