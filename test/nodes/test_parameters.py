@@ -114,9 +114,10 @@ def test_parameters_describe_themselves_and_keep_their_ranges(start: Any, client
         SetParameters.Request(parameters=[
             Parameter(name="real_time_factor", value=double(-1.0)),
             Parameter(name="step_s", value=double(0.002)),
+            Parameter(name="inputs.brake_pressure_drive_pa.safe_value", value=double(2.0e6)),
         ]),
     )  # fmt: skip
-    assert [result.successful for result in refused.results] == [False, False]
+    assert [result.successful for result in refused.results] == [False, False, False]
     assert node.stop() == 0
 
 
