@@ -9,6 +9,8 @@ import numpy as np
 import pytest
 
 from truck_blowout_sim.diagnosis.case.runs import Run, prepare_run, rms_sigma
+from truck_blowout_sim.diagnosis.effects import LIBRARY
+from truck_blowout_sim.diagnosis.fit.instants import grid_of
 from truck_blowout_sim.diagnosis.settings import Settings
 from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.recordings import Blowout, Recording, Series
@@ -169,3 +171,16 @@ def test_a_truck_that_leaves_the_range_of_the_model_is_an_error(
     wild = truck.with_values({"tire.steer_left.stiffness_npm": 1e9})
     with pytest.raises(InputError, match="left the range of the model"):
         run.corrected(wild)
+
+
+def test_a_run_too_short_for_any_event_is_refused_with_the_least_length(
+    drive_it: Drives, truck: Packed, few: Settings
+) -> None:
+    recording = drive_it()
+    start_s = recording.start_s
+    with pytest.raises(InputError, match=r"lasts 1\.\d+ s, which is too short.*at least 1\.5 s"):
+        prepare_run(recording.between(start_s, start_s + 1.45), "holdout", truck, few,
+                    step_s=0.0025)
+    shortest = prepare_run(recording.between(start_s, start_s + 1.52), "holdout", truck, few,
+                           step_s=0.0025)
+    assert all(grid_of(shortest, effect).size for effect in LIBRARY if effect.timed)

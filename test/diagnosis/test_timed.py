@@ -13,6 +13,7 @@ from truck_blowout_sim.diagnosis.effects import LIBRARY
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.fit.attribute import Ranked
 from truck_blowout_sim.diagnosis.fit.event_fit import fit_event
+from truck_blowout_sim.diagnosis.fit.instants import delayed
 from truck_blowout_sim.diagnosis.fit.refit import refit
 from truck_blowout_sim.diagnosis.fit.timed import refine_times, scan
 from truck_blowout_sim.diagnosis.name.candidates import failed_tires, unwatched_tires
@@ -129,3 +130,11 @@ def test_a_tire_that_loses_its_air_unasked_is_a_candidate(study_of: Studies) -> 
     found = failed_tires(study, study.train)
     assert list(found) == ["trailer_1_left_outer"]
     assert found["trailer_1_left_outer"]["run 1"] == pytest.approx(3.0, abs=0.1)
+
+
+@pytest.mark.parametrize("bins", [0, 3, 5, 8])
+def test_what_comes_later_than_a_run_lasts_changes_nothing(bins: int) -> None:
+    change = np.arange(1.0, 11.0).reshape(5, 2)
+    moved = delayed(change, bins)
+    assert not moved[:bins].any()
+    np.testing.assert_array_equal(moved[bins:], change[:max(5 - bins, 0)])

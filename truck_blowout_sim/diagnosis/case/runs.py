@@ -31,6 +31,7 @@ Floats = NDArray[np.float64]
 _BEST_INSTRUMENT = 0.1  # smallest noise believed, in units of the model's floor
 _COARSE_ENOUGH = 0.4  # rms sigmas that the coarse step may have to be corrected by; 0.1 is usual
 _LOST = 1e4  # sigmas assigned to a simulation that broke down
+EDGE_S = 0.5  # so close to either end of a run no event is tried
 
 
 @dataclass(frozen=True, eq=False)
@@ -179,7 +180,7 @@ def prepare_run(recording: Recording, role: Role, packed: Packed, settings: Sett
     fine step; what is tried is simulated on the settings' coarse one, corrected by the difference.
 
     Raises:
-        InputError: the recording cannot drive the model.
+        InputError: the recording cannot drive the model, or is too short to try any event in it.
     """
     fine, drive = (drive_from(recording, packed.vehicle, step_s=step, impose_speed=impose_speed)
                    for step in (step_s, max(step_s, settings.trial_step_s)))
@@ -188,8 +189,9 @@ def prepare_run(recording: Recording, role: Role, packed: Packed, settings: Sett
     channels = tuple(n for n in names if n in recording and n in noise
                      and settings.rule(n) and not _redundant(n, drive))
     n_bins = int((drive.times_s[-1] - drive.initial.time_s - settings.skip_s) / settings.bin_s)
+    _check_length(recording, n_bins, settings)
     start = drive.initial.time_s + settings.skip_s
-    edges: Floats = (start + np.arange(max(n_bins, 1) + 1) * settings.bin_s).astype(np.float64)
+    edges: Floats = (start + np.arange(n_bins + 1) * settings.bin_s).astype(np.float64)
     factor = wider(recording, drive, packed, edges, settings)
     if not channels:
         raise InputError("no channel that can be diagnosed", file=recording.name,
@@ -203,6 +205,16 @@ def prepare_run(recording: Recording, role: Role, packed: Packed, settings: Sett
     return Run(recording, role, drive, channels, tuple(names.index(n) for n in channels), edges,
                measured, sigma, plain, swing, factor, fine, np.zeros(measured.shape),
                Color.white(len(channels)))
+
+
+def _check_length(recording: Recording, n_bins: int, settings: Settings) -> None:
+    """Refuse a run in which no instant is far enough from both ends."""
+    least = round(2.0 * EDGE_S / settings.bin_s) + 1
+    if n_bins < least:
+        least_s = settings.skip_s + least * settings.bin_s
+        raise InputError(f"lasts {recording.end_s - recording.start_s:.3g} s, which is too short "
+                         "for a diagnosis", file=recording.name,
+                         expected=f"at least {least_s:.3g} s")
 
 
 def _redundant(name: str, drive: Drive) -> bool:

@@ -5,20 +5,19 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from truck_blowout_sim.diagnosis.case.runs import Run
+from truck_blowout_sim.diagnosis.case.runs import EDGE_S, Run
 from truck_blowout_sim.diagnosis.effects import Effect
 
 Floats = NDArray[np.float64]
 _GRID_S = 1.0
 _MOST_INSTANTS = 20
-_MARGIN_S = 0.5
 PARTS = 5  # of the distance between two instants
 _DELAYED_OVER = 3  # instants: so long, what a ramp does hardly depends on when it begins
 
 
 def grid_of(run: Run, effect: Effect) -> Floats:
     """Instants of an effect simulated in a run."""
-    return np.arange(run.edges_s[0] + _MARGIN_S, run.edges_s[-1] - _MARGIN_S,
+    return np.arange(run.edges_s[0] + EDGE_S, run.edges_s[-1] - EDGE_S,
                      spacing_s(run) * (_DELAYED_OVER if effect.timing == "ramp" else 1))
 
 
@@ -28,9 +27,9 @@ def spacing_s(run: Run) -> float:
 
 
 def delayed(change: Floats, bins: int) -> Floats:
-    """What an event changes [n, m], had it come so many bins later."""
+    """What an event changes [n, m], had it come so many bins later; nothing past the end."""
     moved = np.zeros(change.shape)
-    moved[bins:] = change[:change.shape[0] - bins]
+    moved[bins:] = change[:max(change.shape[0] - bins, 0)]
     return moved
 
 
