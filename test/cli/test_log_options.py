@@ -11,8 +11,9 @@ from pathlib import Path
 import pytest
 
 from truck_blowout_sim.cli.main import VERBS, main
-from truck_blowout_sim.cli.reading import LogOptions
+from truck_blowout_sim.cli.reading import LogOptions, apart_over_roles
 from truck_blowout_sim.errors import InputError
+from truck_blowout_sim.recordings import Recording
 
 SHIPPED = "test_2013_steer_blowout"
 READING = ("inspect", "import", "export", "compare", "diagnose", "calibrate", "plot", "view")
@@ -148,6 +149,14 @@ def test_of_one_run_the_named_tire_is_moved() -> None:
 
 def test_runs_of_one_name_are_told_apart() -> None:
     assert len({run.name for run in LogOptions().read_all([SHIPPED, SHIPPED + ".csv"])}) == 2
+
+
+def test_runs_of_one_name_in_several_roles_are_told_apart() -> None:
+    run = Recording("drive", {})
+    groups = [[run, Recording("other", {})], [run]]
+    roles = apart_over_roles(groups, [["a/drive.csv", "other.csv"], ["b/drive.csv"]])
+    assert [[one.name for one in role] for role in roles] == [
+        ["drive (a/drive.csv)", "other"], ["drive (b/drive.csv)"]]
 
 
 @pytest.mark.parametrize(("read", "said"), [

@@ -7,7 +7,8 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from truck_blowout_sim.diagnosis import calibrate, diagnose
+from truck_blowout_sim.diagnosis import QUICK, calibrate, diagnose
+from truck_blowout_sim.diagnosis.case.names import names_apart
 from truck_blowout_sim.diagnosis.case.usable import check_each_once, determined
 from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.recordings import Recording, Series
@@ -46,3 +47,19 @@ def test_a_fitted_run_does_not_prove_itself(use: Callable[..., object]) -> None:
     run = run_of("a", 20.0)
     with pytest.raises(InputError, match="is given twice: fitted as a, only predicted as a"):
         use([run], holdout=[run])
+
+
+def test_runs_of_one_name_get_names_of_their_own_over_all_roles() -> None:
+    runs = [run_of(name, 20.0) for name in ("drive", "drive (2)", "drive", "other", "drive")]
+    fitted, calm, unseen = names_apart(runs[:2], runs[2:4], runs[4:])
+    assert [[run.name for run in group] for group in (fitted, calm, unseen)] == [
+        ["drive", "drive (2)"], ["drive (3)", "other"], ["drive (4)"]]
+    assert fitted[0] is runs[0]
+    assert calm[1] is runs[3]
+
+
+def test_a_diagnosis_tells_runs_of_one_name_apart(drive_it: Callable[..., Recording]) -> None:
+    calm, asked = drive_it(seed=5, name="drive"), drive_it(seed=1, name="drive")
+    answer, _ = diagnose([asked], baseline=[calm], effort=QUICK, workers=1)
+    assert sorted(answer.evidence.recordings) == [("drive", "train"), ("drive (2)", "baseline")]
+    assert {force.recording for force in answer.evidence.forces} == {"drive"}

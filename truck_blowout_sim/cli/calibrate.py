@@ -12,7 +12,14 @@ from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 from truck_blowout_sim.cli.listing import list_option, names_of
 from truck_blowout_sim.cli.outputs import FORCE, JSON, YES, ask_about, claim, say
 from truck_blowout_sim.cli.progress import bar
-from truck_blowout_sim.cli.reading import AS_IT_IS, LogOptions, check_brakes, reads_logs, say_notes
+from truck_blowout_sim.cli.reading import (
+    AS_IT_IS,
+    LogOptions,
+    apart_over_roles,
+    check_brakes,
+    reads_logs,
+    say_notes,
+)
 
 if TYPE_CHECKING:
     from truck_blowout_sim.diagnosis.calibrate import Calibration
@@ -64,7 +71,8 @@ def command(
         raise InputError("is no name of a vehicle file", file=output, expected="a name in .yaml")
     loaded = load_vehicle(vehicle)
     among = len(recordings) + len(holdout)
-    runs, unseen = (logs.read_all(names, loaded, among) for names in (recordings, holdout))
+    roles = (recordings, holdout)
+    runs, unseen = apart_over_roles([logs.read_all(n, loaded, among) for n in roles], roles)
     logs.require_fit([*runs, *unseen])
     say_notes(*runs, *unseen)
     check_brakes(loaded, *runs, *unseen)

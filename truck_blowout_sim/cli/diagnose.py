@@ -17,7 +17,14 @@ from truck_blowout_sim.cli.failures import interruptible
 from truck_blowout_sim.cli.listing import list_option, names_of
 from truck_blowout_sim.cli.outputs import FORCE, JSON, YES, ask_about, claim, say
 from truck_blowout_sim.cli.progress import bar
-from truck_blowout_sim.cli.reading import AS_IT_IS, LogOptions, check_brakes, reads_logs, say_notes
+from truck_blowout_sim.cli.reading import (
+    AS_IT_IS,
+    LogOptions,
+    apart_over_roles,
+    check_brakes,
+    reads_logs,
+    say_notes,
+)
 
 if TYPE_CHECKING:
     from truck_blowout_sim.diagnosis import Diagnosis
@@ -137,7 +144,7 @@ def _read(logs: LogOptions, vehicle: Vehicle, recordings: Sequence[Path], *other
     groups = [logs.read_all(recordings, vehicle, among),
               *(rest.read_all(group, vehicle, among) for group in others)]  # fmt: skip
     logs.require_fit([run for group in groups for run in group])
-    return groups
+    return apart_over_roles(groups, (recordings, *others))
 
 
 def _claim(output: Path, corrected: Path | None, inputs: Sequence[Path], force: bool) -> None:

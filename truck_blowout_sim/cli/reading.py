@@ -193,6 +193,14 @@ def reads_logs(command: Callable[..., None]) -> Callable[..., None]:
     return wrapped
 
 
+def apart_over_roles(groups: Sequence[Sequence[Recording]],
+                     names: Sequence[Sequence[str | PathLike[str]]]) -> list[list[Recording]]:
+    """The runs of each role, those of one name in several roles told apart by their paths too."""
+    runs = _apart([run for group in groups for run in group], [one for own in names for one in own])
+    left = iter(runs)
+    return [[next(left) for _ in group] for group in groups]
+
+
 def check_brakes(vehicle: Vehicle, *recordings: Recording) -> None:
     """Refuse brake pressures that the vehicle's brakes never have: another unit, or vehicle.
 

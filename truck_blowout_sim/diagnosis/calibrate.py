@@ -24,6 +24,7 @@ from numpy.typing import NDArray
 from truck_blowout_sim.comparison import rms_errors
 from truck_blowout_sim.diagnosis.case.calibration import apply_amounts
 from truck_blowout_sim.diagnosis.case.calibration import calibrate as settle
+from truck_blowout_sim.diagnosis.case.names import names_apart
 from truck_blowout_sim.diagnosis.case.nuisance import Nuisance
 from truck_blowout_sim.diagnosis.case.runs import prepare_run
 from truck_blowout_sim.diagnosis.case.study import FURTHEST, Study
@@ -169,6 +170,7 @@ def calibrate(
     if not recordings:
         raise InputError("no recording to calibrate on", expected="at least one recording")
     check_each_once({"fitted": recordings, "only predicted": holdout})
+    recordings, holdout = names_apart(recordings, holdout)
     tell = progress or _silent
     loaded = load_vehicle(vehicle) if isinstance(vehicle, str) else vehicle
     packed = pack(loaded)

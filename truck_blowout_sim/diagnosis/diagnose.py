@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from truck_blowout_sim.diagnosis.answer.outcome import Material, answer, unexplained
 from truck_blowout_sim.diagnosis.case.calibration import calibrate
 from truck_blowout_sim.diagnosis.case.fingerprints import case_parts
+from truck_blowout_sim.diagnosis.case.names import names_apart
 from truck_blowout_sim.diagnosis.case.resume import Keeps
 from truck_blowout_sim.diagnosis.case.runs import Run, prepare_run
 from truck_blowout_sim.diagnosis.case.study import Progress, Study
@@ -90,6 +91,7 @@ def diagnose(recordings: Sequence[Recording], *, baseline: Sequence[Recording] =
     if not recordings:
         raise InputError("no recording to diagnose", expected="at least one recording")
     check_each_once({"fitted": recordings, "baseline": baseline, "only predicted": holdout})
+    recordings, baseline, holdout = names_apart(recordings, baseline, holdout)
     loaded = load_vehicle(vehicle) if isinstance(vehicle, str) else vehicle
     packed = pack(loaded)
     rules = replace(load_settings(packed, settings), without=known_names(without))
