@@ -19,6 +19,7 @@ from truck_blowout_sim.diagnosis.answer.outcome import (
 )
 from truck_blowout_sim.diagnosis.answer.told import alias_set, physics_effect, sensor_effects
 from truck_blowout_sim.diagnosis.case.study import Study
+from truck_blowout_sim.diagnosis.diagnose import _diagnosed
 from truck_blowout_sim.diagnosis.effects import LIBRARY
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.fit.attribute import Ranked
@@ -279,3 +280,24 @@ def test_one_fault_of_two_amounts_says_which_is_which() -> None:
     assert sensor_effects([finding(False)])[0].sentence == finding(False).sentence
     without_amount = sensor_effects([finding(True, ""), finding(False, "")])[0].sentence
     assert without_amount == "The tractor yaw rate reads off by a constant in every run."
+
+
+def test_an_unknown_cause_takes_along_no_effect_that_it_does_not_name(
+    pushed: Study, truck: Packed
+) -> None:
+    """Page, figures and vehicle are of the truck without what explains too little."""
+    named = ranked(truck, "road_bank", 0.03, 0.01 * pushed.projector().chi2(pushed.residual()))
+    null = list(pushed.models)
+    pushed.models[1] = pushed.simulate([(pushed.runs[1], named.hypothesis.apply(
+        pushed.packed, "run 1"))])[0]
+    one = material(pushed, (named,))
+    one.found.models_null = null
+    told = answer(one)
+    assert told.verdict == "unknown"
+    assert not [c for c in told.evidence.candidates if c.accepted]
+    assert told.evidence.candidates[0].reason == "helps, but the cause is unknown"
+    without = replace(material(replace(pushed, models=null)), law=one.law)
+    assert told.train == answer(without).train
+    assert told.evidence.equations == answer(without).evidence.equations
+    _, after = _diagnosed(one, truck)
+    assert not [name for name in after.values if name.startswith("world.")]

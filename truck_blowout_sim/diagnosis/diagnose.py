@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from truck_blowout_sim.diagnosis.answer.outcome import Material, answer, unexplained
+from truck_blowout_sim.diagnosis.answer.outcome import Material, answer, as_told, unexplained
 from truck_blowout_sim.diagnosis.case.calibration import calibrate
 from truck_blowout_sim.diagnosis.case.fingerprints import case_parts
 from truck_blowout_sim.diagnosis.case.names import names_apart
@@ -29,7 +29,7 @@ from truck_blowout_sim.diagnosis.locate.periodic import find_beat
 from truck_blowout_sim.diagnosis.locate.posture import turned_body
 from truck_blowout_sim.diagnosis.locate.restless import restless
 from truck_blowout_sim.diagnosis.locate.wrench import Wrenches, missing_wrenches
-from truck_blowout_sim.diagnosis.model.law import plainest_law
+from truck_blowout_sim.diagnosis.model.law import Law, plainest_law
 from truck_blowout_sim.diagnosis.model.law_check import checked
 from truck_blowout_sim.diagnosis.model.vehicle import (
     DiagnosedTruck,
@@ -165,19 +165,25 @@ def _material(study: Study, found: Found, gate: GateResult, vehicle: str,
     named = [r.hypothesis for r in found.named]
     before = _wrenches(study, found.models_null, (), progress)
     after = _wrenches(study, study.models, named, progress) if named else before
-    worst = max(after, key=lambda w: w.delta)
-    law = plainest_law(worst, next(r for r in study.runs
-                                   if r.recording.name == worst.history.recording))
     scatter = found.chance.scatter if found.chance else Scatter.of(())
-    material = Material(study, found, gate, before, after, law, _timings(study, found), vehicle,
+    material = Material(study, found, gate, before, after, _law(study, after),
+                        _timings(study, found), vehicle,
                         _separation(study, found, progress) if effort.next_run else None,
                         _arms(study, found, progress) if effort.profile else {},
                         find_beat(study, named), lagging_wheel(study, named, scatter),
                         turned_body(study, named, scatter) if sound else None,
                         restless(study, named) if sound else None)
     if unexplained(material):
-        material = replace(material, law=checked(study, law, named))
+        told = as_told(material)
+        material = replace(material, law=checked(told.study, _law(study, told.unnamed)))
     return material
+
+
+def _law(study: Study, wrenches: Sequence[Wrenches]) -> Law:
+    """Plainest law of the force that is missed most."""
+    worst = max(wrenches, key=lambda w: w.delta)
+    return plainest_law(worst, next(r for r in study.runs
+                                    if r.recording.name == worst.history.recording))
 
 
 def _wrenches(study: Study, models: Sequence[Floats], named: Sequence[Hypothesis],
@@ -215,8 +221,10 @@ def _separation(study: Study, found: Found, progress: Progress | None) -> Separa
 
 def _diagnosed(material: Material, given: Packed) -> tuple[DiagnosedTruck, DiagnosedTruck]:
     """The calibrated truck without what was named, and with it."""
-    study, found = material.study, material.found
-    law = material.law.values if unexplained(material) and material.law.helps else None
+    told, law = as_told(material), None
+    if unexplained(material) and material.law.helps:
+        law = material.law.values
+    study, found = told.study, told.found
     return (diagnosed_truck(study, given, found.models_null, ()),
             diagnosed_truck(study, given, study.models,
                             [r.hypothesis for r in found.named], law))
@@ -236,7 +244,7 @@ def _with_truck(told: Diagnosis, material: Material, case: _Case) -> tuple[Diagn
                        for r in (*case.recordings, *case.baseline, *case.holdout)
                        for event in r.blowouts))
     runs = [run.recording for run in material.study.holdout]
-    if runs and not any(r.hypothesis.effect.timed for r in material.found.named):
+    if runs and not any(r.hypothesis.effect.timed for r in as_told(material).found.named):
         told = replace(told, holdout=driven_fit(
             runs, before.packed, case.packed.with_values(after.values),
             impose_speed=case.impose_speed, quanta=case.quanta))

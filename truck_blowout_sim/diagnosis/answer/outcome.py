@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,6 +27,7 @@ from truck_blowout_sim.diagnosis.locate.restless import Restless
 from truck_blowout_sim.diagnosis.locate.wrench import Wrenches
 from truck_blowout_sim.diagnosis.model.law import Law
 from truck_blowout_sim.diagnosis.name.judging import Found
+from truck_blowout_sim.diagnosis.name.trial import Fate
 from truck_blowout_sim.diagnosis.prove.intervals import Timing
 from truck_blowout_sim.diagnosis.prove.next_test import Separation
 from truck_blowout_sim.diagnosis.prove.profile import Arms
@@ -91,11 +92,10 @@ class Material:
 
 def answer(material: Material) -> Diagnosis:
     """The diagnosis."""
-    found, gate = material.found, material.gate
+    verdict, told, gate = decide(material), as_told(material), material.gate
+    found = told.found
     effects = sensor_effects(gate.findings)
-    verdict = decide(material)
-    # what explains less than half of a mismatch is no name for it; it stays among the candidates
-    named = [] if verdict == "unknown" else list(zip(found.named, found.rivals, strict=True))
+    named = list(zip(found.named, found.rivals, strict=True))
     effects += [physics_effect(r, material.study, material.timings.get(r.hypothesis.key),
                                material.arms.get(r.hypothesis.key)) for r, _ in named]
     aliases = [AliasSet(f.aliases or (f.name,), splits=f.next_test) for f in gate.findings]
@@ -108,9 +108,26 @@ def answer(material: Material) -> Diagnosis:
             verdict, effects, pulled(material), material.law if unexplained(material) else None,
             material.signs),
         effects=tuple(effects), alias_sets=tuple(aliases), location=locate(material),
-        train=fit(material, "train"), holdout=fit(material, "holdout"),
+        train=fit(told, "train"), holdout=fit(told, "holdout"),
         null_p_value=found.p_value, next_test=next_test,
-        evidence=gather(material))
+        evidence=gather(material, told))
+
+
+def as_told(material: Material) -> Material:
+    """The material with the effects that the answer names in force: none where it is `unknown`.
+
+    What explains less than half of a mismatch is no name for it; it stays among the candidates.
+    """
+    study, found = material.study, material.found
+    if not found.named or decide(material) != "unknown":
+        return material
+    keys = {ranked.hypothesis.key for ranked in found.named}
+    tried = [replace(trial, fate=Fate("withheld")) if trial.ranked.hypothesis.key in keys
+             else trial for trial in found.tried]
+    return replace(
+        material, study=replace(study, models=list(found.models_null)), unnamed=material.wrenches,
+        found=replace(found, named=[], rivals=[], tried=tried, chi2_after=found.chi2_null,
+                      after=found.before))
 
 
 def decide(material: Material) -> Verdict:
@@ -220,12 +237,12 @@ def fit(material: Material, role: str) -> Fit:
     return Fit(before, after)
 
 
-def gather(material: Material) -> Evidence:
-    """What stands behind the answer."""
-    study, found = material.study, material.found
+def gather(material: Material, told: Material) -> Evidence:
+    """What stands behind the answer; ``told``: the material as it is told."""
+    study, found = told.study, told.found
     rows = study.columns.shape[0]
     law = (material.law.equation,) if unexplained(material) else ()
-    told = tuple(one.equation for one in material.signs)
+    signs = tuple(one.equation for one in material.signs)
     old = (material.beat.ordinary,) if material.beat and not material.new_beat else ()
     return Evidence(
         vehicle=material.vehicle,
@@ -234,14 +251,14 @@ def gather(material: Material) -> Evidence:
         overlays=evidence.overlays(study, found),
         forces=tuple(w.history for w in material.wrenches),
         beats=material.beat.scores if material.beat else None,
-        calibrated=evidence.calibrated(study, joint_amounts(material)),
+        calibrated=evidence.calibrated(study, joint_amounts(told)),
         equations=tuple(words.fill(r.hypothesis, r.hypothesis.effect.amount.report(
-            r.hypothesis.amount), None)[1] for r in found.named) + law + told,
+            r.hypothesis.amount), None)[1] for r in found.named) + law + signs,
         assumptions=words.assumptions(study), missing_channels=words.missing_channels(study),
         notes=(*material.gate.notes, *old,
                *(note for r in study.runs for note in r.recording.notes)),
         facts=(*((f"unnamed wrench on the {w.history.body} buys", f"{w.delta:.0f} with {w.degrees}")
-                 for w in material.unnamed),
+                 for w in told.unnamed),
                *(material.beat.facts if material.beat else ()),
                ("simulations", str(study.simulations)),
                ("sum of squares a row, calibrated", f"{found.chi2_null / rows:.3f}"),

@@ -11,7 +11,7 @@ from typing import Literal
 from truck_blowout_sim.diagnosis.fit.attribute import Ranked
 
 Rule = Literal["accepted", "quiets", "refit", "support", "instant", "bound", "remainder",
-               "explains", "predicts", "holdout"]
+               "explains", "predicts", "holdout", "withheld"]
 _WORDS: dict[Rule, str] = {
     "accepted": "accepted",
     "quiets": "accepted: takes {value:.0%} of what training keeps beyond baseline runs, of "
@@ -24,6 +24,7 @@ _WORDS: dict[Rule, str] = {
     "explains": "explains {value:.0f}, another {limit:.0f}",
     "predicts": "explains as much, predicts less",
     "holdout": "does not predict the holdout better ({value:+.1f})",
+    "withheld": "helps, but the cause is unknown",
 }
 
 
