@@ -131,3 +131,5 @@ def test_several_recordings_get_a_folder_each(tmp_path: Path) -> None:
     assert _folders(["a.csv"], tmp_path) == [tmp_path]
     found = _folders(["runs/a.csv", "b/", "other/a.mcap", "more/a"], tmp_path)
     assert [folder.name for folder in found] == ["a", "b", "a_2", "a_3"]
+    met = _folders(["run_2.csv", "run.csv", "more/run.csv", "Run.csv"], tmp_path)
+    assert [folder.name for folder in met] == ["run_2", "run", "run_3", "Run_4"]

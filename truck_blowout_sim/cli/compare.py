@@ -170,8 +170,9 @@ def _folders(recordings: list[str], output: Path) -> list[Path]:
     names: list[str] = []
     for recording in recordings:
         stem = Path(recording).name.split(".")[0] or "recording"
-        same = sum(name.rpartition("_")[0] == stem or name == stem for name in names)
-        names.append(stem if not same else f"{stem}_{same + 1}")
+        tries = (stem, *(f"{stem}_{k}" for k in range(2, len(recordings) + 2)))
+        taken = {name.lower() for name in names}  # some disks tell no capitals apart
+        names.append(next(one for one in tries if one.lower() not in taken))
     return [output / name for name in names]
 
 
