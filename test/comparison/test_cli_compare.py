@@ -5,15 +5,20 @@ from __future__ import annotations
 import json
 import runpy
 from pathlib import Path
+from types import SimpleNamespace
+from typing import cast
+from unittest.mock import patch
 
 import numpy as np
 import pytest
 import scipy.io
+from rich.console import Console
 
 from truck_blowout_sim import load_vehicle, simulate, write_recording
-from truck_blowout_sim.cli.compare import _folders
+from truck_blowout_sim.cli.compare import _folders, _print
 from truck_blowout_sim.cli.main import main
-from truck_blowout_sim.recordings import read_recording
+from truck_blowout_sim.comparison import Comparison
+from truck_blowout_sim.recordings import Recording, read_recording
 from truck_blowout_sim.recordings.shipped import find_recording
 
 SUM_UP = Path(__file__).parents[2] / "scripts" / "sum_up_comparison.py"
@@ -133,3 +138,16 @@ def test_several_recordings_get_a_folder_each(tmp_path: Path) -> None:
     assert [folder.name for folder in found] == ["a", "b", "a_2", "a_3"]
     met = _folders(["run_2.csv", "run.csv", "more/run.csv", "Run.csv"], tmp_path)
     assert [folder.name for folder in met] == ["run_2", "run", "run_3", "Run_4"]
+
+
+def test_brackets_in_names_and_notes_are_shown_and_no_styles(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    compared = SimpleNamespace(
+        recording=Recording("run [/] [red]", {}), channels=(), notes=("column [bold] was left",))
+    with patch("truck_blowout_sim.comparison.verdict", lambda _: "as [dim] says"):
+        _print(Console(width=200), cast(Comparison, compared), Path("out[/b]/report.html"))
+    shown = capsys.readouterr().out
+    for text in ("run [/] [red]: as [dim] says", "note: column [bold] was left",
+                 "out[/b]/report.html"):
+        assert text in shown

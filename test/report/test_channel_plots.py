@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -104,3 +105,13 @@ def test_a_run_of_any_format_lists_its_channels(
     bag = write_recording(RUN, tmp_path / "bag")
     assert main(["plot", str(bag), "--list", "--json"]) == 0
     assert "tractor_x_m" in json.loads(capsys.readouterr().out)["channels"]["bag"]
+
+
+def test_names_of_runs_stand_in_the_legend_as_they_are() -> None:
+    """No formula between two dollars, and none left out for its first letter."""
+    names = ("_first", "cost_$5_and_$6", "_<b>$x^$")
+    picture = channel_plot([replace(RUN, name=name) for name in names], YAW, "plot")
+    words = picture.figure.axes[0].get_legend().get_texts()
+    assert [one.get_text().strip() for one in words] == list(names)
+    assert not any(one.get_parse_math() for one in words)
+    assert picture.png()[:4] == b"\x89PNG"

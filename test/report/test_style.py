@@ -5,7 +5,7 @@ import base64
 import matplotlib as mpl
 import numpy as np
 
-from truck_blowout_sim.report.style import INK, Picture, new_axes, styled
+from truck_blowout_sim.report.style import INK, Picture, new_axes, plain_log_ticks, styled
 
 
 @styled
@@ -33,3 +33,20 @@ def test_a_drawing_carries_neither_date_nor_addresses_to_fetch() -> None:
     assert "<dc:date>" not in svg
     assert 'href="http' not in svg
     assert INK in svg or "#1b1f24" in svg
+
+
+@styled
+def draw_logarithmic() -> Picture:
+    figure, axes = new_axes()
+    axes.plot([0.0, 1.0], [0.05, 200.0])
+    axes.set_yscale("log")
+    plain_log_ticks(axes.yaxis)
+    return Picture("log", "Log", "Rises.", figure)
+
+
+def test_a_logarithmic_axis_has_plain_numbers() -> None:
+    picture = draw_logarithmic()
+    picture.png()
+    words = {label.get_text() for label in picture.figure.axes[0].get_yticklabels(which="both")}
+    assert {"0.1", "1", "10", "100"} <= words
+    assert not [text for text in words if "$" in text]

@@ -12,6 +12,7 @@ import typer
 from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 from rich.table import Table
+from rich.text import Text
 
 from truck_blowout_sim.cli.listing import list_option, names_of
 from truck_blowout_sim.cli.outputs import FORCE, JSON, YES, ask_about, claim, say
@@ -190,8 +191,9 @@ def _print(console: Console, compared: Comparison, page: Path) -> None:
     """The verdict, the chief channels, and where the rest is."""
     from truck_blowout_sim.comparison import verdict
 
-    headline = f"[bold]{compared.recording.name}[/]: {verdict(compared)}"
-    console.print(headline, highlight=False, soft_wrap=True)
+    # names and notes hold what users wrote: brackets in them are no styles
+    console.print(Text.assemble((compared.recording.name, "bold"), f": {verdict(compared)}"),
+                  soft_wrap=True)
     table = Table(box=None, pad_edge=False, header_style="dim")
     table.add_column("channel")
     for title, width in _NUMBERS:
@@ -201,14 +203,15 @@ def _print(console: Console, compared: Comparison, page: Path) -> None:
         rating = channel.rating
         score = f"{rating.overall:.2f} {rating.grade}" if rating and not channel.imposed else ""
         table.add_row(
-            channel.label + (" (imposed)" if channel.imposed else ""),
+            Text(channel.label + (" (imposed)" if channel.imposed else "")),
             channel.shown(channel.rms), channel.shown(channel.peak),
             f"{channel.peak_time_s:.2f} s", sigma, _lag(channel.lag_s), score,
         )  # fmt: skip
     console.print(table)
     for note in compared.notes:
-        console.print(f"note: {note}", style="dim", highlight=False, soft_wrap=True)
-    console.print(f"{page} ({len(compared.channels)} channels)", highlight=False, soft_wrap=True)
+        console.print(f"note: {note}", style="dim", markup=False, highlight=False, soft_wrap=True)
+    console.print(f"{page} ({len(compared.channels)} channels)", markup=False, highlight=False,
+                  soft_wrap=True)
 
 
 def _lag(lag_s: float | None) -> str:

@@ -264,4 +264,4 @@ def _print(console: Console, answer: Diagnosis, folder: Path) -> None:
         line("numbers pulled far from the sheet: "
              + ", ".join(f"{n.name.replace('_', ' ')} ({n.pull:+.1f} prior sigmas)" for n in far))
     line(f"next test: {answer.next_test}")
-    console.print(str(folder / "report.html"), highlight=False, soft_wrap=True)
+    console.print(str(folder / "report.html"), markup=False, highlight=False, soft_wrap=True)

@@ -21,7 +21,7 @@ from truck_blowout_sim.recordings import Recording
 from truck_blowout_sim.recordings.channels import by_name
 from truck_blowout_sim.recordings.names import parts_of
 from truck_blowout_sim.report.common_words import shared_words
-from truck_blowout_sim.report.style import CYCLE, EVENT, Picture, new_figure, styled
+from truck_blowout_sim.report.style import CYCLE, EVENT, Picture, in_legend, new_figure, styled
 
 TIME = "time_s"
 _DASHES: tuple[Any, ...] = ("-", (0, (5, 2)), (0, (1.5, 1.5)), (0, (6, 2, 1.5, 2)))
@@ -86,7 +86,7 @@ def _panel(axes: Axes, runs: Sequence[Recording], channels: Sequence[str], reque
             words = [w for w, shown in ((own[c], several), (run.name, len(runs) > 1)) if shown]
             turns, color = divmod(c, len(CYCLE)) if several else (0, r % len(CYCLE))
             axes.plot(x, y, color=CYCLE[color], linestyle=_DASHES[(r + turns) % len(_DASHES)],
-                      label=", ".join(words) or channel, zorder=3)  # fmt: skip
+                      label=in_legend(", ".join(words) or channel), zorder=3)  # fmt: skip
             if request.over != TIME:
                 _ring(axes, run, channel, request)
     axes.set_ylabel(_label(common, channels, request))

@@ -6,7 +6,6 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.ticker import NullFormatter
 from numpy.typing import NDArray
 
 from truck_blowout_sim.comparison.units import display_unit
@@ -22,6 +21,7 @@ from truck_blowout_sim.report.style import (
     VERMILION,
     Picture,
     new_figure,
+    plain_log_ticks,
 )
 
 Floats = NDArray[np.float64]
@@ -103,8 +103,7 @@ def fit_picture(fits: Mapping[str, Fit], labels: Mapping[str, str]) -> Picture:
         _dots(axes, before, rows, BEFORE, "o", "as given")
         _dots(axes, after, rows, AFTER, "D", "as diagnosed")
         axes.set_xscale("log")
-        axes.xaxis.set_major_formatter(_plain_number)
-        axes.xaxis.set_minor_formatter(NullFormatter())
+        plain_log_ticks(axes.xaxis)
         axes.set_xlabel("rms residual (σ)")
     panels[0].set_xlim(0.5, None)
     panels[0].set_yticks(np.arange(len(channels)), [labels.get(c, c) for c in channels])
@@ -112,10 +111,6 @@ def fit_picture(fits: Mapping[str, Fit], labels: Mapping[str, str]) -> Picture:
     panels[0].set_ylim(len(channels) - 0.5, -0.5)
     panels[-1].legend(loc="lower right")
     return Picture("fit", "Fit by channel", _FIT_CAPTION, figure)
-
-
-def _plain_number(value: float, _: object) -> str:
-    return f"{value:g}"
 
 
 def _dots(axes: Axes, values: Floats, rows: Integers, color: str, marker: str, words: str

@@ -20,6 +20,7 @@ from truck_blowout_sim.report.style import (
     INK,
     ORANGE,
     Picture,
+    in_legend,
     new_figure,
     styled,
 )
@@ -144,7 +145,7 @@ def _path(run: Recording, motion: Motion, vehicle: Vehicle, units: str) -> Pictu
         dx, dy = track.x_m - x0, track.y_m - y0
         along, across = c * dx + s * dy, c * dy - s * dx
         for axes in (scale, stretched):
-            axes.plot(along, across, color=color, label=name, zorder=3)
+            axes.plot(along, across, color=color, label=in_legend(name), zorder=3)
     for k in five_instants(run, motion):
         draw_above(scale, vehicle, motion, k, turn_rad=-yaw, center=(x0, y0))
     scale.margins(0.02, 0.15)

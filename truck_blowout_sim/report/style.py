@@ -15,11 +15,14 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, ParamSpec, TypeVar
 
+from matplotlib import rcParams
 from matplotlib.axes import Axes
+from matplotlib.axis import Axis
 from matplotlib.colors import to_hex
 from matplotlib.figure import Figure
 from matplotlib.rcsetup import cycler
 from matplotlib.style import context as style_context
+from matplotlib.ticker import NullFormatter
 
 Arguments = ParamSpec("Arguments")
 Result = TypeVar("Result")
@@ -65,6 +68,9 @@ _STYLE: Any = {
     "ytick.color": SOFT,
     "ytick.labelcolor": INK,
 }
+# The name of a recording may hold a dollar; before version 3.6 there is no such key.
+if "text.parse_math" in rcParams:
+    _STYLE["text.parse_math"] = False
 # What is not set here is the library's default, not what the user's own settings say.
 _WHOLE_STYLE = ["default", _STYLE]
 
@@ -152,6 +158,21 @@ def new_axes(size: tuple[float, float] = WIDE, *, x: str = "time (s)", y: str = 
     axes.set_xlabel(x)
     axes.set_ylabel(y)
     return figure, axes
+
+
+def in_legend(name: str) -> str:
+    """A name that a user gave as a legend shows it: one that begins with ``_`` is left out."""
+    return f" {name}" if name.startswith("_") else name
+
+
+def plain_log_ticks(axis: Axis) -> None:
+    """Write 0.1, 1 and 10 at a logarithmic axis; the library's powers are formulas."""
+    axis.set_major_formatter(_plain_number)
+    axis.set_minor_formatter(NullFormatter())
+
+
+def _plain_number(value: float, _: object) -> str:
+    return f"{value:g}"
 
 
 def mark_events(axes: Axes, times_s: tuple[float, ...], words: str = "blowout",

@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
 from truck_blowout_sim.comparison.units import PSI_PA
-from truck_blowout_sim.report.style import INK, SOFT
+from truck_blowout_sim.report.style import INK, SOFT, plain_log_ticks
 from truck_blowout_sim.report.thesis.canvas import (
     OURS_LINE,
     THESIS_LINE,
@@ -97,6 +97,7 @@ def blowout_parameters(data: ThesisData, stated: str) -> Figure:
     axes.plot(series.time_s, np.maximum(series.value / series.value[0], 1e-2), color=INK,
               linestyle=(0, (2, 2)), label="pressure, test truck")  # fmt: skip
     axes.set_yscale("log")
+    plain_log_ticks(axes.yaxis)
     axes.set(xlabel="time after the blowout (s)", ylabel="part of the sound tire's value",
              title="steps: thesis sheet (tables 9 and 10)")  # fmt: skip
     legend(axes, "upper left")
@@ -122,6 +123,7 @@ def radius_and_stiffness(data: ThesisData, stated: str) -> Figure:
                label=f"{OURS}: loaded radius in the run")  # fmt: skip
     below.plot(height.time_s, rate / 1e3, color=OURS_LINE, label=f"{OURS}, in the run")
     below.set_yscale("log")
+    plain_log_ticks(below.yaxis)
     above.set_ylabel("radius (mm)")
     below.set(xlabel="time after the blowout (s)", ylabel="radial stiffness (N/mm)")
     for axes in (above, below):
