@@ -4,10 +4,11 @@ import json
 from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pytest
 
-from truck_blowout_sim.comparison import Comparison, compare, verdict
-from truck_blowout_sim.recordings import Series
+from truck_blowout_sim.comparison import Comparison, compare, compare_recordings, verdict
+from truck_blowout_sim.recordings import INPUT_NAMES, Recording, Series
 from truck_blowout_sim.report.comparison_figures import comparison_pictures
 from truck_blowout_sim.report.comparison_page import comparison_page, write_comparison_report
 from truck_blowout_sim.vehicle import Vehicle
@@ -98,3 +99,43 @@ def test_the_page_needs_no_other_file(page: str) -> None:
     assert page.count('src="data:image/svg+xml;base64,') == len(THESIS_FIGURES)
     assert "http://" not in page
     assert "https://" not in page
+
+
+def two_recordings(vehicle: Vehicle) -> Comparison:
+    """Two runs without a hand wheel, of which one chamber of an axle was recorded."""
+    time_s = np.arange(0.0, 3.0, 0.01)
+    turn = Series(time_s, 0.1 * np.sin(time_s))
+    chamber = Series(time_s, np.full(time_s.size, 3e5))
+    first, second = (Recording(name, {"tractor_yaw_rate_radps": turn,
+                                      "brake_chamber_steer_left_pa": chamber})
+                     for name in ("monday", "tuesday"))
+    return compare_recordings(first, second, vehicle=vehicle)
+
+
+def test_two_recordings_are_drawn_without_a_hand_wheel_and_with_one_chamber(
+    vehicle: Vehicle
+) -> None:
+    pictures = {p.name: p for p in comparison_pictures(two_recordings(vehicle))}
+    assert set(pictures) == {"yaw_rate_tractor", "brake_pressures"}
+    for picture in pictures.values():
+        labels = [line.get_label() for axes in picture.figure.axes for line in axes.lines]
+        assert any(str(label).startswith("tuesday") for label in labels)
+        assert not any("model" in str(label) for label in labels)
+
+
+def test_the_page_of_two_recordings_claims_no_model(vehicle: Vehicle) -> None:
+    page = comparison_page(two_recordings(vehicle), ())
+    assert "tuesday, a recording; no model ran" in page
+    assert "Error is tuesday minus record." in page
+    assert "Model driven by" not in page
+    assert vehicle.title not in page
+
+
+def test_the_page_says_why_the_speed_is_imposed(compared: Comparison) -> None:
+    bare = compared.recording.without_channels(["throttle"])
+    whole = replace(bare, channels={
+        **dict.fromkeys(INPUT_NAMES, bare["tractor_vx_mps"]), **bare.channels})
+    missing, asked = (comparison_page(replace(compared, recording=one, speed_imposed=True), ())
+                      for one in (bare, whole))
+    assert "because throttle or brake pressures were not recorded" in missing
+    assert "the recorded speed is imposed, as asked" in asked

@@ -85,7 +85,9 @@ def test_speed_is_imposed_where_the_throttle_was_not_recorded(truck: Packed) -> 
     drive = drive_from(bare, truck.vehicle)
     assert drive.speed_imposed
     again = simulate_inputs(truck, bare)
-    assert any("speed imposed" in note for note in again.notes)
+    assert "speed imposed: throttle or brakes were not recorded" in again.notes
+    asked = simulate_inputs(truck, run.between(0.0, 0.5), impose_speed=True)
+    assert asked.notes == ("speed imposed, as asked",)
     times = again["tractor_vx_mps"].time_s[100:]
     assert again.at("tractor_vx_mps", times) == pytest.approx(run.at("tractor_vx_mps", times),
                                                               abs=0.03)

@@ -29,6 +29,7 @@ from truck_blowout_sim.vehicle import Packed, Vehicle, load_vehicle, pack
 
 # Instruments on one clock begin, and mark a blowout, within a few of their samples.
 _SAME_START_S = 0.1
+THE_MODEL = "the model"
 DEFAULT_VEHICLE = "international_9400i_trailmobile"
 Progress = Callable[[str, float], None]
 
@@ -40,7 +41,7 @@ class Comparison:
     Attributes:
         recording, model: as measured, as simulated.
         vehicle: the model's vehicle.
-        speed_imposed: the recorded speed was imposed because throttle or brakes were not recorded.
+        speed_imposed: the recorded speed was imposed, as asked or for want of other inputs.
         pairs: both side by side, by channel.
         channels: errors in the order of the channel table.
         marks: for a record rebuilt from text, what each sample is (by channel); else empty.
@@ -58,7 +59,17 @@ class Comparison:
     marks: Mapping[str, Marks]
     notes: tuple[str, ...]
     contrast: Contrast | None = None
-    against: str = "the model"
+    against: str = THE_MODEL
+
+    @property
+    def of_recordings(self) -> bool:
+        """Whether ``model`` is another recording and no model ran."""
+        return self.against != THE_MODEL
+
+    @property
+    def other(self) -> str:
+        """What figures call the side that is held against the record."""
+        return self.against if self.of_recordings else "model"
 
     def __getitem__(self, name: str) -> ChannelError:
         return next(channel for channel in self.channels if channel.name == name)

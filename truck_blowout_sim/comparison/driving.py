@@ -16,9 +16,8 @@ from truck_blowout_sim.comparison.resets import longest_run
 from truck_blowout_sim.comparison.words import labels_for
 from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.recordings import Recording
-from truck_blowout_sim.simulation.drive import execute
 from truck_blowout_sim.simulation.plausible import implausible
-from truck_blowout_sim.simulation.replay import as_recording, drive_from
+from truck_blowout_sim.simulation.replay import drive_from, replayed
 from truck_blowout_sim.vehicle import Packed, Vehicle
 
 STEP_S = 0.001
@@ -62,8 +61,7 @@ def side_by_side(recording: Recording, packed: Packed, *, step_s: float = STEP_S
     drive = drive_from(recording, packed.vehicle, step_s=step_s, impose_speed=impose_speed)
     if ask:
         ask(implausible(packed, drive))
-    model = as_recording(f"{recording.name} (simulated)", packed, drive, execute(packed, drive),
-                         recording.blowouts)  # fmt: skip
+    model = replayed(recording, packed, drive)
     pairs = pairs_of(recording, model)
     if not pairs:
         raise InputError("no output channel to compare", file=recording.name,

@@ -31,6 +31,7 @@ from truck_blowout_sim.report.style import (
     MODEL,
     WIDE,
     Picture,
+    in_legend,
     mark_events,
     new_axes,
     new_figure,
@@ -40,6 +41,7 @@ from truck_blowout_sim.vehicle.units import FOOT_M
 
 _TALL = (WIDE[0], 5.2)
 _QUIET_PA = 2.0 * PSI_PA
+_STEERING = "steering_wheel_angle_rad"
 
 
 @styled
@@ -49,7 +51,8 @@ def comparison_pictures(comparison: Comparison) -> tuple[Picture, ...]:
 
 
 def _pictures(comparison: Comparison) -> Iterator[Picture]:
-    yield _steering(comparison)
+    if _STEERING in comparison.recording:
+        yield _steering(comparison)
     yield from _with_error(comparison, "tractor_vx_mps", "speed", "Longitudinal speed", "forward")
     yield from _with_error(
         comparison, "tractor_vy_mps", "lateral_speed", "Lateral speed", "left positive"
@@ -76,7 +79,7 @@ def _with_error(
         figure, axes = new_axes(y=symbol)
         axes.set_title(f"{title}, {words}")
         draw_both(axes, comparison, name)
-        yield Picture(file, title, "Not recorded: the model's alone.", figure)
+        yield Picture(file, title, f"Not recorded: {comparison.against} alone.", figure)
         return
     figure = new_figure(_TALL)
     upper, lower = figure.subplots(2, 1, sharex=True, height_ratios=(3, 2))
@@ -107,13 +110,13 @@ def _error_words(comparison: Comparison, name: str) -> str:
 def _steering(comparison: Comparison) -> Picture:
     figure, axes = new_axes(y="deg")
     axes.set_title("Hand-wheel angle, left positive")
-    name = "steering_wheel_angle_rad"
-    series = comparison.recording[name]
+    series = comparison.recording[_STEERING]
     degrees = np.degrees(series.value)
-    draw_measured(axes, series.time_s, degrees, series.time_s, comparison.marks.get(name))
+    draw_measured(axes, series.time_s, degrees, series.time_s, comparison.marks.get(_STEERING))
     mark_events(axes, event_times(comparison))
     axes.legend(loc="best")
-    return Picture("steering", "Steering", "What the driver did; the model is given it.", figure)
+    given = "" if comparison.of_recordings else "; the model is given it"
+    return Picture("steering", "Steering", f"What the driver did{given}.", figure)
 
 
 def _trajectory(comparison: Comparison) -> Picture:
@@ -124,7 +127,8 @@ def _trajectory(comparison: Comparison) -> Picture:
     draw_measured(
         axes, along.measured / FOOT_M, across.measured / FOOT_M, along.time_s, marks
     )
-    axes.plot(along.model / FOOT_M, across.model / FOOT_M, color=MODEL, label="model")
+    axes.plot(along.model / FOOT_M, across.model / FOOT_M, color=MODEL,
+              label=in_legend(comparison.other))
     for k, time_s in enumerate(event_times(comparison)):
         at = [np.interp(time_s, p.time_s, p.measured) / FOOT_M for p in (along, across)]
         axes.plot(*at, "x", color=EVENT, markersize=9, markeredgewidth=2,
@@ -143,7 +147,7 @@ def _room_above(axes: Axes, least: float) -> None:
 
 
 def _position_error(comparison: Comparison) -> Picture:
-    figure, axes = new_axes(y="model − record (ft)")
+    figure, axes = new_axes(y=f"{comparison.other} − record (ft)")
     axes.set_title("Position error of the tractor")
     axes.axhline(0.0, color=EVENT, linewidth=0.8)
     for name, color, words in (
@@ -173,7 +177,8 @@ def _pressures(comparison: Comparison) -> Iterator[Picture]:
             (braked if max(known) > _QUIET_PA else quiet).append(axle)
     if not braked:
         return
-    words = f"{_listed(quiet)}: no pressure in the model." if quiet else "Every axle is braked."
+    words = (f"{_listed(quiet)}: no pressure in {comparison.against}." if quiet
+             else "Every axle is braked.")
     figure = new_figure((WIDE[0], 1.2 + 1.9 * len(braked)))
     _pressure_panels(figure, comparison, braked)
     yield Picture("brake_pressures", "Brake chamber pressures", words, figure)
@@ -191,9 +196,10 @@ def _pressure_panels(figure: Figure, comparison: Comparison, axles: list[str]) -
                 series = comparison.recording[name]
                 axes.plot(series.time_s, series.value / PSI_PA, color=INK, linestyle=line,
                           label=f"recorded, {side}", linewidth=1.0)  # fmt: skip
-            series = comparison.model[name]
-            axes.plot(series.time_s, series.value / PSI_PA, color=MODEL, linestyle=line,
-                      label=f"model, {side}")  # fmt: skip
+            if name in comparison.model:
+                series = comparison.model[name]
+                axes.plot(series.time_s, series.value / PSI_PA, color=MODEL, linestyle=line,
+                          label=in_legend(f"{comparison.other}, {side}"))  # fmt: skip
         mark_events(axes, event_times(comparison), height=0.15)  # pressures begin at 0
         axes.legend(loc="best", ncols=2, frameon=True, framealpha=1.0, edgecolor="none")
     panels[-1].set_xlabel("time (s)")

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from truck_blowout_sim.comparison import Comparison
 from truck_blowout_sim.comparison.pairing import Pair
 from truck_blowout_sim.comparison.provenance import MARKS, Marks
-from truck_blowout_sim.report.style import INK, MODEL, SOFT, mark_events
+from truck_blowout_sim.report.style import INK, MODEL, SOFT, in_legend, mark_events
 
 Floats = NDArray[np.float64]
 
@@ -47,12 +47,14 @@ def draw_both(axes: Axes, comparison: Comparison, name: str) -> None:
     pair = comparison.pairs.get(name)
     if pair is None:
         series, unit = comparison.model[name], _unit(name)
-        axes.plot(series.time_s, series.value * unit, color=MODEL, label="model (not recorded)")
+        axes.plot(series.time_s, series.value * unit, color=MODEL,
+                  label=in_legend(f"{comparison.other} (not recorded)"))
     else:
         scale = pair.unit.per_si
         marks = marks_for(comparison, name)
         draw_measured(axes, pair.time_s, pair.measured * scale, pair.time_s, marks)
-        axes.plot(pair.time_s, pair.model * scale, color=MODEL, label="model")
+        axes.plot(pair.time_s, pair.model * scale, color=MODEL,
+                  label=in_legend(comparison.other))
     mark_events(axes, event_times(comparison))
     axes.legend(loc="best", ncols=2)
 
@@ -66,7 +68,8 @@ def draw_error(axes: Axes, comparison: Comparison, name: str) -> None:
     if error.noise is not None:
         band = 2.0 * error.noise.value * scale
         axes.axhspan(-band, band, color=INK, alpha=0.08, linewidth=0, label="noise, ±2σ")
-    axes.plot(pair.time_s, pair.error * scale, color=MODEL, label="model − record")
+    axes.plot(pair.time_s, pair.error * scale, color=MODEL,
+              label=in_legend(f"{comparison.other} − record"))
     mark_events(axes, event_times(comparison), "")
     axes.legend(loc="best", ncols=2)
 

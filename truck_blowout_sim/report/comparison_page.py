@@ -19,6 +19,7 @@ from truck_blowout_sim.comparison.provenance import MARKS, Marks
 from truck_blowout_sim.report.comparison_figures import comparison_pictures
 from truck_blowout_sim.report.page import render, write_pictures, write_text
 from truck_blowout_sim.report.style import Picture
+from truck_blowout_sim.simulation.replay import speed_is_missing
 
 PAGE, DATA, FIGURES = "report.html", "comparison.json", "figures"
 _METADATA = ("test", "vehicle", "road", "tractor_base_link", "trailer_base_link", "accelerometers")
@@ -48,6 +49,8 @@ def comparison_page(comparison: Comparison, pictures: tuple[Picture, ...] | None
     headline, _, more = verdict(comparison).partition("; ")
     return render("comparison.html", {
         "name": recording.name,
+        "other": comparison.other,
+        "of_recordings": comparison.of_recordings,
         "vehicle": comparison.vehicle.name,
         "vehicle_title": comparison.vehicle.title,
         "verdict": headline,
@@ -71,11 +74,13 @@ def _blowouts(comparison: Comparison) -> str:
 
 
 def _driven_by(comparison: Comparison) -> str:
+    """What the model was given; empty where no model ran."""
+    if comparison.of_recordings:
+        return ""
     if comparison.speed_imposed:
-        return (
-            "the recorded hand-wheel angle; the recorded speed is imposed, "
-            "because throttle or brake pressures were not recorded"
-        )
+        missing = speed_is_missing(comparison.recording, comparison.vehicle)
+        why = "because throttle or brake pressures were not recorded" if missing else "as asked"
+        return f"the recorded hand-wheel angle; the recorded speed is imposed, {why}"
     return "the recorded hand-wheel angle, throttle and brake control pressures"
 
 

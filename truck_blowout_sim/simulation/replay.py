@@ -29,6 +29,7 @@ __all__ = ["Drive", "as_recording", "drive_from", "implausible_inputs", "names_o
            "simulate_inputs", "total_mass_kg"]
 _COARSE_S = 0.01  # inputs are looked at on this grid
 STATED_SPEED_WORDS = "speed imposed: throttle or brakes were not recorded"
+_ASKED_SPEED_WORDS = "speed imposed, as asked"
 
 
 def drive_from(recording: Recording, vehicle: Vehicle, *, step_s: float = 0.001,
@@ -44,11 +45,11 @@ def drive_from(recording: Recording, vehicle: Vehicle, *, step_s: float = 0.001,
             log of more than a day.
     """
     require_span(recording)
-    missing = set(recording.missing_inputs) - _not_at_work(vehicle)
+    missing = _missing(recording, vehicle)
     if "steering_wheel_angle_rad" in missing:
         raise InputError("steering_wheel_angle_rad was not recorded", file=recording.name,
                          expected="the hand wheel angle, without which no run can be driven")
-    impose = bool(missing - {"steering_wheel_angle_rad"}) if impose_speed is None else impose_speed
+    impose = bool(missing) if impose_speed is None else impose_speed
     start, end = start_time_s(recording), recording.end_s
     n_steps = round((end - start) / step_s)
     if n_steps < 1:
@@ -87,13 +88,37 @@ def simulate_inputs(vehicle: Vehicle | Packed, recording: Recording, *, step_s: 
     packed = vehicle if isinstance(vehicle, Packed) else pack(vehicle)
     drive = drive_from(recording, packed.vehicle, step_s=step_s, rate_hz=rate_hz, initial=initial,
                        impose_speed=impose_speed)
-    return as_recording(f"{recording.name} (simulated)", packed, drive, execute(packed, drive),
-                        recording.blowouts)
+    return replayed(recording, packed, drive)
+
+
+def replayed(recording: Recording, packed: Packed, drive: Drive) -> Recording:
+    """The model's run on the inputs of a recording, as :func:`drive_from` prepared it.
+
+    Raises:
+        DivergedError: the run left the range of the model.
+    """
+    return as_recording(
+        f"{recording.name} (simulated)", packed, drive, execute(packed, drive), recording.blowouts,
+        why_imposed=STATED_SPEED_WORDS if speed_is_missing(recording, packed.vehicle)
+        else _ASKED_SPEED_WORDS)
+
+
+def speed_is_missing(recording: Recording, vehicle: Vehicle) -> bool:
+    """Whether throttle or a brake pressure at work was not recorded, so that speed is imposed."""
+    return bool(_missing(recording, vehicle) - {"steering_wheel_angle_rad"})
+
+
+def _missing(recording: Recording, vehicle: Vehicle) -> set[str]:
+    """Inputs at work in the vehicle that were not recorded."""
+    return set(recording.missing_inputs) - _not_at_work(vehicle)
 
 
 def as_recording(name: str, packed: Packed, drive: Drive, ran: Ran,
-                 blowouts: Sequence[Blowout], metadata: dict[str, str] | None = None) -> Recording:
+                 blowouts: Sequence[Blowout], metadata: dict[str, str] | None = None, *,
+                 why_imposed: str = _ASKED_SPEED_WORDS) -> Recording:
     """Outputs and inputs of a run as a recording; up to the instant at which a unit rolled over.
+
+    ``why_imposed``: the note of a run along a recorded speed.
 
     Raises:
         DivergedError: the run left the range of the model.
@@ -110,7 +135,7 @@ def as_recording(name: str, packed: Packed, drive: Drive, ran: Ran,
     held = ran.inputs[np.minimum(np.arange(n) * drive.every, len(ran.inputs) - 1)]
     channels |= {key: Series(times, held[:, k]) for k, key in enumerate(INPUT_NAMES)}
     text = {"vehicle": vehicle.name, "step_s": repr(drive.step_s), **(metadata or {})}
-    notes: tuple[str, ...] = (STATED_SPEED_WORDS,) if drive.speed_imposed else ()
+    notes: tuple[str, ...] = (why_imposed,) if drive.speed_imposed else ()
     if ran.ending is not None:
         text |= {"rolled_over_unit": ran.ending.unit, "rolled_over_s": f"{ran.ending.time_s:.3f}"}
         notes += (f"{ran.ending.words} at {ran.ending.time_s:.2f} s; the run ends there, because "
