@@ -18,6 +18,8 @@ from truck_blowout_sim.simulation.studies import sweep as sweeping
 from truck_blowout_sim.simulation.studies.influence import groups, share_explained
 from truck_blowout_sim.simulation.studies.sweep import Plan, run_sweep
 
+EDITS = {"mine.yaml": "start: {speed_mph: 47}\n", "tire.yaml": "rolling_0: 0.005\n",
+         "truck.yaml": "road: crowned\n", "other.yaml": "road: uphill_3_percent\n"}
 VARY = ("blowouts.failure.tires=steer_left,drive_1_left", "reaction.time_s=0.5,1.5")
 
 
@@ -82,6 +84,32 @@ def test_another_sweep_in_the_folder_is_refused(plan: Plan, tmp_path: Path) -> N
     with pytest.raises(InputError, match="holds another sweep, of which vary differ"):
         run_sweep(other, tmp_path / "a")
     assert len(run_sweep(other, tmp_path / "a", force=True)) == 2
+
+
+@pytest.mark.parametrize("edited", ["mine.yaml", "truck.yaml", "tire.yaml", "other.yaml"])
+def test_an_interrupted_sweep_of_edited_files_is_refused(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, edited: str
+) -> None:
+    """A file, one that it names, and one that only a varied word names."""
+    texts = {"mine.yaml": "extends: blowout_in_lane\nend_s: 3\n",
+             "tire.yaml": "extends: steer_275_80r22_5\n",
+             "truck.yaml": "extends: international_9400i_trailmobile\n"
+                           "tires: {steer: tire.yaml}\n",
+             "other.yaml": "extends: truck.yaml\n"}
+    for name, text in texts.items():
+        (tmp_path / name).write_text(text, encoding="utf-8")
+    plan = Plan(str(tmp_path / "mine.yaml"), str(tmp_path / "truck.yaml"),
+                (f"vehicle={tmp_path / 'truck.yaml'},{tmp_path / 'other.yaml'}",), rate_hz=50.0)
+    monkeypatch.setattr(sweeping, "_here", lambda *_: iter(()))
+    monkeypatch.setattr(sweeping, "_finish", lambda *_: None)
+    monkeypatch.setattr(sweeping, "open_batch", lambda _: None)
+    run_sweep(plan, tmp_path / "out")
+    run_sweep(plan, tmp_path / "out")
+    with (tmp_path / edited).open("a", encoding="utf-8") as file:
+        file.write(EDITS[edited])
+    with pytest.raises(InputError, match="holds another sweep, of which files differ"):
+        run_sweep(plan, tmp_path / "out")
+    run_sweep(plan, tmp_path / "out", force=True)
 
 
 @pytest.fixture(scope="module")

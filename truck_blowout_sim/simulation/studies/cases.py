@@ -123,7 +123,7 @@ class Study:
         begun: dict[int, tuple[Packed, Scenario, Drive]] = {}
         for k, (number, values) in enumerate(cases):
             try:
-                begun[k] = self._prepared(values)
+                begun[k] = self.prepared(values)
             except InputError as error:
                 rows[k] = self._failed(number, values, error)
         trucks, drives = [b[0] for b in begun.values()], [b[2] for b in begun.values()]
@@ -157,8 +157,12 @@ class Study:
         """Channels of a run that did not come about."""
         return np.full((self.times_s.size, len(self.channels)), np.nan)
 
-    def _prepared(self, values: Mapping[str, Value]) -> tuple[Packed, Scenario, Drive]:
-        """Truck, scenario and drive with the values in place."""
+    def prepared(self, values: Mapping[str, Value]) -> tuple[Packed, Scenario, Drive]:
+        """Truck, scenario and drive with the values in place.
+
+        Raises:
+            InputError: values that cannot be used.
+        """
         tree = self._scenario_tree
         for key, value in values.items():
             if self.found[key].where == SCENARIO:

@@ -19,6 +19,7 @@ from truck_blowout_sim.recordings.atomic import replacing
 from truck_blowout_sim.resources import code_hash
 from truck_blowout_sim.simulation.studies.batch import Batch, open_batch, run_all
 from truck_blowout_sim.simulation.studies.cases import Case, Row, Study
+from truck_blowout_sim.simulation.studies.contents import contents_hash
 from truck_blowout_sim.simulation.studies.design import Axis, Value, grid, parse_axis, sample
 from truck_blowout_sim.simulation.studies.tables import schema_of, write_rows
 
@@ -88,7 +89,8 @@ def run_sweep(plan: Plan, folder: Path, *, force: bool = False, workers: int | N
             scheduler at the address.
     """
     cases, study = plan.cases(), plan.study()
-    if _begin(plan, folder, force):
+    files = contents_hash(study, plan.axes)
+    if _begin(plan, files, folder, force):
         return open_batch(folder / TABLE)
     schema = schema_of(cases, plan.channels, study.times_s)
     numbered: list[Case] = list(enumerate(cases))
@@ -110,8 +112,8 @@ def run_sweep(plan: Plan, folder: Path, *, force: bool = False, workers: int | N
     return open_batch(folder / TABLE)
 
 
-def _begin(plan: Plan, folder: Path, force: bool) -> bool:
-    """Claim the folder: new, or left by the same sweep.
+def _begin(plan: Plan, files: str, folder: Path, force: bool) -> bool:
+    """Claim the folder: new, or left by the same sweep of files that say the same.
 
     Returns:
         Whether every run is done already.
@@ -119,7 +121,7 @@ def _begin(plan: Plan, folder: Path, force: bool) -> bool:
     Raises:
         InputError: it holds another sweep.
     """
-    words = json.loads(json.dumps({**asdict(plan), "code": code_hash()}))
+    words = json.loads(json.dumps({**asdict(plan), "files": files, "code": code_hash()}))
     found = _read_plan(folder / PLAN)
     unfinished = found == words and not (folder / TABLE).exists()
     if force and not unfinished:
@@ -127,6 +129,8 @@ def _begin(plan: Plan, folder: Path, force: bool) -> bool:
         (folder / TABLE).unlink(missing_ok=True)
     elif found != words and (found is not None or (folder / TABLE).exists()):
         other = sorted(key for key in words if (found or {}).get(key) != words[key])
+        # other words, other files: these are told where nothing else differs
+        other = [key for key in other if key != "files"] or other
         raise InputError(f"holds another sweep, of which {', '.join(other)} differ", file=folder,
                          expected="the same command to go on with it, or --force to begin anew")
     elif (folder / TABLE).exists():
