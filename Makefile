@@ -60,7 +60,7 @@ prove: .venv/ready
 ifeq ($(SET),sample)
 	$(BIN)/python scripts/repeat_proof.py $(OUT)/proof_sample 4 $(JOBS)
 else
-	$(BIN)/truck-blowout prove --set $(SET) --workers $(JOBS) -o $(OUT)/proof
+	$(BIN)/truck-blowout prove --set $(SET) --workers $(JOBS) --renew -o $(OUT)/proof
 endif
 
 bench: .venv/ready-for-bench

@@ -42,7 +42,7 @@ def repeat(world: str, out: Path, count: int, workers: int) -> list[Repeat]:
     _call("proving_ground", "world", world, "-o", str(cases), "--first", str(chosen.start),
           "--count", str(len(chosen)), "--cores", str(workers))  # fmt: skip
     _call("truck_blowout_sim", "prove", "--cases", str(cases), "-o", str(run), "--workers",
-          str(workers), "--no-baselines", "--manifest",
+          str(workers), "--no-baselines", "--renew", "--manifest",
           str(ROOT / "proving_ground" / "sealed" / f"sealed_{world}.json"))  # fmt: skip
     return repeats(run / "cases.csv", published(world))
 

@@ -3,20 +3,23 @@ from __future__ import annotations
 import json
 import os
 from collections.abc import Callable, Iterator
-from concurrent.futures import ProcessPoolExecutor
+from concurrent.futures import Future, ProcessPoolExecutor, ThreadPoolExecutor
+from dataclasses import replace
 from multiprocessing import get_context
 from pathlib import Path
 from typing import Any
 
 import pytest
 
+from truck_blowout_sim.cli.main import main
 from truck_blowout_sim.proof import run
 from truck_blowout_sim.proof.blindfold import blindfold, blindfolded
 from truck_blowout_sim.proof.cases import find_cases
-from truck_blowout_sim.proof.run import RESULTS, append, mixed, read_lines, unfinished
+from truck_blowout_sim.proof.run import RESULTS, Manner, append, mixed, read_lines, unfinished
 from truck_blowout_sim.proof.seal import folder_hash
 
 WriteCase = Callable[..., Path]
+USUAL = Manner(0.0025, False)
 
 
 def test_a_cut_off_line_is_made_again(tmp_path: Path) -> None:
@@ -36,9 +39,28 @@ def test_changed_recordings_are_diagnosed_again(tmp_path: Path, write_case: Writ
     cases = find_cases(tmp_path)
     lines: dict[str, dict[str, Any]] = {
         c.id: {"recordings_sha256": folder_hash(c.folder)} for c in cases}
-    assert unfinished(cases, lines) == []
+    assert unfinished(cases, lines, USUAL) == []
     (tmp_path / "cases" / "b" / "train_1.csv").write_text("other")
-    assert [c.id for c in unfinished(cases, lines)] == ["b"]
+    assert [c.id for c in unfinished(cases, lines, USUAL)] == ["b"]
+
+
+@pytest.mark.parametrize(("said", "manner", "again"), [
+    ({}, USUAL, False),  # a published line says no more than its code
+    ({"code": "old"}, USUAL, False),
+    ({"code": "old"}, replace(USUAL, code="new"), True),
+    ({"code": "new"}, replace(USUAL, code="new"), False),
+    ({"step_s": 0.005}, USUAL, True),
+    ({"step_s": 0.0025, "with_baselines": True}, USUAL, False),
+    ({"with_baselines": False}, replace(USUAL, with_baselines=True), True),
+    ({"error": "MemoryError: no room"}, USUAL, True),
+])
+def test_a_line_of_another_manner_and_a_failed_one_are_made_again(
+    tmp_path: Path, write_case: WriteCase, said: dict[str, Any], manner: Manner, again: bool
+) -> None:
+    write_case(tmp_path, "a")
+    cases = find_cases(tmp_path)
+    line = {"recordings_sha256": folder_hash(cases[0].folder), **said}
+    assert bool(unfinished(cases, {"a": line}, manner)) == again
 
 
 def test_an_order_of_strides_keeps_every_case(tmp_path: Path, write_case: WriteCase) -> None:
@@ -106,3 +128,33 @@ def test_one_thread_is_asked_for_only_while_processes_run(monkeypatch: pytest.Mo
     with run._one_thread():
         assert (os.environ["NUMBA_NUM_THREADS"], os.environ["OMP_NUM_THREADS"]) == ("1", "3")
     assert dict(os.environ) == before
+
+
+def test_old_answers_are_scored_and_told_and_renewed_on_demand(
+    tmp_path: Path, write_case: WriteCase, line: Callable[..., dict[str, Any]],
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    write_case(tmp_path, "a")
+    case = find_cases(tmp_path)[0]
+    old = line("a", "consistent", code="of last month", recordings_sha256=folder_hash(case.folder))
+    (tmp_path / "out").mkdir()
+    append(tmp_path / "out" / RESULTS, old)
+    words = ["prove", "--cases", str(tmp_path), "-o", str(tmp_path / "out"), "--workers", "1"]
+    assert main(words) == 0
+    assert "answers of another version of the code: 1; --renew" in capsys.readouterr().err
+    made = {**old, "code": "now"}
+    monkeypatch.setattr(run, "ProcessPoolExecutor", lambda *_, **__: Straightaway(made))
+    assert main([*words, "--renew"]) == 0
+    assert "another version" not in capsys.readouterr().err
+    assert read_lines(tmp_path / "out" / RESULTS)["a"]["step_s"] == 0.0025
+
+
+class Straightaway(ThreadPoolExecutor):
+    """Gives one line for every case, without a diagnosis."""
+
+    def __init__(self, line: dict[str, Any]) -> None:
+        super().__init__(1)
+        self.line = line
+
+    def submit(self, *_: object, **__: object) -> Future[dict[str, Any]]:  # type: ignore[override]
+        return super().submit(dict, self.line)

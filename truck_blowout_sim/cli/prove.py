@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -37,6 +38,9 @@ def command(
     baselines: bool = typer.Option(
         True, "--baselines/--no-baselines", help="Also try the rivals on every case."
     ),
+    renew: bool = typer.Option(
+        False, "--renew", help="Diagnose again what another version of the code answered."
+    ),
     as_json: bool = JSON,
 ) -> None:
     """Run the concealed-effect benchmark; an interrupted run resumes.
@@ -46,17 +50,21 @@ def command(
     from truck_blowout_sim.proof.cases import find_cases
     from truck_blowout_sim.proof.generate import generate_set
     from truck_blowout_sim.proof.prove import score_run
-    from truck_blowout_sim.proof.run import RESULTS, read_lines, run_cases
+    from truck_blowout_sim.proof.run import RESULTS, Manner, read_lines, run_cases, unfinished
     from truck_blowout_sim.proof.seal import find_manifest
+    from truck_blowout_sim.resources import code_hash
 
     root = cases or generate_set(name, output, limit=limit, workers=workers)
     found = find_cases(root, limit)
-    have = set(read_lines(output / RESULTS))
+    code = code_hash()
+    lines = read_lines(output / RESULTS)
+    todo = unfinished(found, lines, Manner(step_s, baselines, code if renew else ""))
+    _say_old([lines[c.id] for c in found if c.id in lines and c not in todo], code)
     with _progress() as progress:
         task = progress.add_task("diagnosing", total=len(found),
-                                 completed=sum(case.id in have for case in found))
+                                 completed=len(found) - len(todo))
         for line in run_cases(found, output, workers=workers, step_s=step_s,
-                              with_baselines=baselines):
+                              with_baselines=baselines, renew=renew):
             progress.update(task, advance=1, description=line["case"])
             if line["error"]:
                 progress.console.print(f"{line['case']}: {line['error']}", style="red",
@@ -67,6 +75,14 @@ def command(
         typer.echo((output / "proof.json").read_text(encoding="utf-8"), nl=False)
     else:
         _print(figures, output)
+
+
+def _say_old(kept: Sequence[Mapping[str, Any]], code: str) -> None:
+    """Say on stderr how many answers of other code are scored as they are."""
+    old = sum(line.get("code") != code for line in kept)
+    if old:
+        typer.echo(f"answers of another version of the code: {old}; --renew makes them anew",
+                   err=True)
 
 
 def _progress() -> Progress:

@@ -7,9 +7,10 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from contextlib import contextmanager
+from dataclasses import dataclass
 from multiprocessing import get_context
 from pathlib import Path
 from typing import Any
@@ -39,31 +40,56 @@ def read_lines(path: Path) -> dict[str, dict[str, Any]]:
     return found
 
 
-def unfinished(cases: Sequence[Case], lines: dict[str, dict[str, Any]]) -> list[Case]:
-    """Cases without a line, or whose recordings are not those that the line is about."""
-    return [case for case in cases if case.id not in lines
+@dataclass(frozen=True)
+class Manner:
+    """How cases are diagnosed.
+
+    Attributes:
+        step_s: step of the simulation [s].
+        with_baselines: whether rivals are tried too.
+        code: digest of the code that must have made a line; empty: any.
+    """
+
+    step_s: float
+    with_baselines: bool
+    code: str = ""
+
+    def made(self, line: Mapping[str, Any]) -> bool:
+        """Whether a line was made in this manner; what an old one does not say is taken for so."""
+        return (line.get("error") is None
+                and line.get("step_s", self.step_s) == self.step_s
+                and line.get("with_baselines", True) >= self.with_baselines
+                and self.code in ("", line.get("code")))
+
+
+def unfinished(cases: Sequence[Case], lines: Mapping[str, Mapping[str, Any]], manner: Manner
+               ) -> list[Case]:
+    """Cases without a line of this manner about these recordings; a failed one is tried again."""
+    return [case for case in cases if case.id not in lines or not manner.made(lines[case.id])
             or lines[case.id]["recordings_sha256"] != folder_hash(case.folder)]
 
 
 def run_cases(cases: Sequence[Case], out: Path, *, workers: int, step_s: float,
-              with_baselines: bool, begin: Callable[[], None] = blindfold
-              ) -> Iterator[dict[str, Any]]:
+              with_baselines: bool, renew: bool = False,
+              begin: Callable[[], None] = blindfold) -> Iterator[dict[str, Any]]:
     """Diagnose what has no line yet, append and yield each line as it comes.
 
-    ``begin``: what each process does first; it must leave the process blindfolded.
+    ``renew``: also what other code answered. ``begin``: what each process does first; it must
+    leave the process blindfolded.
     """
-    path = out / RESULTS
-    todo = unfinished(cases, read_lines(path))
+    path, code = out / RESULTS, code_hash()
+    todo = unfinished(cases, read_lines(path),
+                      Manner(step_s, with_baselines, code if renew else ""))
     if not todo:
         return
-    code = code_hash()
     out.mkdir(parents=True, exist_ok=True)
     with _one_thread(), ProcessPoolExecutor(workers, get_context("spawn"),
                                             initializer=begin) as pool:
         jobs = [pool.submit(attempt, (case, step_s, with_baselines)) for case in mixed(todo)]
         try:
             for job in as_completed(jobs):
-                line = {**job.result(), "code": code}
+                line = {**job.result(), "code": code, "step_s": step_s,
+                        "with_baselines": with_baselines}
                 append(path, line)
                 yield line
         finally:
