@@ -78,6 +78,21 @@ def test_seals_hold_until_anything_moves(
     assert "not sealed" in check_seals(cases, None).sentence()
 
 
+def test_sealed_cases_that_were_left_out_are_told(
+    tmp_path: Path, write_case: WriteCase, manifest: Callable[[Path], Path]
+) -> None:
+    for name in "abc":
+        write_case(tmp_path, name)
+    sealed, cases = manifest(tmp_path), find_cases(tmp_path)
+    assert check_seals(cases, sealed).not_scored == ()
+    assert "not scored" not in check_seals(cases, sealed).sentence()
+    fewer = check_seals(cases[1:], sealed)  # one has gone
+    assert fewer.not_scored == ("a",)
+    unanswered = check_seals(cases, sealed, {"b"})  # two have no line
+    assert unanswered.not_scored == ("a", "c")
+    assert unanswered.sentence().endswith("; 2 of 3 sealed cases are not scored.")
+
+
 def test_a_manifest_of_another_form_is_refused(tmp_path: Path) -> None:
     (tmp_path / "m.json").write_text("[]")
     with pytest.raises(InputError, match="manifest"):

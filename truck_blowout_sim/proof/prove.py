@@ -31,7 +31,7 @@ def score_run(cases: Sequence[Case], lines: Mapping[str, Mapping[str, Any]], out
     Raises:
         InputError: an answer or the manifest cannot be read.
     """
-    seals = check_seals(cases, manifest)
+    seals = check_seals(cases, manifest, lines.keys() & {case.id for case in cases})
     truths = {case.id: read_truth(case.answer) for case in cases if case.id in lines}
     answered = [case for case in truths if lines[case]["answer"]]
     floor = null_floor(lines, [case for case in answered if truths[case].group == "null"])

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from importlib.util import find_spec
 from pathlib import Path
@@ -34,6 +34,7 @@ class SealCheck:
         broken: cases whose answer differs.
         remade: cases with the sealed answer and other recordings.
         absent: cases that the manifest does not name.
+        sealed: how many it names; ``not_scored``: those of them that have no line of results.
     """
 
     manifest: str | None
@@ -43,6 +44,8 @@ class SealCheck:
     broken: tuple[str, ...] = ()
     remade: tuple[str, ...] = ()
     absent: tuple[str, ...] = ()
+    sealed: int = 0
+    not_scored: tuple[str, ...] = ()
 
     def sentence(self) -> str:
         """For the reader of a table."""
@@ -55,7 +58,9 @@ class SealCheck:
         # Recordings repeat byte for byte on one kind of processor only.
         text += (f", {len(self.remade)} with the sealed answer and other recordings"
                  if self.remade else "")
-        return text + (f", {len(self.absent)} cases not in it." if self.absent else ".")
+        text += f", {len(self.absent)} cases not in it" if self.absent else ""
+        return text + (f"; {len(self.not_scored)} of {self.sealed} sealed cases are not scored."
+                       if self.not_scored else ".")
 
 
 def file_hash(path: Path) -> str:
@@ -112,8 +117,11 @@ def _read(manifest: Path) -> dict[str, Any]:
     return dict(tree)
 
 
-def check_seals(cases: Sequence[Case], manifest: Path | None) -> SealCheck:
+def check_seals(cases: Sequence[Case], manifest: Path | None,
+                scored: Collection[str] | None = None) -> SealCheck:
     """Compare cases with a manifest.
+
+    ``scored``: ids of the cases that have a line of results; None: all have.
 
     Raises:
         InputError: the manifest cannot be read, or contradicts itself.
@@ -124,7 +132,10 @@ def check_seals(cases: Sequence[Case], manifest: Path | None) -> SealCheck:
     found: dict[str, list[str]] = {"holds": [], "broken": [], "remade": [], "absent": []}
     for case in cases:
         found[_state(case, sealed["cases"].get(case.id))].append(case.id)
+    have = {case.id for case in cases} if scored is None else set(scored)
     return SealCheck(str(manifest), str(sealed.get("set", "")), str(sealed.get("seal", "")),
+                     sealed=len(sealed["cases"]),
+                     not_scored=tuple(sorted(set(sealed["cases"]) - have)),
                      **{state: tuple(ids) for state, ids in found.items()})
 
 
