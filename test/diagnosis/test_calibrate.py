@@ -118,3 +118,18 @@ def test_bad_input_is_one_line(tmp_path: Path, capsys: pytest.CaptureFixture[str
     assert main(["calibrate", str(tmp_path / "none.csv"), "-o", str(tmp_path / "v.yaml")]) == 2
     assert len(capsys.readouterr().err.strip().splitlines()) == 1
     assert not (tmp_path / "v.yaml").exists()
+
+
+def test_a_person_is_told_why_nothing_is_proven_and_what_did_not_change(found: Calibration
+                                                                        ) -> None:
+    def said(**changes: object) -> list[str]:
+        return list(lines(replace(found, **changes), Path("x.yaml")))  # type: ignore[arg-type]
+
+    fitted = tuple(c for c in found.changes if not c.unseen)
+    assert ("unseen runs: none given (--holdout), so nothing is proven on new driving"
+            in said(changes=fitted, holdout=()))
+    assert ("unseen runs: no channel of these runs could be compared, so nothing is proven on new "
+            "driving" in said(changes=fitted))
+    still = tuple(replace(c, after=c.before) for c in found.changes)
+    assert ("fitted runs: errors are as large on average; no channel got worse"
+            in said(changes=still))

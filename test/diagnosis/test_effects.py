@@ -101,12 +101,13 @@ def test_bounds_hold_the_neutral_amount_the_step_and_every_start(
 def test_words_fill_for_every_place(effect: Effect, truck: Packed) -> None:
     fields = {f for text in (effect.sentence, effect.equation)
               for _, f, _, _ in string.Formatter().parse(text) if f}
-    assert fields <= {"where", "value", "percent", "percent_of", "onset"}
+    assert fields <= {"where", "axles", "value", "percent", "percent_of", "onset"}
     assert effect.timing == "always" or "onset" in fields
     for h in hypotheses(effect, truck):
         sentence, equation = fill(h, 0.1234, 2.5 if effect.timed else None)
         assert sentence.endswith(".")
         assert not set("{}") & set(sentence + equation)
+        assert "axle truck" not in sentence
         assert not effect.timed or "2.5" in sentence
     assert effect.splits
 
@@ -213,3 +214,19 @@ def test_a_tire_of_another_form_looks_like_a_roll_steer(used: float) -> None:
     effect = next(e for e in LIBRARY if e.name == "roll_steer")
     seems = _spread_of_slips(used) / (6.0 * 0.1 * used)
     assert seems == pytest.approx(effect.near_limit * used, abs=0.05)
+
+
+def test_tires_of_every_axle_alike_are_those_of_all_axles() -> None:
+    car = pack(load_vehicle("bmw_320i"))
+    effect = next(e for e in OF_TRUCKS if e.name == "tire_saturation"
+                  and any(not p.axle for p in e.places(car.vehicle)))
+    place = next(p for p in effect.places(car.vehicle) if not p.axle)
+    sentence, _ = fill(Hypothesis(effect, place), 0.8, None)
+    assert sentence.startswith("The tires of all axles give out earlier")
+
+
+def test_a_load_that_moves_to_the_left_turns_the_body_to_the_left(truck: Packed) -> None:
+    """Its weight points down: about x, which points forward, the moment is negative."""
+    effect = next(e for e in LIBRARY if e.name == "payload_shift")
+    _, equation = fill(Hypothesis(effect, effect.places(truck.vehicle)[0]), 0.4, 2.5)
+    assert equation.startswith("M_x = -m_load g * 0.4 m from t = 2.50 s")

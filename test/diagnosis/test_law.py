@@ -52,6 +52,8 @@ def test_finds_the_variable_that_made_the_force(
                                                  tractor_yaw_rate_radps=YAW_RATE))
     (name, found), = law.terms
     assert name == variable
+    assert f"{found:.4g} {'(constant' if variable[0] == '1' else f'* {variable}'}" in law.equation
+    assert "* 1" not in law.equation
     assert found == pytest.approx(factor, rel=0.1)
     assert law.explained > 0.8
 

@@ -8,9 +8,11 @@ from pathlib import Path
 import pytest
 import yaml
 
+from truck_blowout_sim.diagnosis.result import Calibrated
 from truck_blowout_sim.diagnosis.settings import STATED, Settings, load_settings
 from truck_blowout_sim.diagnosis.settings_file import settings_tree
 from truck_blowout_sim.errors import InputError
+from truck_blowout_sim.report.diagnosis_rows import calibrated_row
 from truck_blowout_sim.resources import config_file, config_names
 from truck_blowout_sim.vehicle import Packed, load_vehicle, pack
 from truck_blowout_sim.vehicle.packing import packed_spreads
@@ -240,3 +242,16 @@ def test_every_spread_of_a_rule_of_thumb_is_a_prior(tmp_path: Path) -> None:
              for name, _ in number.targets}
     assert set(stated) <= moved
     assert len(stated) > 300
+
+
+def test_every_amount_has_its_unit_and_the_page_shows_it(truck: Packed) -> None:
+    numbers = {n.name: n for n in load_settings(truck).nuisances}
+    assert numbers["steering_zero"].unit == "rad"
+    assert numbers["trailer_mass"].unit == "1"
+    zero = Calibrated("steering_zero", numbers["steering_zero"].unit, 0.0, 1.0, 0.5, 0.1)
+    share = Calibrated("trailer_mass", "1", 0.0, 0.02, 0.01, 0.01, relative=True)
+    assert [calibrated_row(n)["unit"] for n in (zero, share)] == ["rad", "%"]
+    for vehicle in config_names("vehicles"):
+        for n in load_settings(pack(load_vehicle(vehicle))).nuisances:
+            pure = n.kind == "scale" or n.targets[0][0].endswith((".roll_steer", ".polytropic"))
+            assert (n.unit == "1") == pure, n.targets[0][0]

@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 
 from truck_blowout_sim.cli.main import main
+from truck_blowout_sim.cli.sweep import _command
 from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.simulation import open_batch
 from truck_blowout_sim.simulation.studies import sweep as sweeping
@@ -165,3 +166,13 @@ def test_the_share_a_key_explains() -> None:
     assert share_explained(in_bins, outcome) < 0.05
     assert share_explained(in_bins, numbers) > 0.95
     assert share_explained(at, np.full(600, 1.0)) == 0.0
+
+
+def test_the_command_on_the_page_repeats_the_whole_plan(plan: Plan) -> None:
+    from dataclasses import replace
+
+    assert "--rate-hz 50.0 -o DIR" in _command(plan)
+    assert "--step-s" not in _command(plan)
+    whole = replace(plan, channels=("tractor_y_m", "tractor_x_m"), step_s=0.002, insist=True)
+    assert _command(whole).endswith(
+        "--channels tractor_y_m tractor_x_m --step-s 0.002 --rate-hz 50.0 --yes -o DIR")

@@ -126,16 +126,18 @@ def _errors(found: Calibration, unseen: bool, words: str) -> Iterator[str]:
     """Before and after, run by run and channel by channel, what got worse first."""
     ratio = found.error_ratio(unseen=unseen)
     if ratio is None:
+        why = ("no channel of these runs could be compared" if found.holdout
+               else "none given (--holdout)")
         if unseen:
-            yield "unseen runs: none given (--holdout), so nothing is proven on new driving"
+            yield f"{words}: {why}, so nothing is proven on new driving"
         return
     shown = sorted((c for c in found.changes if c.unseen == unseen and c.before > 0.0),
                    key=lambda c: -c.after / c.before)
     worse = [c for c in shown if c.after > c.before]
-    size = f"{abs(1.0 - ratio):.0%} {'smaller' if ratio < 1.0 else 'larger'}"
-    yield (f"{words}: errors are {size} on average; {len(worse)} of {len(shown)} "
-           "channels got worse" if worse else f"{words}: errors are {size} on average; no channel "
-           "got worse")
+    change = f"{abs(1.0 - ratio):.0%}"
+    size = "as large" if change == "0%" else f"{change} {'smaller' if ratio < 1.0 else 'larger'}"
+    got = f"{len(worse)} of {len(shown)} channels" if worse else "no channel"
+    yield f"{words}: errors are {size} on average; {got} got worse"
     listed = shown if len(shown) <= _MOST_CHANNELS else [*shown[:6], *shown[-6:]]
     yield from (f"  {c.recording} {c.channel}: rms {c.before:.3g} -> {c.after:.3g}"
                 for c in listed)

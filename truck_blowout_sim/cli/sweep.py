@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import shlex
+from dataclasses import fields
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -109,7 +110,13 @@ def _command(plan: Plan) -> str:
         words += ["--vary", word]
     if plan.random:
         words += ["--random", str(plan.random), "--seed", str(plan.seed)]
-    return shlex.join([*words, "-o", "DIR"])
+    if plan.channels:
+        words += ["--channels", *plan.channels]
+    usual = {field.name: field.default for field in fields(plan)}
+    for name in ("step_s", "rate_hz"):
+        if getattr(plan, name) != usual[name]:
+            words += [f"--{name.replace('_', '-')}", repr(getattr(plan, name))]
+    return shlex.join([*words, *(["--yes"] if plan.insist else []), "-o", "DIR"])
 
 
 def _progress() -> Progress:

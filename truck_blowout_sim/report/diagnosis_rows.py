@@ -71,7 +71,7 @@ def candidate_row(candidate: Candidate) -> Row:
 
 def calibrated_row(number: Calibrated) -> Row:
     """A number of the spec sheet beside its estimate; relative ones in percent of the sheet."""
-    factor, unit = (100.0, "%") if number.unit == "1" else (1.0, number.unit.replace("SI", ""))
+    factor, unit = (100.0, "%") if number.relative else (1.0, number.unit)
     return {
         "name": number.name,
         "prior": f"{shortened(factor * number.prior)} ± {shortened(factor * number.prior_sigma)}",

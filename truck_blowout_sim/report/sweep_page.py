@@ -44,7 +44,7 @@ class Outcome:
 
 OUTCOMES = (
     Outcome("lane_departure_m", "Lane departure", "m"),
-    Outcome("sideways_m", "Sideways since the burst", "m"),
+    Outcome("sideways_m", "Sideways movement", "m"),
     Outcome("left_lane", "Runs in which a tire leaves the lane", "%", 100.0, rate=True),
     Outcome("peak_hand_wheel_rad", "Hand wheel turned by", "deg", 180.0 / np.pi),
     Outcome("peak_articulation_rad", "Articulation", "deg", 180.0 / np.pi),

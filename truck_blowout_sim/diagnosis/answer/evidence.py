@@ -134,6 +134,7 @@ def calibrated(study: Study, joint: Mapping[str, float]) -> tuple[Calibrated, ..
     result = []
     for n in study.settings.nuisances:
         value = joint.get(n.name, 0.0)
-        result.append(Calibrated(n.name, "1" if n.kind == "scale" else "SI", 0.0, n.sigma,
-                                 value * n.sigma, sigma.get(n.name, 1.0) * n.sigma))
+        result.append(Calibrated(
+            n.name, n.unit, 0.0, n.sigma, value * n.sigma, sigma.get(n.name, 1.0) * n.sigma,
+            relative=n.kind == "scale"))
     return tuple(result)

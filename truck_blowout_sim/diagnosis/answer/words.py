@@ -34,7 +34,8 @@ def fill(hypothesis: Hypothesis, value: float, onset_s: float | None) -> tuple[s
     """Sentence and equation of an effect, the numbers filled in."""
     where = str(hypothesis.place) or "truck"
     onset = f"{onset_s:.2f} s" if onset_s is not None else "the start"
-    blanks = {"where": where, "value": f"{value:.3g}", "onset": onset,
+    axles = f"axle {where}" if hypothesis.place.axle else "all axles"
+    blanks = {"where": where, "axles": axles, "value": f"{value:.3g}", "onset": onset,
               "percent": f"{100.0 * value:.2g}", "percent_of": f"{100.0 * value:.0f}"}
     effect = hypothesis.effect
     return effect.sentence.format(**blanks), effect.equation.format(**blanks)

@@ -7,6 +7,9 @@ from dataclasses import dataclass
 
 from truck_blowout_sim.vehicle import Packed
 
+# by the end of a packed name
+_UNITS = {"_rad": "rad", "_m": "m", "_n": "N", "_pa": "Pa", "_kg": "kg", "_s": "s",
+          "_prad2": "1/rad^2"}
 _LEAST_SCALE = 0.1  # a number of the sheet never shrinks below this share
 
 
@@ -29,6 +32,14 @@ class Nuisance:
     targets: tuple[tuple[str, float], ...]
     only: str = ""
     source: str = ""
+
+    @property
+    def unit(self) -> str:
+        """SI unit of the amount; ``1`` of a share, and of a pure number."""
+        if self.kind == "scale":
+            return "1"
+        name = self.targets[0][0]
+        return next((unit for end, unit in _UNITS.items() if name.endswith(end)), "1")
 
     def between(self, here: float, there: float) -> float:
         """Amount that takes a truck from one number of prior sigmas to another."""

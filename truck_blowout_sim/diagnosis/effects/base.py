@@ -63,7 +63,8 @@ class Effect:
         ramp_s: how long a ramp grows, to begin with.
         timed: packed parameters for (place, start, end) of a timed effect.
         applies: which runs can show it at all.
-        sentence: for a person; fields ``{where}``, ``{value}``, ``{percent}``, ``{onset}``.
+        sentence: for a person; fields ``{where}``, ``{axles}``, ``{value}``, ``{percent}``,
+            ``{onset}``.
         equation: its law in plain symbols.
         splits: what observation tells it from look-alikes.
         kind: of what it is.

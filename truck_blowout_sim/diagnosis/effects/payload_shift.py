@@ -48,7 +48,7 @@ def _shift_of(block: int | None, what: str) -> Effect:
             f"unit.{place.body}.shift_duration_s": end - start},
         sentence=what + " on the {where} moved {value} m to the left at {onset} (negative: to the "
                         "right).",
-        equation="M_x = m_load g * {value} m from t = {onset}, and F_y = -m_load y'' as it moves",
+        equation="M_x = -m_load g * {value} m from t = {onset}, and F_y = -m_load y'' as it moves",
         splits="roll and articulation after the instant, and the axle loads",
     )
 

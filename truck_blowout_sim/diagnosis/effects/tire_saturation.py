@@ -55,7 +55,7 @@ EFFECT = Effect(
                   report=lambda a: 1.0 + a, grid=(-0.2, -0.4)),
     places=_formula_axles,
     values=_less_peak,
-    sentence="The tires of axle {where} give out earlier: their lateral force levels off at "
+    sentence="The tires of {axles} give out earlier: their lateral force levels off at "
              "{value} times the modelled peak.",
     equation="F_y = D' sin(C atan(B alpha)),  D' = {value} * D, B C D' unchanged",
     splits="a maneuver at high lateral acceleration",

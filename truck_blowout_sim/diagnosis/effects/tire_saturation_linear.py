@@ -31,7 +31,7 @@ EFFECT = Effect(
         f"tire.{tire}.saturation": packed[f"tire.{tire}.saturation"] + a
         for hub in packed.vehicle.hubs if packed.vehicle.axle_of_hub(hub) == place.axle
         for tire in packed.vehicle.tires_of_hub(hub)},
-    sentence="The tires of axle {where} are not linear: their side force levels off with slip, at "
+    sentence="The tires of {axles} are not linear: their side force levels off with slip, at "
              "the load divided by {value}.",
     equation="F_y = (F_z / s) tanh(s C_alpha alpha / F_z),  s = {value}",
     splits="a corner at high lateral acceleration",

@@ -132,7 +132,8 @@ def _left_out(design: Floats, value: Floats) -> float:
 
 def _equation(component: str, body: str, terms: tuple[tuple[str, float], ...]) -> str:
     symbol, unit = _COMPONENTS[component]
-    said = f"{symbol},{body} = {terms[0][1]:.4g} * {terms[0][0]}"
+    name, factor = terms[0]
+    said = f"{symbol},{body} = {factor:.4g} " + (name[2:] if name == CONSTANT else f"* {name}")
     said += "".join(f" {'-' if k < 0 else '+'} {abs(k):.4g} * {name}" for name, k in terms[1:])
     return f"{said}  [{unit}]"
 

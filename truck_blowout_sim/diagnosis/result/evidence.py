@@ -130,6 +130,7 @@ class Calibrated:
         unit: SI unit.
         prior, prior_sigma: what the sheet says and how far a truck of its kind strays.
         value, sigma: estimate and its standard error.
+        relative: whether these are shares of what the sheet says.
     """
 
     name: str
@@ -138,6 +139,7 @@ class Calibrated:
     prior_sigma: float
     value: float
     sigma: float
+    relative: bool = False
 
     @property
     def pull(self) -> float:
