@@ -10,6 +10,7 @@ import pytest
 
 from truck_blowout_sim.diagnosis.result import (
     AliasSet,
+    Calibrated,
     ChannelSigma,
     ChannelTimeMap,
     Diagnosis,
@@ -21,6 +22,7 @@ from truck_blowout_sim.diagnosis.result import (
     Wrench,
     write_diagnosis,
 )
+from truck_blowout_sim.report.diagnosis_rows import calibrated_row
 
 EFFECT = Effect(
     name="brake_imbalance",
@@ -132,3 +134,12 @@ def test_words_outside_the_promise_are_refused() -> None:
 def test_a_map_of_the_wrong_shape_is_refused() -> None:
     with pytest.raises(ValueError, match="expected \\(2, 3\\)"):
         ChannelTimeMap("run", "train", np.arange(4.0), ("a", "b"), np.zeros((3, 2)))
+
+
+def test_a_number_that_makes_a_sheet_miscalibrated_is_listed(tmp_path: Path) -> None:
+    """By the limit of the verdict, which is a little below where such numbers are stopped."""
+    numbers = [Calibrated(f"n{k}", "rad", 0.0, 0.01, 0.01 * pull, 0.001)
+               for k, pull in enumerate((2.89, 2.95, -3.0))]
+    off = replace(DIAGNOSIS, evidence=replace(DIAGNOSIS.evidence, calibrated=tuple(numbers)))
+    assert [one["name"] for one in json.loads(written(off, tmp_path))["pulled"]] == ["n1", "n2"]
+    assert [calibrated_row(n)["style"] for n in numbers] == ["", "bad", "bad"]

@@ -36,7 +36,6 @@ _FILES = ("diagnosis.json", "vehicle.yaml", "report.html")
 _KEPT = ".resume"  # in the output folder, until the answer is written
 _CONTINUES = "the same command continues from here"
 _QUICK_PANELS = 3
-_FAR = 3.0  # prior sigmas from the sheet, beyond which a number is told
 _OF_SENSITIVITIES = 25.0  # as many times as long take four effects
 SETTINGS: Any = typer.Option(
     "default", help="File in config/diagnosis: what is assumed of trucks and instruments.",
@@ -240,6 +239,7 @@ def _teller(progress: Progress) -> Callable[[str], None]:
 def _print(console: Console, answer: Diagnosis, folder: Path) -> None:
     """The verdict, each effect, and where the rest is; in a pipe each on one line."""
     from truck_blowout_sim.diagnosis.result import amount_text, label_of, summarize
+    from truck_blowout_sim.diagnosis.result.evidence import FAR
 
     piped = not console.is_terminal
 
@@ -259,7 +259,7 @@ def _print(console: Console, answer: Diagnosis, folder: Path) -> None:
              f"{effect.equation}")
         if len(aliases.names) > 1:
             line(f"  cannot be told from: {', '.join(aliases.names[1:])}")
-    far = [n for n in answer.evidence.calibrated if abs(n.pull) > _FAR]
+    far = [n for n in answer.evidence.calibrated if abs(n.pull) > FAR]
     if far:
         line("numbers pulled far from the sheet: "
              + ", ".join(f"{n.name.replace('_', ' ')} ({n.pull:+.1f} prior sigmas)" for n in far))

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from truck_blowout_sim.comparison.units import display_unit
 from truck_blowout_sim.diagnosis.result import Calibrated, Candidate, Fit, Overlay
+from truck_blowout_sim.diagnosis.result.evidence import FAR
 from truck_blowout_sim.report.style import (
     AFTER,
     BEFORE,
@@ -33,7 +34,6 @@ _MOST_BARS = 20
 _MOST_CHANNELS = 24
 _FIT_CAPTION = ("The error (rms) of the worst channels, in units of their noise σ. At 1 σ noise "
                 "explains all that is left.")
-_IMPLAUSIBLE = 3.0
 
 
 def overlay_picture(
@@ -142,11 +142,11 @@ def pulls_picture(calibrated: Sequence[Calibrated]) -> Picture:
     """How far the recordings move each number of the spec sheet, in its own prior sigma."""
     figure = new_figure((9.6, 1.0 + 0.25 * len(calibrated)))
     axes = figure.add_subplot()
-    axes.axvspan(-_IMPLAUSIBLE, _IMPLAUSIBLE, color=INK, alpha=0.06, linewidth=0)
+    axes.axvspan(-FAR, FAR, color=INK, alpha=0.06, linewidth=0)
     axes.axvline(0.0, color=SOFT, linewidth=0.8)
     rows, pulls = np.arange(len(calibrated)), np.array([number.pull for number in calibrated])
     errors = np.array([number.sigma / number.prior_sigma for number in calibrated])
-    far = np.abs(pulls) > _IMPLAUSIBLE
+    far = np.abs(pulls) > FAR
     for these, color in ((~far, AFTER), (far, VERMILION)):
         axes.errorbar(pulls[these], rows[these], xerr=errors[these], fmt="o", color=color,
                       markersize=4.5)
@@ -154,5 +154,5 @@ def pulls_picture(calibrated: Sequence[Calibrated]) -> Picture:
     axes.tick_params(axis="y", labelsize=8.5, length=0)
     axes.set_ylim(len(calibrated) - 0.5, -0.5)
     axes.set_xlabel("distance from the spec sheet (prior σ)")
-    caption = "Bars: 1 σ of the estimate. Beyond 3 prior σ a number is not plausible."
+    caption = f"Bars: 1 σ of the estimate. Beyond {FAR:g} prior σ a number is not plausible."
     return Picture("calibration", "Spec sheet against recordings", caption, figure)

@@ -16,10 +16,10 @@ from truck_blowout_sim.diagnosis.result import (
     amount_text,
     label_of,
 )
+from truck_blowout_sim.diagnosis.result.evidence import FAR
 
 Row = Mapping[str, object]
 _ABSENT = "–"
-_IMPLAUSIBLE = 3.0
 _NOTABLE = 1.0  # prior sigmas: a number within it is where the sheet puts it
 _MOST_CHANNELS = 5
 
@@ -79,7 +79,7 @@ def calibrated_row(number: Calibrated) -> Row:
         "unit": unit,
         "far": abs(number.pull) > _NOTABLE,
         "pull": f"{number.pull:+.1f}",
-        "style": "bad" if abs(number.pull) > _IMPLAUSIBLE else "",
+        "style": "bad" if abs(number.pull) > FAR else "",
     }
 
 

@@ -41,11 +41,11 @@ from truck_blowout_sim.diagnosis.result import (
     Verdict,
     Wrench,
 )
+from truck_blowout_sim.diagnosis.result.evidence import FAR
 from truck_blowout_sim.diagnosis.sensors import GateResult
 
 Floats = NDArray[np.float64]
 Key = tuple[str, str]  # of a hypothesis: name and place
-_PULLED = 2.9  # prior sigmas beyond which a sheet number is reported
 
 
 @dataclass(frozen=True, eq=False)
@@ -182,11 +182,11 @@ def _bought(material: Material) -> float:
 
 
 def pulled(material: Material) -> list[tuple[str, float]]:
-    """Sheet numbers beyond three prior sigmas, with their pull, strongest first."""
+    """Sheet numbers far from the sheet, with their pull, strongest first."""
     study = material.study
     own = joint_amounts(material)
     total = {n.name: own.get(n.name, 0.0) for n in study.settings.nuisances}
-    return sorted(((n, a) for n, a in total.items() if abs(a) > _PULLED), key=lambda p: -abs(p[1]))
+    return sorted(((n, a) for n, a in total.items() if abs(a) > FAR), key=lambda p: -abs(p[1]))
 
 
 def joint_amounts(material: Material) -> dict[str, float]:

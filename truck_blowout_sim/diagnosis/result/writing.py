@@ -18,14 +18,13 @@ from dataclasses import asdict
 from typing import TYPE_CHECKING
 
 from truck_blowout_sim.comparison.plain_json import finite_or_none
-from truck_blowout_sim.diagnosis.result.evidence import Calibrated
+from truck_blowout_sim.diagnosis.result.evidence import FAR, Calibrated
 from truck_blowout_sim.diagnosis.result.parts import Effect, Fit, Interval, Location, Parameter
 
 if TYPE_CHECKING:
     from truck_blowout_sim.diagnosis.result import Diagnosis
 
 Object = dict[str, object]
-_FAR = 3.0  # prior sigmas from the sheet
 _NINETY = 1.645
 
 
@@ -42,7 +41,7 @@ def encode_diagnosis(diagnosis: Diagnosis) -> Object:
         "null_p_value": diagnosis.null_p_value,
         "next_test": diagnosis.next_test,
         "summary": asdict(summarize(diagnosis)),
-        "pulled": [_number(n) for n in diagnosis.evidence.calibrated if abs(n.pull) > _FAR],
+        "pulled": [_number(n) for n in diagnosis.evidence.calibrated if abs(n.pull) > FAR],
     }
 
 
