@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import fields
 
 import numpy as np
@@ -28,7 +28,7 @@ def contents_hash(study: Study, axes: Sequence[Axis]) -> str:
     return total.hexdigest()[:_DIGITS]
 
 
-def _parts(study: Study, values: dict[str, Value]) -> Iterator[bytes]:
+def _parts(study: Study, values: Mapping[str, Value]) -> Iterator[bytes]:
     """The truck, the scenario and what drives a case, as bytes."""
     try:
         packed, scenario, drive = study.prepared(values)
