@@ -10,6 +10,9 @@ import pytest
 from truck_blowout_sim.proof.cases import Cause, read_truth
 from truck_blowout_sim.proof.rows import rows, uniformity, wrong_name
 from truck_blowout_sim.proof.score import CaseScore, score_case
+from truck_blowout_sim.proof.short import WORDS
+from truck_blowout_sim.proof.summary import naming, verdicts
+from truck_blowout_sim.proof.table import SOUGHT
 
 Maker = Callable[..., dict[str, Any]]
 SEEN = "effects seen by an ideal detector, among the causes named"
@@ -130,3 +133,20 @@ def test_a_pair_counts_where_both_exceed_what_sound_vehicles_differ_by(
     found = dict(rows([faint[0], plain[0]], {s.case: t for s, t in (faint, plain)}))
     both = found["both of a pair"]
     assert (both.hits, both.trials) == (0, 1)
+
+
+def test_the_words_of_a_row_say_what_it_counts(
+    tmp_path: Path, write_case: Callable[..., Path], cause: Maker, effect: Maker, line: Maker
+) -> None:
+    """An instrument that is named counts as a name, and ``unknown`` as an alarm."""
+    fault = effect("yaw_rate_bias", kind="sensor")
+    one = scored(tmp_path, write_case, "a", line("a", "sensor_artefact", (fault,)), "single",
+                 (cause(),))
+    calm = scored(tmp_path, write_case, "b", line("b", "unknown"))
+    found = dict(rows([one[0], calm[0]], {s.case: t for s, t in (one, calm)}))
+    row = found["one effect: truth in the alias set, where something was named"]
+    assert (row.hits, row.trials) == (0, 1)
+    assert naming([one[0]])["truth inside the alias set, where something was named"].trials == 1
+    assert verdicts([calm[0]])["false discovery on nulls"].hits == 1
+    assert "unknown" in WORDS["false discovery on nulls"]
+    assert set(WORDS) <= set(SOUGHT)

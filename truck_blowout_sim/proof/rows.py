@@ -3,7 +3,8 @@
 An effect counts where an ideal detector sees it: sigma_b of at least 6, from ``sigma_b.json``
 beside the cases (`python -m proving_ground sigma`); without that file every effect counts. What
 fault-free vehicles differ by in the effect's own number is included: on a road that banks by no
-more than roads do, nothing is missing. One row leaves that out.
+more than roads do, nothing is missing. One row leaves that out. An interval of an amount holds the
+truth on a side that is open; an interval of an onset that is open is not counted.
 
 Validated with: test/proof/test_rows.py.
 """
@@ -61,7 +62,7 @@ def rows(scores: Sequence[CaseScore], truths: Mapping[str, Truth]) -> list[Row]:
         ("instrument fault named", share(of("sensor"), lambda s: all(c.aliased for c in s.causes))),
         ("90 % intervals of amounts hold the truth", proportion(intervals)),
         ("90 % intervals of onsets hold the truth", proportion(onsets)),
-        ("truth in the alias set, where something was named",
+        ("one effect: truth in the alias set, where something was named",
          share([s for s in scores if s.group == "single" and s.named],
                lambda s: s.causes[0].aliased)),
         ("holdout better", share(physics, better)),

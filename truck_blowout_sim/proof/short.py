@@ -14,7 +14,7 @@ from truck_blowout_sim.proof.table import RIVAL_WORDS, SOUGHT
 WORDS: Mapping[str, str] = {
     "effect named at alias-set level": "effect of 10 sigma or more among the causes named",
     "effect named first, raw": "the same, named first",
-    "false discovery on nulls": "something named where nothing is missing",
+    "false discovery on nulls": "anything named, or unknown, where nothing is missing",
     "unknown recognised": "effect of no list called unknown",
     "unknown misnamed": "effect of no list given a name",
     "sensor against physics": "instrument told from truck",

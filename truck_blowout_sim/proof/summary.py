@@ -60,7 +60,7 @@ def naming(scores: Sequence[CaseScore]) -> dict[str, Proportion]:
         "effect named first, raw": proportion(s.causes[0].raw for s in single),
         "instrument fault named at alias-set level": proportion(
             s.causes[0].aliased for s in strong if s.group == "sensor"),
-        "truth inside the alias set, where physics was named": proportion(
+        "truth inside the alias set, where something was named": proportion(
             s.causes[0].aliased for s in single if s.named),
         "nothing named beside the one effect": proportion(
             len(s.named) == 1 for s in single if s.named),

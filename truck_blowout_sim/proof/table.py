@@ -16,7 +16,7 @@ from truck_blowout_sim.proof.statistics import Proportion
 SOUGHT: Mapping[str, str] = {
     "effect named at alias-set level": "≥ 90 %",
     "effect named first, raw": "≥ 80 %",
-    "truth inside the alias set, where physics was named": "≥ 95 %",
+    "truth inside the alias set, where something was named": "≥ 95 %",
     "false discovery on nulls": "≤ 2 %",
     "unknown recognised": "≥ 85 %",
     "unknown misnamed": "≤ 5 %",
