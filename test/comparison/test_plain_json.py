@@ -38,3 +38,11 @@ def test_numpy_is_plain_and_minus_zero_is_zero() -> None:
 def test_what_is_no_data_is_refused() -> None:
     with pytest.raises(TypeError, match="where: set"):
         json_text({"where": {1}})
+
+
+def test_an_instant_of_a_unix_clock_keeps_its_microseconds() -> None:
+    late, early = 1700000002.730001, 12.345678901234
+    content = {"peak_time_s": late, "interval_s": [late, early], "mass_kg": late}
+    assert json.loads(json_text(content)) == {
+        "peak_time_s": late, "interval_s": [late, 12.3456789], "mass_kg": 1700000003.0}
+    assert json_text(json.loads(json_text(content))) == json_text(content)

@@ -1,7 +1,8 @@
 """JSON that any program can read, with the same bytes for the same content.
 
 Numbers keep ten significant digits: more would be rounding noise of the machine that computed
-them, and would make two equal answers look different.
+them, and would make two equal answers look different. Times (keys that end in ``_s``) keep their
+microseconds however long ago their clock began.
 
 Validated with: test/comparison/test_plain_json.py.
 """
@@ -10,6 +11,7 @@ from __future__ import annotations
 
 import json
 import math
+import re
 from collections.abc import Mapping, Sequence
 from typing import TypeAlias
 
@@ -17,6 +19,9 @@ import numpy as np
 
 Json: TypeAlias = "bool | int | float | str | list[Json] | dict[str, Json] | None"
 _DIGITS = 10
+_TIME = re.compile(r"_s(\[\d+\])*$")  # the place of a time, or of one in a list
+_MICROSECONDS = 6  # decimals
+_LATE_S = 10.0**(_DIGITS - _MICROSECONDS)  # from here on ten digits hold no microseconds
 
 
 def json_text(content: object) -> str:
@@ -56,6 +61,8 @@ def _plain(content: object, where: str) -> Json:
 def _rounded(value: float, where: str) -> float:
     if not math.isfinite(value):
         raise ValueError(f"{where.lstrip('.') or 'number'} is {value}, which JSON cannot hold")
+    if abs(value) >= _LATE_S and _TIME.search(where):
+        return round(value, _MICROSECONDS)
     rounded = float(f"{value:.{_DIGITS}g}")
     # adding zero turns -0.0 into 0.0; the largest floats would round up to infinity
     return rounded + 0.0 if math.isfinite(rounded) else value
