@@ -78,11 +78,11 @@ def test_a_free_instant_costs_against_noise_and_not_against_scatter() -> None:
     """What a model is off by chose its instants as freely as the event did."""
     own = shown(np.array([0.4, 0.4, 0.4, 0.0, 0.0]))
     cost = 2.0 * np.log(400.0)
-    assert CERTAIN.support(own, 400.0) == pytest.approx(CERTAIN.support(own) - cost)
+    assert CERTAIN.support(own, np.log(400.0)) == pytest.approx(CERTAIN.support(own) - cost)
     scattered = np.zeros(SCATTERS.size)
     scattered[-1] = 1.0
     certain = Scatter(scattered)
-    assert certain.support(own, 400.0) == pytest.approx(certain.support(own))
+    assert certain.support(own, np.log(400.0)) == pytest.approx(certain.support(own))
 
 
 def test_an_amount_beyond_its_bounds_is_not_supported() -> None:

@@ -69,17 +69,17 @@ class Scatter:
             weights = total / total.sum()
         return Scatter(weights)
 
-    def support(self, shown: Shown, choices: float = 1.0) -> float:
+    def support(self, shown: Shown, log_choices: float = 0.0) -> float:
         """Twice the log of the likelihood ratio for the effect, any scatter allowed.
 
-        ``choices``: of so many instants the best was taken. What scatters chose its own as freely,
-        noise alone did not.
+        ``log_choices``: log of how many instants the best was taken from. What scatters chose its
+        own as freely, noise alone did not.
         """
         without, best = shown.likelihoods
         log = np.log(np.maximum(self.weights, 1e-300))
-        chosen = np.log(choices)
-        idle = log + without - np.where(SCATTERS > 0.0, chosen, 0.0)
-        return float(2.0 * (np.logaddexp.reduce(log + best) - chosen - np.logaddexp.reduce(idle)))
+        idle = log + without - np.where(SCATTERS > 0.0, log_choices, 0.0)
+        return float(2.0 * (np.logaddexp.reduce(log + best) - log_choices
+                            - np.logaddexp.reduce(idle)))
 
 
 @dataclass(frozen=True, eq=False)

@@ -94,7 +94,7 @@ def supported(study: Study, one: Ranked, beside: Beside, chance: Chance) -> Rank
         return replace(one, support=0.0)
     change = away * fitted[:study.columns.shape[0]]
     scatter = chance.beside(h.key, change, study.columns.T @ change, left)
-    return replace(one, support=scatter.support(shown, _choices(study, h)))
+    return replace(one, support=scatter.support(shown, _log_choices(study, h)))
 
 
 def asks_unseen(h: Hypothesis, named: Sequence[Hypothesis]) -> bool:
@@ -145,8 +145,8 @@ def _unseen(study: Study, effects: Sequence[Hypothesis]) -> list[Floats]:
                            for run in study.holdout])
 
 
-def _choices(study: Study, hypothesis: Hypothesis) -> float:
-    """Of how many combinations of instants the best was taken."""
+def _log_choices(study: Study, hypothesis: Hypothesis) -> float:
+    """Log of how many combinations of instants the best was taken from; many runs have too many."""
     tried = [grid_of(run, hypothesis.effect).size for run in study.runs
              if run.recording.name in hypothesis.times]
-    return float(np.prod([float(max(n, 1)) ** hypothesis.effect.edges for n in tried]))
+    return float(hypothesis.effect.edges * np.log(np.maximum(tried, 1)).sum())
