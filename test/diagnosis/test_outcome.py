@@ -18,6 +18,7 @@ from truck_blowout_sim.diagnosis.answer.outcome import (
     pulled,
 )
 from truck_blowout_sim.diagnosis.answer.told import alias_set, physics_effect, sensor_effects
+from truck_blowout_sim.diagnosis.case.runs import rms_sigma
 from truck_blowout_sim.diagnosis.case.study import Study
 from truck_blowout_sim.diagnosis.diagnose import _diagnosed
 from truck_blowout_sim.diagnosis.effects import LIBRARY
@@ -37,6 +38,7 @@ from truck_blowout_sim.diagnosis.prove.intervals import Timing
 from truck_blowout_sim.diagnosis.result.evidence import BeatScores, ForceHistory
 from truck_blowout_sim.diagnosis.result.summary import label_of
 from truck_blowout_sim.diagnosis.sensors import GateResult, SensorFinding
+from truck_blowout_sim.simulation.drive import run_drive
 from truck_blowout_sim.vehicle import Packed
 
 Studies = Callable[..., Study]
@@ -301,3 +303,18 @@ def test_an_unknown_cause_takes_along_no_effect_that_it_does_not_name(
     assert told.evidence.equations == answer(without).evidence.equations
     _, after = _diagnosed(one, truck)
     assert not [name for name in after.values if name.startswith("world.")]
+
+
+def test_before_is_the_vehicle_as_given_also_beside_baseline_runs(
+    study_of: Studies, truck: Packed
+) -> None:
+    """After are numbers of the sheet, starts and instruments fitted, too."""
+    turned = {"steering.offset_rad": truck["steering.offset_rad"] + 0.06}
+    study = study_of(turned, baseline=turned)
+    assert study.amounts["steering_zero"] > 0.5  # the baseline has moved the reference
+    told = answer(material(study))
+    given = rms_sigma(study.runs[1], study.runs[1].bins_of(run_drive(truck, study.runs[1].drive)))
+    worst = max(given, key=lambda name: given[name])
+    assert given[worst] > 2.0
+    assert told.train.before[worst] == pytest.approx(given[worst], rel=0.2)
+    assert told.train.after[worst] < 0.7 * given[worst]

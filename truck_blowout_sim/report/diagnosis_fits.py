@@ -33,7 +33,8 @@ _GRAY = "#b5bdc5"
 _MOST_BARS = 20
 _MOST_CHANNELS = 24
 _FIT_CAPTION = ("The error (rms) of the worst channels, in units of their noise σ. At 1 σ noise "
-                "explains all that is left.")
+                "explains all that is left. As diagnosed: on fitted runs with start speeds, "
+                "instruments and numbers of the sheet fitted, too.")
 
 
 def overlay_picture(

@@ -27,7 +27,10 @@ _MOST_OVERLAYS = 8
 
 
 def left_before(study: Study, found: Found, role: str) -> Left:
-    """Residuals of the calibrated model without any effect."""
+    """Residuals of the vehicle as given: where baseline runs moved it, the runs were shifted back.
+
+    ``left_after`` has numbers of the sheet, starts and instruments fitted beside the effects.
+    """
     if role == "holdout":
         return [(run, run.residual(model).reshape(run.measured.shape))
                 for run, model in zip(study.holdout, study.holdout_models, strict=True)]
