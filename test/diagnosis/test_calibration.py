@@ -3,11 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
+from truck_blowout_sim.diagnosis.case import memory
+from truck_blowout_sim.diagnosis.case.calibration import calibrate
+from truck_blowout_sim.diagnosis.case.memory import check_memory, sensitivities_bytes
 from truck_blowout_sim.diagnosis.case.study import Study, build_columns
+from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.vehicle import Packed
 
 Studies = Callable[..., Study]
@@ -92,3 +97,19 @@ def test_a_number_is_known_where_baseline_runs_show_it(study_of: Studies) -> Non
     known = study_of(baseline=True).known
     assert "steering_zero" in known
     assert known <= {n.name for n in study_of().settings.nuisances}
+
+
+def test_more_runs_than_memory_holds_are_refused_with_their_size(
+    study_of: Studies, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    study = study_of(holdout={}, baseline=True)
+    unseen = sum(columns.nbytes for columns in study.holdout_columns)
+    assert sensitivities_bytes(study) == study.columns.nbytes + unseen
+    twice = replace(study, runs=study.runs * 2, holdout=study.holdout * 2)
+    assert sensitivities_bytes(twice) > 2 * sensitivities_bytes(study)
+    check_memory(study)
+    monkeypatch.setattr(memory, "machine_bytes", lambda: 1_000_000)
+    with pytest.raises(InputError, match=r"3 runs need about 0\.\d+ GB.* the 0\.001 GB of this"):
+        calibrate(study)
+    monkeypatch.setattr(memory, "machine_bytes", lambda: None)  # a system that does not say
+    check_memory(study)

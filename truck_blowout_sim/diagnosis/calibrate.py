@@ -165,7 +165,8 @@ def calibrate(
         The calibration; :func:`write_calibrated_vehicle` makes a vehicle file of it.
 
     Raises:
-        InputError: no recording, one given twice, or one that cannot drive the model.
+        InputError: no recording, one given twice, one that cannot drive the model, or more than fit
+            into memory.
     """
     if not recordings:
         raise InputError("no recording to calibrate on", expected="at least one recording")

@@ -84,8 +84,8 @@ def diagnose(recordings: Sequence[Recording], *, baseline: Sequence[Recording] =
         The diagnosis, and the diagnosed vehicle's packed parameters that differ from the given.
 
     Raises:
-        InputError: no recording, one given twice, one that cannot drive the model, or no effect
-                of such a name.
+        InputError: no recording, one given twice, one that cannot drive the model, more than fit
+            into memory, or no effect of such a name.
         OSError: the folder of ``kept`` cannot be written.
     """
     if not recordings:

@@ -14,6 +14,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from truck_blowout_sim.diagnosis.case.memory import check_memory
 from truck_blowout_sim.diagnosis.case.nuisance import Nuisance
 from truck_blowout_sim.diagnosis.case.restlessness import resting_level, whiten
 from truck_blowout_sim.diagnosis.case.runs import Run
@@ -41,7 +42,11 @@ def calibrate(study: Study, rounds: int = 2, progress: Progress | None = None) -
     Only the point moves at which the model is linear: every run is corrected so that amounts and
     their priors go on counting from the sheet, and what the runs ask for stays open to effects.
     Without baseline runs it stays at the sheet: nothing else tells the truck from what is missing.
+
+    Raises:
+        InputError: too many runs for this machine's memory.
     """
+    check_memory(study)
     warm_up(study)
     _drive_all(study)
     _weigh_all(study)
