@@ -5,13 +5,16 @@ from __future__ import annotations
 import os
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import typer
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
 from truck_blowout_sim.cli.outputs import JSON
 from truck_blowout_sim.cli.progress import bar
+
+if TYPE_CHECKING:
+    from truck_blowout_sim.proof.cases import Case
 
 
 def command(
@@ -50,7 +53,7 @@ def command(
     from truck_blowout_sim.proof.cases import find_cases
     from truck_blowout_sim.proof.generate import generate_set
     from truck_blowout_sim.proof.prove import score_run
-    from truck_blowout_sim.proof.run import RESULTS, Manner, read_lines, run_cases, unfinished
+    from truck_blowout_sim.proof.run import RESULTS, Manner, read_lines, unfinished
     from truck_blowout_sim.proof.seal import find_manifest
     from truck_blowout_sim.resources import code_hash
 
@@ -60,21 +63,30 @@ def command(
     lines = read_lines(output / RESULTS)
     todo = unfinished(found, lines, Manner(step_s, baselines, code if renew else ""))
     _say_old([lines[c.id] for c in found if c.id in lines and c not in todo], code)
-    with _progress() as progress:
-        task = progress.add_task("diagnosing", total=len(found),
-                                 completed=len(found) - len(todo))
-        for line in run_cases(found, output, workers=workers, step_s=step_s,
-                              with_baselines=baselines, renew=renew):
-            progress.update(task, advance=1, description=line["case"])
-            if line["error"]:
-                progress.console.print(f"{line['case']}: {line['error']}", style="red",
-                                       markup=False)
+    _diagnose(found, len(found) - len(todo), output, workers=workers, step_s=step_s,
+              with_baselines=baselines, renew=renew)
     figures = score_run(found, read_lines(output / RESULTS), output,
                         manifest or find_manifest(root, "" if cases else name))
     if as_json:
         typer.echo((output / "proof.json").read_text(encoding="utf-8"), nl=False)
     else:
         _print(figures, output)
+
+
+def _diagnose(cases: Sequence[Case], done: int, output: Path, **manner: Any) -> None:  # noqa: ANN401
+    """Make the answers that are not there yet, under a bar; failures are told as they come.
+
+    ``manner``: as :func:`truck_blowout_sim.proof.run.run_cases` takes it.
+    """
+    from truck_blowout_sim.proof.run import run_cases
+
+    with _progress() as progress:
+        task = progress.add_task("diagnosing", total=len(cases), completed=done)
+        for line in run_cases(cases, output, **manner):
+            progress.update(task, advance=1, description=line["case"])
+            if line["error"]:
+                progress.console.print(f"{line['case']}: {line['error']}", style="red",
+                                       markup=False)
 
 
 def _say_old(kept: Sequence[Mapping[str, Any]], code: str) -> None:
