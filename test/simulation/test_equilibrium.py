@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
+import cmath
 import math
 
 import numpy as np
 import pytest
 
 from truck_blowout_sim.physics import layout
-from truck_blowout_sim.simulation import InitialState
-from truck_blowout_sim.simulation.equilibrium import initial_vector
+from truck_blowout_sim.simulation import InitialState, Inputs, Truck
+from truck_blowout_sim.simulation.equilibrium import held_motion, initial_vector
 from truck_blowout_sim.vehicle import Packed
 from truck_blowout_sim.vehicle.packing.blocks import NEUTRAL
 from truck_blowout_sim.vehicle.packing.bounds import may_be_infinite
@@ -55,3 +56,27 @@ def test_an_event_before_zero_is_not_felt_while_settling(
 @pytest.fixture(scope="module")
 def settled(truck: Packed) -> np.ndarray:
     return initial_vector(truck, START, 0.001)
+
+
+@pytest.mark.parametrize("articulation", [0.5, -0.5, 0.0])
+def test_both_units_move_their_hitch_alike(truck: Packed, articulation: float) -> None:
+    """The hitch has one velocity in map, seen from the fifth wheel and from the kingpin."""
+    start = InitialState(speed_mps=10.0, lateral_speed_mps=0.4, yaw_rate_radps=0.2,
+                         articulation_rad=articulation)
+    velocities = []
+    for k, (u, v, yaw_rate, yaw) in enumerate(held_motion(truck, start)):
+        at = layout.UNIT_AT + k * layout.UNIT_SIZE
+        v += yaw_rate * truck.params[at + layout.UNIT.hitch_x_m]
+        velocities.append((u + 1j * v) * cmath.exp(1j * yaw))
+    assert velocities[1] == pytest.approx(velocities[0], abs=1e-12)
+
+
+@pytest.mark.parametrize("articulation", [0.5, -0.5])
+def test_an_articulated_start_is_no_jolt(truck: Packed, articulation: float) -> None:
+    """The coupling carries less than the grip of the trailer's axles; nothing jumps."""
+    run = Truck(truck, initial=InitialState(speed_mps=10.0, articulation_rad=articulation))
+    pulls = []
+    for _ in range(300):
+        run.advance(Inputs())
+        pulls.append(abs(run.state[layout.GLOBAL_S.coupling_fx_n]))
+    assert max(pulls) < 10e3

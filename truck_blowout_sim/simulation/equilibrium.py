@@ -123,27 +123,33 @@ def _design_state(packed: Packed, initial: InitialState) -> Floats:
 
 
 def held_motion(packed: Packed, initial: InitialState) -> Floats:
-    """Per unit: forward speed, lateral speed and yaw rate at its centre of gravity, and yaw."""
-    p, n = packed.params, packed.topology[TOPOLOGY.n_units]
+    """Per unit: forward speed, lateral speed and yaw rate at its center of gravity, and yaw."""
+    p, n, yaw_rate = packed.params, packed.topology[TOPOLOGY.n_units], initial.yaw_rate_radps
+    base = (p[UNIT_AT + UNIT.base_x_m], p[UNIT_AT + UNIT.base_y_m])
+    center = _moved((initial.speed_mps, initial.lateral_speed_mps), yaw_rate, base, (0.0, 0.0))
     held = np.zeros((n, 4))
-    for u in range(n):
-        a = unit_params(u)
-        lateral = initial.lateral_speed_mps
-        if u == 1:
-            lateral = _trailer_lateral(packed, initial)
-        held[u] = (initial.speed_mps, lateral - initial.yaw_rate_radps * p[a + UNIT.base_x_m],
-                   initial.yaw_rate_radps, initial.articulation_rad if u == 1 else 0.0)
+    held[0] = (*center, yaw_rate, 0.0)
+    if n > 1:
+        held[1] = (*_trailer_motion(p, center, yaw_rate, initial.articulation_rad), yaw_rate,
+                   initial.articulation_rad)
     return held
 
 
-def _trailer_lateral(packed: Packed, initial: InitialState) -> float:
-    """Lateral speed at the trailer's base_link that keeps the kingpin on the fifth wheel."""
-    p, b = packed.params, UNIT_AT + UNIT_SIZE
-    hitch = initial.lateral_speed_mps + initial.yaw_rate_radps * (
-        p[UNIT_AT + UNIT.hitch_x_m] - p[UNIT_AT + UNIT.base_x_m])
-    turned = (hitch * math.cos(initial.articulation_rad)
-              - initial.speed_mps * math.sin(initial.articulation_rad))
-    return turned - initial.yaw_rate_radps * (p[b + UNIT.hitch_x_m] - p[b + UNIT.base_x_m])
+def _trailer_motion(p: Floats, tractor: tuple[float, float], yaw_rate: float,
+                    articulation: float) -> tuple[float, float]:
+    """Forward and lateral speed of the trailer that keep the kingpin on the fifth wheel."""
+    hitches = [(p[at + UNIT.hitch_x_m], p[at + UNIT.hitch_y_m])
+               for at in (UNIT_AT, UNIT_AT + UNIT_SIZE)]
+    u, v = _moved(tractor, yaw_rate, (0.0, 0.0), hitches[0])
+    c, s = math.cos(articulation), math.sin(articulation)
+    return _moved((u * c + v * s, v * c - u * s), yaw_rate, hitches[1], (0.0, 0.0))
+
+
+def _moved(speeds: tuple[float, float], yaw_rate: float, here: tuple[float, float],
+           there: tuple[float, float]) -> tuple[float, float]:
+    """Forward and lateral speed of one point of a rigid body, from those of another."""
+    return (speeds[0] - yaw_rate * (there[1] - here[1]),
+            speeds[1] + yaw_rate * (there[0] - here[0]))
 
 
 def _fill_brakes(x: Floats, topo: Integers, inputs: Floats) -> None:
