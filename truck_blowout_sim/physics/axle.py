@@ -178,7 +178,7 @@ def axle_steer_rad(p: Floats, a: int, left: float, right: float) -> float:
 @core
 def move_axle(x: Floats, p: Floats, topo: Integers, i: int, first: int, work: Floats, w: int,
               gravity: tuple[float, float, float], kingpin_axis: tuple[float, float, float],
-              drive_n: float, lanes: Floats, dt: float) -> tuple[int, float]:
+              drive: tuple[float, float, float], lanes: Floats, dt: float) -> tuple[int, float]:
     """One axle after the pass over all tires: its wrench to the body, its velocities and spins.
 
     Returns the number of the next axle's first tire, and the kingpin moment [N m] of a steered
@@ -188,7 +188,7 @@ def move_axle(x: Floats, p: Floats, topo: Integers, i: int, first: int, work: Fl
     us, a, s = unit_state(unit), axle_params(topo, i), axle_state(topo, i)
     end = frame_end(p, a)
     high = _roll_centre_z(x, us, p, a, work, w)
-    first, force, kingpin = _collect(x, p, topo, i, first, a, s, high, kingpin_axis, drive_n, lanes,
+    first, force, kingpin = _collect(x, p, topo, i, first, a, s, high, kingpin_axis, drive, lanes,
                                      dt)
     left, right = travels(x, us, work, w, p, a, s)
     arm = p[a + AXLE.half_spacing_m]
@@ -244,7 +244,8 @@ def _roll_centre_z(x: Floats, us: int, p: Floats, a: int, work: Floats, w: int) 
 
 @core
 def _collect(x: Floats, p: Floats, topo: Integers, i: int, first: int, a: int, s: int, up: float,
-             kingpin_axis: tuple[float, float, float], drive_n: float, lanes: Floats, dt: float
+             kingpin_axis: tuple[float, float, float], drive: tuple[float, float, float],
+             lanes: Floats, dt: float
              ) -> tuple[int, tuple[float, float, float, float, float, float], float]:
     """Sum both hubs about the roll centre, ``up`` above the road, and its kingpin moments.
 
@@ -257,7 +258,7 @@ def _collect(x: Floats, p: Floats, topo: Integers, i: int, first: int, a: int, s
         hs = hub_state(topo, hub_at_side(i, k))
         spin = x[hs + HUB_S.spin_radps]
         count = tires_of_hub(topo, first, hub_at_side(i, k))
-        out = wheel.collect_tires(x, hs, p, h, topo, first, count, circuit, drive_n, lanes, dt)
+        out = wheel.collect_tires(x, hs, p, h, topo, first, count, circuit, drive, lanes, dt)
         fx, fy, fz = fx + out[0], fy + out[1], fz + out[2]
         mx, my, mz = mx + out[3] + up * out[1], my + out[4] - up * out[0], mz + out[5]
         if i == topo[TOPOLOGY.steered_axle]:

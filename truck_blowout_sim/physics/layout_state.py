@@ -104,6 +104,7 @@ class HubState(NamedTuple):
     released: int  # 1 while the ABS dumps this hub
     hold_s: int
     brake_nm: int  # algebraic
+    drive_nm: int  # algebraic: of engine and retarder
     steer_rad: int  # algebraic: total road-wheel angle against the unit
 
 

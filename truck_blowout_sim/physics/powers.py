@@ -181,8 +181,7 @@ def _hub_powers(x: Floats, after: Floats, p: Floats, topo: Integers, i: int, sid
         out[POWER.rolling] -= after[ts + TIRE_S.rolling_nm] * spin
         out[POWER.vertical] += after[ts + TIRE_S.fz_n] * (
             x[s + AXLE_S.vz_mps] + arm * x[s + AXLE_S.roll_rate_radps])
-    drive = after[GLOBAL_S.drive_force_n] * p[h + HUB.drive_share] * radius
-    out[POWER.drive] += drive * (spin - pitch)
+    out[POWER.drive] += after[hs + HUB_S.drive_nm] * (spin - pitch)
     out[POWER.brakes] -= after[hs + HUB_S.brake_nm] * (spin - pitch)
 
 

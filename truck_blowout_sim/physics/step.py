@@ -82,12 +82,12 @@ def step(x: Floats, p: Floats, topo: Integers, inputs: Floats, dt: float, work: 
                      unit_work(0), unit_work(1), dt)
     advance_brakes(x, p, topo, inputs, dt, work)
     speed = x[STATE_UNIT_AT + UNIT_S.u_mps]
-    drive = driveline.net_force_n(p, x[0], inputs[INPUT.throttle], speed)
-    x[GLOBAL_S.drive_force_n] = drive
+    power, drag = driveline.engine(p, x[0], inputs[INPUT.throttle], speed)
+    x[GLOBAL_S.drive_force_n] = 0.0
     push = p[DRIVE_AT + DRIVE.push_n]
     if any_of(push != 0.0):
         add_force(work, 0, (push, 0.0, 0.0), (0.0, 0.0, -p[UNIT_AT + UNIT.cg_height_m]))
-    kingpin = advance_axles(x, p, topo, work, g, drive, dt)
+    kingpin = advance_axles(x, p, topo, work, g, (power, drag, speed), dt)
     for u in range(n_units):
         twist_frame(x, unit_state(u), p, unit_params(u), work, unit_work(u), dt)
         solve_unit(x, unit_state(u), work, unit_work(u))
@@ -104,7 +104,8 @@ def step(x: Floats, p: Floats, topo: Integers, inputs: Floats, dt: float, work: 
 
 @core
 def advance_axles(x: Floats, p: Floats, topo: Integers, work: Floats,
-                  gravity: tuple[float, float, float], drive_n: float, dt: float) -> float:
+                  gravity: tuple[float, float, float], drive: tuple[float, float, float], dt: float
+                  ) -> float:
     """Place all tires, let one pass make their forces, move axles; the kingpin moment [N m]."""
     lanes = stack_floats(x, N_LANES)
     first = 0
@@ -116,7 +117,7 @@ def advance_axles(x: Floats, p: Floats, topo: Integers, work: Floats,
     first, kingpin = 0, 0.0
     for i in range(topo[TOPOLOGY.n_axles]):
         w = unit_work(unit_of(topo, i))
-        first, moment = move_axle(x, p, topo, i, first, work, w, gravity, axis, drive_n, lanes, dt)
+        first, moment = move_axle(x, p, topo, i, first, work, w, gravity, axis, drive, lanes, dt)
         kingpin += moment
     return kingpin
 

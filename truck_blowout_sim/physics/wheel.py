@@ -14,12 +14,13 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from truck_blowout_sim.physics import brakes, road
+from truck_blowout_sim.physics import brakes, driveline, road
 from truck_blowout_sim.physics.choose import any_of, pick, shared, trucks_in, where
 from truck_blowout_sim.physics.jit import core
 from truck_blowout_sim.physics.layout import (
     AXLE,
     AXLE_S,
+    GLOBAL_S,
     HUB,
     HUB_S,
     STEP_COLUMNS,
@@ -111,7 +112,7 @@ def inflate(x: Floats, s: int, p: Floats, t: int, table_at: int, above_m: float,
 
 @core
 def collect_tires(x: Floats, s: int, p: Floats, h: int, topo: Integers, first: int, count: int,
-                  circuit: int, drive_n: float, lanes: Floats, dt: float
+                  circuit: int, drive: tuple[float, float, float], lanes: Floats, dt: float
                   ) -> tuple[float, float, float, float, float, float, float]:
     """Keep what a hub's tires made, and advance its spin.
 
@@ -143,7 +144,12 @@ def collect_tires(x: Floats, s: int, p: Floats, h: int, topo: Integers, first: i
         x[ts + TIRE_S.loaded_radius_m] = above
     inertia = p[h + HUB.spin_inertia_kgm2]
     brake_nm = brakes.torque_nm(x, s, p, h, circuit)
-    drive_nm = drive_n * p[h + HUB.drive_share] * radius
+    share, drive_nm = p[h + HUB.drive_share], 0.0
+    if any_of(share != 0.0):
+        force = driveline.hub_force_n(p, share, drive, spin, radius, inertia, dt)
+        x[GLOBAL_S.drive_force_n] += force
+        drive_nm = force * radius
+        x[s + HUB_S.drive_nm] = drive_nm
     brakes.advance_spin(x, s, inertia, torque + drive_nm, brake_nm, dt)
     my -= inertia * (x[s + HUB_S.spin_radps] - spin) / dt
     return fx_sum, fy_sum, fz_sum, mx, my, mz_sum, above
