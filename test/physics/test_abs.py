@@ -5,7 +5,15 @@ import pytest
 from numpy.typing import NDArray
 
 from truck_blowout_sim.physics import abs_logic
-from truck_blowout_sim.physics.layout import HUB_S, TIRE_S, TOPOLOGY
+from truck_blowout_sim.physics.layout import (
+    HUB_S,
+    MAX_TIRES,
+    N_WORK,
+    SLIPS_AT,
+    TIRE_S,
+    TOPOLOGY,
+    TOPOLOGY_SIZE,
+)
 from truck_blowout_sim.physics.step import fill_slips, sensed_slip
 from truck_blowout_sim.vehicle import Packed
 
@@ -63,3 +71,16 @@ def test_who_senses_what(truck: Packed, state: Floats, work: Floats) -> None:
     per_wheel = truck.with_values({"abs.mode": 1.0})
     number = vehicle.axles.index("drive_2")
     assert sensed_slip(per_wheel.params, truck.topology, number, 1, 1, work) == pytest.approx(0.4)
+
+
+def test_every_hub_has_room_for_its_slip() -> None:
+    """As many hubs as tires can be: nothing is written behind the working memory."""
+    topology = np.zeros(TOPOLOGY_SIZE + MAX_TIRES, dtype=np.int64)
+    topology[[TOPOLOGY.n_hubs, TOPOLOGY.n_tires]] = MAX_TIRES
+    topology[TOPOLOGY_SIZE:] = np.arange(MAX_TIRES)
+    state, work = np.zeros(MAX_TIRES * len(TIRE_S)), np.full(N_WORK + 100, np.nan)
+    state[TIRE_S.fz_n::len(TIRE_S)] = 1e4
+    state[TIRE_S.slip::len(TIRE_S)] = -0.2
+    fill_slips(state, topology, work)
+    assert work[SLIPS_AT:N_WORK] == pytest.approx(0.2)
+    assert np.isnan(work[N_WORK:]).all()

@@ -6,11 +6,10 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from truck_blowout_sim.physics.layout import TIRE, TIRE_BLOCK, TIRE_LANES, TOPOLOGY
+from truck_blowout_sim.physics.layout import MAX_TIRES, TIRE, TIRE_BLOCK, TIRE_LANES, TOPOLOGY
 from truck_blowout_sim.physics.tires.lanes import (
     LANE,
     LANE_BLOCK,
-    MAX_TIRES,
     lane_offset,
     tire_offset,
     whole_vectors,

@@ -54,10 +54,13 @@ __all__ = [
     "HUB_S",
     "HUB_SIZE",
     "INPUT",
+    "MAX_BLOCKS",
+    "MAX_TIRES",
     "N_CIRCUITS",
     "N_INPUTS",
     "N_STEP_COLUMNS",
     "N_WORK",
+    "SLIPS_AT",
     "STATE_UNIT_AT",
     "STEER",
     "STEER_AT",
@@ -133,6 +136,8 @@ UNIT_SIZE = len(UNIT)
 AXLE_SIZE = len(AXLE)
 HUB_SIZE = len(HUB)
 TIRE_BLOCK = len(TIRE) * TIRE_LANES
+MAX_BLOCKS = 6  # of tires; memory alone limits them
+MAX_TIRES = MAX_BLOCKS * TIRE_LANES
 
 TOPOLOGY = _number(Topology)
 TOPOLOGY_SIZE = len(TOPOLOGY)
@@ -190,7 +195,8 @@ class UnitWork(NamedTuple):
 
 UNIT_W = _number(UnitWork)
 UNIT_WORK_SIZE = len(UNIT_W) + 21 - 1
-N_WORK = 2 * UNIT_WORK_SIZE + 64
+SLIPS_AT = 2 * UNIT_WORK_SIZE  # behind both units: brake slips of the hubs, each with a tire
+N_WORK = SLIPS_AT + MAX_TIRES
 
 # step table of a blown tire (thesis tables 9 and 10): columns of one row
 STEP_COLUMNS = ("time_s", "radius_m", "stiffness_npm", "cornering_scale", "aligning_scale",

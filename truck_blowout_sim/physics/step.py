@@ -32,13 +32,13 @@ from truck_blowout_sim.physics.layout import (
     GLOBAL_S,
     INPUT,
     N_INPUTS,
+    SLIPS_AT,
     STATE_UNIT_AT,
     TIRE_S,
     TOPOLOGY,
     UNIT,
     UNIT_AT,
     UNIT_S,
-    UNIT_WORK_SIZE,
 )
 from truck_blowout_sim.physics.places import (
     axle_state,
@@ -60,7 +60,6 @@ from truck_blowout_sim.physics.tires.tire import tire_pass
 
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
-SLIPS_AT = 2 * UNIT_WORK_SIZE  # room for 64 hubs
 
 
 @entry

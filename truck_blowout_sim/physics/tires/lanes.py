@@ -5,7 +5,7 @@ both here and in the tires' parameters. The compiler therefore turns one tire's 
 instructions for four or eight tires at once.
 
 References: none, this is bookkeeping.
-Known limits: at most ``MAX_TIRES`` tires; packing refuses more.
+Known limits: at most ``layout.MAX_TIRES`` tires; packing refuses more.
 Validated with: test/physics/test_lanes.py.
 """
 
@@ -15,7 +15,7 @@ from typing import NamedTuple
 
 from numba.extending import register_jitable
 
-from truck_blowout_sim.physics.layout import TIRE_BLOCK, TIRE_LANES
+from truck_blowout_sim.physics.layout import MAX_BLOCKS, TIRE_BLOCK, TIRE_LANES
 
 
 class TireLanes(NamedTuple):
@@ -71,8 +71,6 @@ class TireLanes(NamedTuple):
 
 LANE = TireLanes(*(k * TIRE_LANES for k in range(len(TireLanes._fields))))
 LANE_BLOCK = len(LANE) * TIRE_LANES
-MAX_BLOCKS = 6
-MAX_TIRES = MAX_BLOCKS * TIRE_LANES
 N_LANES = MAX_BLOCKS * LANE_BLOCK
 SIMD = 8  # widest vector; loops run over whole vectors
 

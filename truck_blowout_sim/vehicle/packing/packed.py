@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from truck_blowout_sim.physics import layout
-from truck_blowout_sim.physics.tires.lanes import MAX_TIRES, tire_offset
+from truck_blowout_sim.physics.tires.lanes import tire_offset
 from truck_blowout_sim.vehicle.document import Place
 from truck_blowout_sim.vehicle.packing import chassis, running_gear
 from truck_blowout_sim.vehicle.packing.bounds import (
@@ -193,8 +193,8 @@ def side_by_side(tires: Sequence[Sequence[float]]) -> list[float]:
     Raises:
         ValueError: more tires than the core has room for.
     """
-    if len(tires) > MAX_TIRES:
-        raise ValueError(f"{len(tires)} tires, at most {MAX_TIRES} have room")
+    if len(tires) > layout.MAX_TIRES:
+        raise ValueError(f"{len(tires)} tires, at most {layout.MAX_TIRES} have room")
     lanes = np.zeros(-(-len(tires) // layout.TIRE_LANES) * layout.TIRE_BLOCK)
     for number, block in enumerate(tires):
         lanes[tire_offset(number) + np.array(layout.TIRE)] = block
