@@ -12,8 +12,16 @@ import pytest
 
 from truck_blowout_sim.cli.main import main
 from truck_blowout_sim.errors import InputError
-from truck_blowout_sim.physics.layout import N_INPUTS
-from truck_blowout_sim.simulation import InitialState, Inputs, Truck, load_scenario, simulate
+from truck_blowout_sim.physics.layout import INPUT, N_INPUTS
+from truck_blowout_sim.recordings import INPUT_NAMES, Recording, Series
+from truck_blowout_sim.simulation import (
+    InitialState,
+    Inputs,
+    Truck,
+    drive_from,
+    load_scenario,
+    simulate,
+)
 from truck_blowout_sim.simulation.drive import Drive
 from truck_blowout_sim.simulation.ending import ROLLED_OVER, rolled_over_rad
 from truck_blowout_sim.simulation.plausible import DivergedError, implausible
@@ -173,3 +181,36 @@ def test_a_car_may_be_faster_than_any_truck() -> None:
                   np.zeros(0, dtype=np.int64), np.zeros(0, dtype=np.int64))
     assert implausible(pack(load_vehicle("ferrari_250lm")), drive) == ()
     assert implausible(pack(load_vehicle("international_9400i_trailmobile")), drive)
+
+
+def throttled(opening: float) -> Recording:
+    """A second at 20 m/s with one throttle, all else zero."""
+    time_s = 0.01 * np.arange(100)
+    values = dict.fromkeys(INPUT_NAMES, 0.0) | {"throttle": opening, "tractor_vx_mps": 20.0}
+    return Recording("log", {n: Series(time_s, v + 0.0 * time_s) for n, v in values.items()})
+
+
+@pytest.mark.parametrize("opening", [50.0, 1.2, -0.2])
+def test_a_throttle_that_is_none_is_refused(truck: Packed, opening: float) -> None:
+    """Beyond 1 the engine's drag would push, times a hundred if it is in per cent."""
+    with pytest.raises(InputError, match=r"^log: throttle is .*; expected 0 to 1.*per cent"):
+        drive_from(throttled(opening), truck.vehicle)
+    with pytest.raises(InputError, match="throttle is"):
+        Truck(truck).advance(Inputs(throttle=opening))
+    drive = drive_from(throttled(0.0), truck.vehicle)
+    drive.inputs[5, INPUT.throttle] = opening
+    assert any(f"a throttle of {opening:g}" in clause for clause in implausible(truck, drive))
+
+
+@pytest.mark.parametrize(("read", "meant"), [(1.03, 1.0), (-0.02, 0.0)])
+def test_a_pedal_sensor_may_read_a_little_beyond_its_ends(truck: Packed, read: float, meant: float
+                                                          ) -> None:
+    drive = drive_from(throttled(read), truck.vehicle)
+    assert (drive.inputs[:, INPUT.throttle] == meant).all()
+    assert drive.initial.inputs.throttle == meant
+    ends = []
+    for opening in (read, meant):
+        run = Truck(truck, initial=InitialState(speed_mps=20.0))
+        run.advance(Inputs(throttle=opening), 20)
+        ends.append(run.state)
+    assert np.array_equal(ends[0], ends[1], equal_nan=True)

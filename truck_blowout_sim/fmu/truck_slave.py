@@ -13,6 +13,7 @@ from pythonfmu3.default_experiment import DefaultExperiment
 
 from truck_blowout_sim import InitialState, Inputs, load_vehicle
 from truck_blowout_sim import Truck as Model
+from truck_blowout_sim.errors import InputError
 
 _STEP_S = 0.001
 _INPUTS = Inputs._fields
@@ -86,7 +87,11 @@ class Truck(Fmi3Slave):  # type: ignore[misc]
         for tire, blown in self.switches.items():
             if blown:
                 self.model.blow(tire)
-        self.model.advance(Inputs(**self.commands), n)
+        try:
+            self.model.advance(Inputs(**self.commands), n)
+        except InputError as error:
+            self.log(str(error))
+            return False
         self._look()
         return self._goes_on(self.model)
 

@@ -35,6 +35,10 @@ def implausible(packed: Packed, drive: Drive) -> tuple[str, ...]:
     if wheel / packed["steering.ratio"] > _MOST_ROAD_WHEEL_RAD:
         found.append(f"a hand wheel of {math.degrees(wheel):.0f} deg turns the road wheels by "
                      f"{math.degrees(wheel / packed['steering.ratio']):.0f} deg")
+    throttle = drive.inputs[:, INPUT.throttle]
+    if throttle.min(initial=0.0) < 0.0 or throttle.max(initial=1.0) > 1.0:
+        worst = throttle[np.abs(throttle - 0.5).argmax()]
+        found.append(f"a throttle of {worst:g}, which goes from 0 to 1 and is likely in per cent")
     most = drive.inputs[:, INPUT.brake_pressure_steer_pa:N_INPUTS].max(initial=0.0)
     if drive.pilot.size:
         most = max(most, drive.pilot[PILOT.react_brake_pa])

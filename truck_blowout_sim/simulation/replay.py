@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from truck_blowout_sim.errors import InputError
+from truck_blowout_sim.physics.layout import INPUT
 from truck_blowout_sim.recordings import INPUT_NAMES, Blowout, Recording, Series, channels_for
 from truck_blowout_sim.recordings.stray_time import require_span
 from truck_blowout_sim.simulation.drive import (
@@ -19,6 +20,7 @@ from truck_blowout_sim.simulation.drive import (
     total_mass_kg,
 )
 from truck_blowout_sim.simulation.equilibrium import InitialState
+from truck_blowout_sim.simulation.inputs import opening
 from truck_blowout_sim.simulation.plausible import diverged, implausible
 from truck_blowout_sim.simulation.start import initial_state, start_time_s
 from truck_blowout_sim.vehicle import Packed, Vehicle, pack
@@ -41,8 +43,8 @@ def drive_from(recording: Recording, vehicle: Vehicle, *, step_s: float = 0.001,
         impose_speed: None: impose the recorded speed where throttle or a brake pressure is missing.
 
     Raises:
-        InputError: no steering, no speed to impose, a blown tire the vehicle does not have, or a
-            log of more than a day.
+        InputError: no steering, no speed to impose, a blown tire the vehicle does not have, a
+            throttle beyond 0 to 1, or a log of more than a day.
     """
     require_span(recording)
     missing = _missing(recording, vehicle)
@@ -59,7 +61,7 @@ def drive_from(recording: Recording, vehicle: Vehicle, *, step_s: float = 0.001,
     speed = _speed(recording, times) if impose else np.zeros(0)
     steps, tires = _blowouts(recording, vehicle, start, step_s)
     return Drive(initial or initial_state(recording), step_s, max(round(1.0 / rate_hz / step_s), 1),
-                 np.nan_to_num(recording.inputs_at(times)), speed, steps, tires)
+                 _inputs(recording, times), speed, steps, tires)
 
 
 def implausible_inputs(recordings: Sequence[Recording], vehicle: Vehicle, *,
@@ -155,6 +157,16 @@ def _not_at_work(vehicle: Vehicle) -> set[str]:
     at_work = {axle.circuit for axle in vehicle.spec.axles.values() if axle.brake is not None}
     return {name for name in INPUT_NAMES if name.startswith("brake_pressure_")
             and name.removeprefix("brake_pressure_").removesuffix("_pa") not in at_work}
+
+
+def _inputs(recording: Recording, times: Floats) -> Floats:
+    """The recorded inputs on the step grid, 0 where not recorded."""
+    found = np.nan_to_num(recording.inputs_at(times))
+    throttle = found[:, INPUT.throttle]
+    for end in (throttle.min(), throttle.max()):
+        opening(float(end), recording.name)
+    found[:, INPUT.throttle] = throttle.clip(0.0, 1.0)
+    return found
 
 
 def _speed(recording: Recording, times_s: Floats) -> Floats:

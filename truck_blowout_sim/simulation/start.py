@@ -6,7 +6,7 @@ import numpy as np
 
 from truck_blowout_sim.recordings import INPUT_NAMES, Recording
 from truck_blowout_sim.simulation.equilibrium import InitialState
-from truck_blowout_sim.simulation.inputs import Inputs
+from truck_blowout_sim.simulation.inputs import Inputs, opening
 
 _WINDOW_S = 1.0
 _FIRST_INPUTS_S = 0.2
@@ -80,4 +80,5 @@ def _articulation(recording: Recording, start_s: float, yaw_rad: float) -> float
 def _first_inputs(recording: Recording, start_s: float) -> Inputs:
     """Mean of the inputs over the first fifth of a second; 0 where not recorded."""
     times = np.linspace(start_s, start_s + _FIRST_INPUTS_S, 21)
-    return Inputs(*np.nan_to_num(recording.inputs_at(times)).mean(axis=0).tolist())
+    first = Inputs(*np.nan_to_num(recording.inputs_at(times)).mean(axis=0).tolist())
+    return first._replace(throttle=opening(first.throttle, recording.name))

@@ -6,12 +6,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from truck_blowout_sim.errors import InputError, quoted
-from truck_blowout_sim.physics.layout import GLOBAL_S, N_WORK, TIRE_S
+from truck_blowout_sim.physics.layout import GLOBAL_S, INPUT, N_WORK, TIRE_S
 from truck_blowout_sim.physics.observe import observe, output_names
 from truck_blowout_sim.physics.step import advance
 from truck_blowout_sim.simulation.ending import Ending, ending_of, rolled_over_rad
 from truck_blowout_sim.simulation.equilibrium import InitialState, initial_vector
-from truck_blowout_sim.simulation.inputs import Inputs
+from truck_blowout_sim.simulation.inputs import Inputs, opening
 from truck_blowout_sim.vehicle import Packed, Vehicle, pack
 
 Floats = NDArray[np.float64]
@@ -60,8 +60,13 @@ class Truck:
         return ending_of(self.state, self.packed, self._rolls, self.time_s, self.initial.time_s)
 
     def advance(self, inputs: Inputs, n_steps: int = 1) -> None:
-        """Advance ``n_steps`` steps with ``inputs`` held."""
+        """Advance ``n_steps`` steps with ``inputs`` held.
+
+        Raises:
+            InputError: a throttle that is none.
+        """
         self._inputs[:] = inputs
+        self._inputs[INPUT.throttle] = opening(inputs.throttle)
         # the counter rules time, so that it never drifts from the step grid
         self.state[GLOBAL_S.time_s] = self.time_s
         advance(self.state, self._params, self._topology, self._inputs, self.step_s, n_steps,
