@@ -46,6 +46,17 @@ def test_names_are_the_canonical_ones() -> None:
 
 @pytest.mark.parametrize("effect", EVERY)
 @pytest.mark.parametrize("vehicle", config_names("vehicles"))
+def test_what_a_search_may_find_is_no_value_that_a_vehicle_file_refuses(
+    effect: Effect, vehicle: str
+) -> None:
+    packed = pack(load_vehicle(vehicle))
+    for h in hypotheses(effect, packed):
+        for amount in (effect.amount.low, effect.amount.high):
+            packed.with_values(effect.values(packed, h.place, amount))
+
+
+@pytest.mark.parametrize("effect", EVERY)
+@pytest.mark.parametrize("vehicle", config_names("vehicles"))
 def test_the_neutral_amount_changes_no_parameter(effect: Effect, vehicle: str) -> None:
     packed = pack(load_vehicle(vehicle))
     for h in hypotheses(effect, packed):

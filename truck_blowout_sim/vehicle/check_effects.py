@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from truck_blowout_sim.vehicle.packing.bounds import check_value
+from truck_blowout_sim.vehicle.packing.bounds import check_shares, check_value
 from truck_blowout_sim.vehicle.packing.names import (
     parameter_blocks,
     parameter_index,
@@ -27,3 +27,13 @@ def check_effects(vehicle: Vehicle) -> None:
         prefix, _, field = name.rpartition(".")
         check_value(blocks[prefix], field, effect.value, effect.place)
         check_table_use(vehicle, blocks[prefix], name, effect.value, effect.place)
+    _check_shares(vehicle)
+
+
+def _check_shares(vehicle: Vehicle) -> None:
+    """Check the drive shares if an effect sets one."""
+    shares = {f"hub.{hub}.drive_share": vehicle.spec.axles[vehicle.axle_of_hub(hub)].drive_share
+              for hub in vehicle.hubs}
+    given = {name: effect for name, effect in vehicle.effects.items() if name in shares}
+    for effect in given.values():
+        check_shares(shares | {name: other.value for name, other in given.items()}, effect.place)

@@ -1,4 +1,4 @@
-"""What a named parameter may be: the bounds of the file key it comes from, whoever sets it.
+"""What a named parameter may be: the bounds of its file key or of `limits`, whoever sets it.
 
 `effects:` of a vehicle file, `values:` of a scenario, `--set`, a study's variants and
 `Packed.with_values` all ask here.
@@ -7,12 +7,14 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from typing import Any
 
 from truck_blowout_sim.physics import layout
 from truck_blowout_sim.vehicle.document import Place
 from truck_blowout_sim.vehicle.fields import Rule, rules
 from truck_blowout_sim.vehicle.packing.blocks import NEUTRAL
+from truck_blowout_sim.vehicle.packing.limits import own_rules
 from truck_blowout_sim.vehicle.reading import LARGEST
 from truck_blowout_sim.vehicle.schema import axle, body, controls, road, tire
 
@@ -37,6 +39,7 @@ WORDS: dict[tuple[type[Any], str], tuple[str, ...]] = {
     (layout.TireParams, "model"): tire.MODELS,
     (layout.TireParams, "law"): tire.LAWS,
 }
+SHARE_SLACK = 1e-6  # by which rounded shares may miss their sum
 TRUTH = {"false": 0.0, "true": 1.0}
 
 
@@ -64,6 +67,20 @@ def check_value(block: type[Any], field: str, value: float, place: Place) -> Non
     rule, low, high = bounded
     if value < low or value > high or (rule.open_low and value == low):
         raise place.error(f"{value:g} is out of bounds", f"{_bounds(rule, low, high)}: {rule.doc}")
+
+
+def check_shares(shares: Mapping[str, float], place: Place) -> None:
+    """Check the drive shares of all hubs together.
+
+    Args:
+        shares: by packed name; ``place``: where one of them was given.
+
+    Raises:
+        InputError: together they hand out more than there is.
+    """
+    whole = sum(shares.values())
+    if whole > 1.0 + SHARE_SLACK:
+        raise place.error(f"drive_share of all hubs adds up to {whole:g}", "at most 1")
 
 
 def nearest_allowed(block: type[Any], field: str, value: float) -> float:
@@ -116,7 +133,7 @@ def _rules_of(sections: tuple[type[Any], ...]) -> dict[str, Rule]:
             if not (key.endswith(POSITIONS) or key == "x_m")}
 
 
-_RULES = {block: _rules_of(sections) for block, sections in SECTIONS.items()}
+_RULES = {block: _rules_of(sections) | own_rules(block) for block, sections in SECTIONS.items()}
 
 
 def _bounded(block: type[Any], field: str) -> tuple[Rule, float, float] | None:

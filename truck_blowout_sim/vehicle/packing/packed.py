@@ -14,6 +14,7 @@ from truck_blowout_sim.physics.tires.lanes import tire_offset
 from truck_blowout_sim.vehicle.document import Place
 from truck_blowout_sim.vehicle.packing import chassis, running_gear
 from truck_blowout_sim.vehicle.packing.bounds import (
+    check_shares,
     check_value,
     may_be_infinite,
     nearest_allowed,
@@ -93,7 +94,11 @@ class Packed:
             check_value(block, name.rpartition(".")[2], value, place)
             if value != self[name]:
                 check_table_use(self.vehicle, block, name, value, place)
-        return self.unchecked(values)
+        changed = self.unchecked(values)
+        shares = {name: changed[name] for name in self.index if name.endswith(".drive_share")}
+        if given := next((name for name in values if name in shares), ""):
+            check_shares(shares, self._place._replace(key=given))
+        return changed
 
     def unchecked(self, values: Mapping[str, float]) -> Packed:
         """As `with_values`, but any number goes: for trials beyond what a truck can be.

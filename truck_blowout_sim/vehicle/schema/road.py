@@ -7,6 +7,8 @@ from dataclasses import dataclass
 
 from truck_blowout_sim.vehicle.fields import at_least_zero, number, positive, section, text
 
+LEAST_GRIP = 0.01  # of dry grip; wet ice has 0.05, and the limit of adhesion divides by grip
+
 
 @dataclass(frozen=True, kw_only=True)
 class PatchSpec:
@@ -16,7 +18,7 @@ class PatchSpec:
     x1_m: float = number("ends at this x")
     y0_m: float = number("right edge, y of map")
     y1_m: float = number("left edge")
-    scale: float = positive("friction there against the rest of the road")
+    scale: float = number("friction there against the rest of the road", low=LEAST_GRIP)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -34,5 +36,5 @@ class RoadSpec:
     road_bank_rad: float = number("left side high is positive", low=-0.5, high=0.5, default=0.0)
     road_roughness_m: float = at_least_zero("rms unevenness", default=0.0)
     road_roughness_seed: float = at_least_zero("which uneven road", default=1.0)
-    friction_scale: float = positive("friction against the tires' own", default=1.0)
+    friction_scale: float = number("friction against the tires' own", low=LEAST_GRIP, default=1.0)
     patch: PatchSpec | None = section(PatchSpec, "a patch of other friction", optional=True)

@@ -15,6 +15,7 @@ from truck_blowout_sim.vehicle.fields import (
     section,
     text,
 )
+from truck_blowout_sim.vehicle.schema.road import LEAST_GRIP
 
 MODELS = ("magic_formula", "map", "linear")
 LAWS = ("continuous", "steps")
@@ -52,10 +53,10 @@ class TireSpec:
     volume_m3: float = positive("gas volume, inflated")
     hole_area_m2: float = positive("effective area of the hole of a blowout")
     reference_load_n: float = positive("load the coefficients hold at")
-    friction_scale: float = positive("scales peak friction of this tire")
+    friction_scale: float = number("scales peak friction of this tire", low=LEAST_GRIP)
     shape_y: float = positive("C of the lateral formula")
     curvature_y: float = number("E of the lateral formula", high=1.0)
-    peak_y: float = positive("lateral peak friction at the reference load")
+    peak_y: float = number("lateral peak friction at the reference load", low=LEAST_GRIP)
     peak_y_load: float = number("its loss per d")
     cornering_peak: float = positive("largest cornering stiffness over reference load, per rad")
     cornering_load: float = positive("load of the largest cornering stiffness over reference load")
@@ -64,7 +65,7 @@ class TireSpec:
     cornering_floor_2: float = fraction("part of the load of that maximum left at q = 0")
     shape_x: float = positive("C of the longitudinal formula")
     curvature_x: float = number("E of the longitudinal formula", high=1.0)
-    peak_x: float = positive("longitudinal peak friction at the reference load")
+    peak_x: float = number("longitudinal peak friction at the reference load", low=LEAST_GRIP)
     peak_x_load: float = number("its loss per d")
     slip_stiffness: float = positive("slip stiffness over load at the reference load")
     slip_stiffness_load: float = number("its loss per d")
