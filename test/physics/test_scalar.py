@@ -1,11 +1,20 @@
 from __future__ import annotations
 
+import math
+
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from truck_blowout_sim.physics.scalar import clip, deadzone, hysteresis, ramp, smooth
+from truck_blowout_sim.physics.scalar import (
+    clip,
+    deadzone,
+    hysteresis,
+    ramp,
+    reached,
+    smooth,
+)
 
 numbers = st.floats(-1e6, 1e6)
 
@@ -42,6 +51,19 @@ def test_friction_stays_where_nothing_moves() -> None:
 def test_a_ramp_rises_holds_and_falls() -> None:
     values = [ramp(t, 1.0, 3.0, 0.5) for t in (0.9, 1.25, 2.0, 3.25, 3.6)]
     assert values == pytest.approx([0.0, 0.5, 1.0, 0.5, 0.0])
+
+
+@pytest.mark.parametrize("step_s", [1e-3, 1.25e-3, 5e-3])
+@pytest.mark.parametrize("origin_s", [0.0, -4.92])
+def test_an_instant_on_a_step_edge_comes_there(origin_s: float, step_s: float) -> None:
+    """However the edge was summed up: a flank of no width turns at the same step."""
+    summed, instant = origin_s, origin_s + 800 * step_s
+    for k in range(1, 1000):
+        summed += step_s
+        for time in (summed, origin_s + k * step_s):
+            assert reached(time, instant) == (k >= 800)
+            assert ramp(time, instant, math.inf, 0.0) == float(k >= 800)
+            assert ramp(time, -math.inf, instant, 0.0) == float(k < 800)
 
 
 def test_a_smooth_step_has_no_kink() -> None:

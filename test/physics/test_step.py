@@ -60,6 +60,27 @@ def test_one_call_or_many_give_the_same_bits(truck: Packed) -> None:
     assert np.array_equal(whole.state, parts.state, equal_nan=True)
 
 
+@pytest.mark.parametrize("values", [
+    {"tire.trailer_1_left_outer.blow_time_s": 1.3}, {"driveline.clutch_open_time_s": 1.3},
+    {"world.friction_change_time_s": 1.3, "world.friction_change_scale": 0.2},
+    {"unit.trailer.gust_start_s": 1.3, "unit.trailer.gust_mps": 20.0,
+     "unit.trailer.gust_ramp_s": 0.0},
+])  # fmt: skip
+def test_events_come_at_their_step_however_time_is_summed(truck: Packed, values: dict[str, float]
+                                                          ) -> None:
+    """2000 steps at once, in parts, and with a start that rounds another way."""
+    ends = []
+    for at_s, steps in ((0.0, 1500), (0.0, 1), (-4.92, 100)):
+        timed = {n: v + at_s if n.endswith(("time_s", "start_s")) else v
+                 for n, v in values.items()}
+        run = Truck(truck.with_values(timed), initial=InitialState(speed_mps=20.0, time_s=at_s))
+        for _ in range(1500 // steps):
+            run.advance(Inputs(1.0, 0.3), steps)
+        ends.append(run.output_vector())
+    assert ends[1] == pytest.approx(ends[0], rel=1e-6, abs=1e-6)
+    assert ends[2] == pytest.approx(ends[0], rel=1e-6, abs=1e-6)
+
+
 def test_the_step_alone_gives_the_same_bits(truck: Packed) -> None:
     whole, parts = (Truck(truck, initial=InitialState(speed_mps=15.0)) for _ in range(2))
     inputs = np.array([1.0, 0.3, 0.0, 0.0, 0.0])

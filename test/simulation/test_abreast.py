@@ -84,6 +84,18 @@ def test_every_kind_of_tire_and_brake(vehicle: str, tires: tuple[str, ...],
     assert not np.allclose(last, together[0].out[-1])
 
 
+def test_events_on_step_edges_come_at_the_same_step() -> None:
+    """0.3 s is rounded up as a number of a file and down as a sum of steps, or the reverse."""
+    packed = pack(load_vehicle(TRUCK))
+    trucks = [packed.with_values({
+        "tire.trailer_1_left_outer.blow_time_s": 0.1 * k, "driveline.clutch_open_time_s": 0.1 * k,
+        "world.friction_change_time_s": 0.1 * k, "world.friction_change_scale": 0.5})
+        for k in range(1, 8)]
+    drives = [replace(turning(packed, k, ()), initial=InitialState(speed_mps=15.0, time_s=-0.07))
+              for k in range(7)]
+    assert_same(execute_abreast(trucks, drives), alone(trucks, drives))
+
+
 def test_a_truck_that_ends_leaves_the_others_alone(truck: Packed) -> None:
     """Not finite, rolled over, out of time: each at its instant."""
     drives = [turning(truck, k, ("steer_left",)) for k in range(6)]

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from truck_blowout_sim.physics.choose import where
 from truck_blowout_sim.physics.jit import core
 from truck_blowout_sim.physics.layout import DRIVE, DRIVE_AT
-from truck_blowout_sim.physics.scalar import clip, two_ratios
+from truck_blowout_sim.physics.scalar import clip, reached, two_ratios
 
 Floats = NDArray[np.float64]
 
@@ -28,7 +28,7 @@ def engine(p: Floats, time_s: float, throttle: float, speed_mps: float) -> tuple
             + p[DRIVE_AT + DRIVE.drag_extra_nspm] * abs(speed_mps))
     closed = max(1.0 - throttle / p[DRIVE_AT + DRIVE.retarder_throttle], 0.0)
     drag = drag * (1.0 - throttle) + p[DRIVE_AT + DRIVE.retarder_n] * closed
-    opened = time_s >= p[DRIVE_AT + DRIVE.clutch_open_time_s]
+    opened = reached(time_s, p[DRIVE_AT + DRIVE.clutch_open_time_s])
     return (where(opened, 0.0, throttle * p[DRIVE_AT + DRIVE.power_w]),
             where(opened, p[DRIVE_AT + DRIVE.clutch_open_drag_n], drag))
 

@@ -18,7 +18,7 @@ from truck_blowout_sim.physics.body import add_force, add_moment
 from truck_blowout_sim.physics.choose import any_of, where
 from truck_blowout_sim.physics.jit import core
 from truck_blowout_sim.physics.layout import UNIT, UNIT_S
-from truck_blowout_sim.physics.scalar import ramp
+from truck_blowout_sim.physics.scalar import ramp, reached
 
 Floats = NDArray[np.float64]
 
@@ -29,9 +29,9 @@ def add_probe(x: Floats, s: int, p: Floats, a: int, work: Floats, w: int) -> Non
     fx = _law(x, s, p, a + UNIT.probe_fx_v_nspm)
     fy = _law(x, s, p, a + UNIT.probe_fy_v_nspm)
     mz = _law(x, s, p, a + UNIT.probe_mz_v_ns)
-    begun = p[a + UNIT.probe_start_s] <= x[0]
+    begun = reached(x[0], p[a + UNIT.probe_start_s])
     if any_of(begun):
-        share = where(begun, ramp(x[0] + 1e-9, p[a + UNIT.probe_start_s], p[a + UNIT.probe_end_s],
+        share = where(begun, ramp(x[0], p[a + UNIT.probe_start_s], p[a + UNIT.probe_end_s],
                                   p[a + UNIT.probe_ramp_s]), 0.0)
         fx += share * p[a + UNIT.probe_fx_n]
         fy += share * p[a + UNIT.probe_fy_n]

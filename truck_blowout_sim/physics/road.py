@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from truck_blowout_sim.physics.choose import any_of, where
 from truck_blowout_sim.physics.jit import core
 from truck_blowout_sim.physics.layout import WORLD, WORLD_AT
+from truck_blowout_sim.physics.scalar import reached
 from truck_blowout_sim.physics.trig import heading, turned
 
 Floats = NDArray[np.float64]
@@ -51,7 +52,7 @@ def friction(p: Floats, time_s: float, x_m: float, y_m: float) -> float:
     """Scale of tire-road friction at a place and time."""
     scale = p[WORLD_AT + WORLD.friction_scale]
     changed = ((x_m >= p[WORLD_AT + WORLD.friction_change_x_m])
-               | (time_s >= p[WORLD_AT + WORLD.friction_change_time_s]))
+               | reached(time_s, p[WORLD_AT + WORLD.friction_change_time_s]))
     scale = where(changed, scale * p[WORLD_AT + WORLD.friction_change_scale], scale)
     patched = ((p[WORLD_AT + WORLD.patch_x0_m] <= x_m) & (x_m <= p[WORLD_AT + WORLD.patch_x1_m])
                & (p[WORLD_AT + WORLD.patch_y0_m] <= y_m) & (y_m <= p[WORLD_AT + WORLD.patch_y1_m]))

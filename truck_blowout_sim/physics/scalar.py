@@ -13,6 +13,9 @@ import math
 from truck_blowout_sim.physics.choose import where
 from truck_blowout_sim.physics.jit import core
 
+EDGE_S = 1e-9  # slack of an instant: step edges are sums of steps, which round
+_EDGE_SHARE = 1e-9  # the same of a time over its duration
+
 
 @core
 def clip(value: float, low: float, high: float) -> float:
@@ -52,11 +55,18 @@ def hysteresis(force: float, move: float, limit: float, transition: float) -> fl
 
 
 @core
+def reached(time_s: float, at_s: float) -> bool:
+    """Whether an instant has come; one on a step edge comes at that edge, however it rounds."""
+    return time_s >= at_s - EDGE_S
+
+
+@core
 def ramp(time_s: float, start_s: float, end_s: float, rise_s: float) -> float:
-    """0 before start, 1 between, 0 after end, with smooth flanks of ``rise_s``."""
+    """0 before start, 1 from it on, 0 from end on, with smooth flanks of ``rise_s``."""
     up = where(rise_s > 0.0, smooth((time_s - start_s) / rise_s), 1.0)
     down = where(rise_s > 0.0, smooth((time_s - end_s) / rise_s), 0.0)
-    return where((time_s <= start_s) | (time_s >= end_s + rise_s), 0.0, up - down)
+    during = reached(time_s, start_s) & (time_s < end_s + rise_s - EDGE_S)
+    return where(during, up - down, 0.0)
 
 
 @core
@@ -69,6 +79,6 @@ def smooth(share: float) -> float:
 @core
 def smooth_slopes(share: float) -> tuple[float, float]:
     """First and second derivative of :func:`smooth`; zero where it has ended."""
-    over = (share <= 0.0) | (share >= 1.0)
+    over = (share <= _EDGE_SHARE) | (share >= 1.0 - _EDGE_SHARE)
     return (where(over, 0.0, 6.0 * share * (1.0 - share)),
             where(over, 0.0, 6.0 - 12.0 * share))

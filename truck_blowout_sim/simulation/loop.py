@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from truck_blowout_sim.physics.jit import core
 from truck_blowout_sim.physics.layout import GLOBAL_S, STATE_UNIT_AT, UNIT_S
 from truck_blowout_sim.physics.observe import observe
+from truck_blowout_sim.physics.scalar import EDGE_S
 from truck_blowout_sim.physics.step import step
 from truck_blowout_sim.simulation.ending import GOING, ended
 from truck_blowout_sim.simulation.pilot import PILOT, drive_inputs, forward_speed, notice
@@ -107,7 +108,7 @@ def _look(x: Floats, p: Floats, watch: Floats, w: int, dt: float) -> None:
     if not np.isnan(watch[w, WATCH.distance_m]):
         watch[w, WATCH.distance_m] -= dt * abs(speed)
     # a comparison with NaN is false: what is not asked does not stand in the way
-    if (x[GLOBAL_S.time_s] < watch[w, WATCH.after_s]
+    if (x[GLOBAL_S.time_s] < watch[w, WATCH.after_s] - EDGE_S
             or speed >= watch[w, WATCH.speed_below_mps]
             or speed <= watch[w, WATCH.speed_above_mps]
             or x[STATE_UNIT_AT + UNIT_S.x_m] < watch[w, WATCH.x_past_m]

@@ -30,7 +30,7 @@ from truck_blowout_sim.physics.layout import (
     UNIT_AT,
     UNIT_S,
 )
-from truck_blowout_sim.physics.scalar import clip
+from truck_blowout_sim.physics.scalar import EDGE_S, clip
 
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
@@ -84,7 +84,7 @@ def drive_inputs(x: Floats, p: Floats, inputs: Floats, k: int, dt: float, speed:
     """What is worked at step ``k``: fills the columns that a driver, or an imposed speed, rules."""
     driver = pilot.size > 0
     since = x[GLOBAL_S.time_s] - pilot[PILOT.noticed_s] if driver else -1.0
-    still = since >= 0.0 and since < pilot[PILOT.react_time_s]
+    still = since >= 0.0 and since < pilot[PILOT.react_time_s] - EDGE_S
     # an imposed speed is nobody's doing, so it goes on while the driver keeps still
     if speed.size > 0 and not (still and pilot[PILOT.hold] + pilot[PILOT.react_throttle] > 0.0):
         _drive_speed(x, p, inputs, k, dt, speed, mass_kg, pilot, since)
@@ -133,7 +133,9 @@ def _react(x: Floats, inputs: Floats, k: int, dt: float, pilot: Floats, since_s:
 @core
 def _share(since_s: float, over_s: float) -> float:
     """0 before, 1 after, a straight line of ``over_s`` between."""
-    return clip(since_s / over_s, 0.0, 1.0) if over_s > 0.0 else (1.0 if since_s >= 0.0 else 0.0)
+    if over_s > 0.0:
+        return clip(since_s / over_s, 0.0, 1.0)
+    return 1.0 if since_s >= -EDGE_S else 0.0
 
 
 @core
@@ -179,7 +181,7 @@ def _throttle(lack_mps: float, pilot: Floats, dt: float) -> float:
 @core
 def _steer(x: Floats, p: Floats, pilot: Floats, path: Floats, dt: float) -> None:
     """Turn the hand wheel towards the curvature that leads to the previewed point."""
-    if x[GLOBAL_S.time_s] > pilot[PILOT.follow_until_s]:
+    if x[GLOBAL_S.time_s] > pilot[PILOT.follow_until_s] + EDGE_S:
         return
     s = STATE_UNIT_AT
     yaw = x[s + UNIT_S.yaw_rad]

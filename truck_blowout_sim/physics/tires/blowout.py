@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from truck_blowout_sim.physics.choose import any_of, power_where, seldom, shared, where
 from truck_blowout_sim.physics.jit import core
 from truck_blowout_sim.physics.layout import N_STEP_COLUMNS, TIRE, TIRE_S
-from truck_blowout_sim.physics.scalar import clip
+from truck_blowout_sim.physics.scalar import clip, reached
 
 Floats = NDArray[np.float64]
 
@@ -31,8 +31,7 @@ def step_row(x: Floats, s: int, p: Floats, table: int) -> int:
     if any_of(blown):
         since = where(blown, x[0] - x[s + TIRE_S.blown_time_s], -1.0)
         for k in range(1, int(shared(p[table]))):
-            # half a nanosecond of slack: the step edges are sums of dt
-            row = where(since >= p[table + 1 + k * N_STEP_COLUMNS] - 5e-10, k, row)
+            row = where(reached(since, p[table + 1 + k * N_STEP_COLUMNS]), k, row)
     return table + 1 + row * N_STEP_COLUMNS
 
 

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from truck_blowout_sim.physics.choose import power_where, where
 from truck_blowout_sim.physics.jit import core
 from truck_blowout_sim.physics.layout import TIRE, TIRE_S, WORLD, WORLD_AT
+from truck_blowout_sim.physics.scalar import reached
 
 Floats = NDArray[np.float64]
 GAMMA = 1.4  # ratio of specific heats of air
@@ -49,8 +50,10 @@ def pressure_rate_paps(p_abs_pa: float, p0_abs_pa: float, ambient_pa: float, tem
 @core
 def leaks(x: Floats, s: int, p: Floats, t: int) -> bool:
     """Whether the tire is losing air now; a failure by itself begins here."""
-    begins = (x[0] >= p[t + TIRE.blow_time_s]) & (x[s + TIRE_S.blown_time_s] == np.inf)
-    x[s + TIRE_S.blown_time_s] = where(begins, p[t + TIRE.blow_time_s], x[s + TIRE_S.blown_time_s])
+    at = p[t + TIRE.blow_time_s]
+    begins = reached(x[0], at) & (x[s + TIRE_S.blown_time_s] == np.inf)
+    # not later than now, to which it may be rounded
+    x[s + TIRE_S.blown_time_s] = where(begins, min(at, x[0]), x[s + TIRE_S.blown_time_s])
     return (x[s + TIRE_S.blown_time_s] <= x[0]) & (x[s + TIRE_S.pressure_pa] > 0.0)
 
 
