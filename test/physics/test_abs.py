@@ -15,6 +15,7 @@ from truck_blowout_sim.physics.layout import (
     TOPOLOGY_SIZE,
 )
 from truck_blowout_sim.physics.step import fill_slips, sensed_slip
+from truck_blowout_sim.simulation import InitialState, Inputs, Truck
 from truck_blowout_sim.vehicle import Packed
 
 Floats = NDArray[np.float64]
@@ -84,3 +85,18 @@ def test_every_hub_has_room_for_its_slip() -> None:
     fill_slips(state, topology, work)
     assert work[SLIPS_AT:N_WORK] == pytest.approx(0.2)
     assert np.isnan(work[N_WORK:]).all()
+
+
+@pytest.mark.parametrize("speed", [15.0, -15.0])
+def test_no_wheel_stays_locked_either_way(truck: Packed, speed: float) -> None:
+    """Braked hard on a wet road: wheels turn, and the truck slows down alike in reverse."""
+    wet = truck.with_values({"world.friction_scale": 0.3})
+    run = Truck(wet, initial=InitialState(speed_mps=speed))
+    turning = []
+    for _ in range(100):
+        run.advance(Inputs(0.0, 0.0, 6e5, 6e5, 6e5), 20)
+        out = run.outputs()
+        turning += [abs(out[f"hub_speed_{hub}_radps"]) > 1.0 for hub in wet.names.hubs]
+    assert np.mean(turning) > 0.95
+    lost = abs(speed) - abs(run.outputs()["tractor_vx_mps"])
+    assert lost == pytest.approx(3.4, abs=0.2)

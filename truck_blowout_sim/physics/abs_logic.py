@@ -20,8 +20,11 @@ Floats = NDArray[np.float64]
 
 @core
 def decide(x: Floats, s: int, p: Floats, slip: float, speed_mps: float, dt: float) -> None:
-    """Set or clear the release flag of the hub at state ``s`` from the sensed ``slip``."""
-    off = (p[ABS_AT + ABS.mode] == 0.0) | (speed_mps < p[ABS_AT + ABS.cutout_speed_mps])
+    """Set or clear the release flag of the hub at state ``s`` from the sensed ``slip``.
+
+    ``slip``: of braking positive, whichever way the truck rolls.
+    """
+    off = (p[ABS_AT + ABS.mode] == 0.0) | (abs(speed_mps) < p[ABS_AT + ABS.cutout_speed_mps])
     released = x[s + HUB_S.released] > 0.0
     held_s = x[s + HUB_S.hold_s] + dt
     ends = (slip < p[ABS_AT + ABS.slip_on]) & (held_s >= p[ABS_AT + ABS.hold_s])

@@ -166,13 +166,17 @@ def advance_brakes(x: Floats, p: Floats, topo: Integers, inputs: Floats, dt: flo
 
 @core
 def fill_slips(x: Floats, topo: Integers, work: Floats) -> None:
-    """Brake slip of every hub, behind the units' working memory: that of its first loaded tire."""
+    """Brake slip of every hub, behind the units' working memory: that of its first loaded tire.
+
+    Positive where the wheel turns less than the truck rolls, forward or in reverse.
+    """
+    way = where(x[STATE_UNIT_AT + UNIT_S.u_mps] < 0.0, -1.0, 1.0)
     for h in range(topo[TOPOLOGY.n_hubs]):
         work[SLIPS_AT + h] = 0.0
     for k in range(topo[TOPOLOGY.n_tires] - 1, -1, -1):
         s = tire_state(topo, k)
         slot = SLIPS_AT + hub_of(topo, k)
-        work[slot] = where(x[s + TIRE_S.fz_n] > 0.0, -x[s + TIRE_S.slip], work[slot])
+        work[slot] = where(x[s + TIRE_S.fz_n] > 0.0, -way * x[s + TIRE_S.slip], work[slot])
 
 
 @core
