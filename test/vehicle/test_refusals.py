@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from truck_blowout_sim.errors import InputError
-from truck_blowout_sim.vehicle import load_vehicle
+from truck_blowout_sim.vehicle import load_road, load_vehicle
 
 Extending = Callable[[str], Path]
 Refusal = Callable[[Path], str]
@@ -138,3 +138,22 @@ def test_a_wrong_tire_file_is_named_itself(
     tire = write("extends: steer_275_80r22_5\npressure_psi: low\n", "soft.yaml")
     with pytest.raises(InputError, match=f"{tire}.*line 2: pressure_psi: 'low' is not a number"):
         load_vehicle(extending("tires: {steer: soft.yaml}"))
+
+
+PATCH = "patch: {{x0_m: {0}, x1_m: {1}, y0_m: {2}, y1_m: {3}, scale: 0.3}}"
+
+
+@pytest.mark.parametrize(("edges", "key", "words"), [
+    ((20, 10, -5, 0), "x0_m", "20 m is not before x1_m, 10 m; expected less than x1_m"),
+    ((10, 20, 0, 0), "y0_m", "0 m is not before y1_m, 0 m; expected less than y1_m"),
+])
+def test_a_patch_that_covers_nothing_is_refused(
+    write: Callable[..., Path], extending: Extending, edges: tuple[int, ...], key: str, words: str
+) -> None:
+    """As a road of its own, and as one that a vehicle file names or writes out."""
+    road = write(f"extends: level_dry\n{PATCH.format(*edges)}\n", "road.yaml")
+    with pytest.raises(InputError, match=f"{road}, line 2: patch.{key}: {words}"):
+        load_road(road)
+    for text in ("road: road.yaml", f"road: {{extends: level_dry, {PATCH.format(*edges)}}}"):
+        with pytest.raises(InputError, match=f"patch.{key}: {words}"):
+            load_vehicle(extending(text))

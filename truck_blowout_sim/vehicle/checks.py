@@ -13,6 +13,7 @@ from truck_blowout_sim.vehicle.check_tires import check_blowout, check_tire
 from truck_blowout_sim.vehicle.document import Branch, Leaf, Place
 from truck_blowout_sim.vehicle.masses import unit_mass
 from truck_blowout_sim.vehicle.reading import unknown
+from truck_blowout_sim.vehicle.schema.road import RoadSpec
 from truck_blowout_sim.vehicle.statics import axle_groups, static_loads
 from truck_blowout_sim.vehicle.vehicle import Vehicle
 
@@ -41,6 +42,21 @@ def check_vehicle(vehicle: Vehicle, tree: Branch) -> None:
         place = place_of(tree, "abs", "slip_on")
         raise place.error("is above slip_off", f"at most {vehicle.spec.abs.slip_off:g}")
     check_effects(vehicle)
+
+
+def check_road(road: RoadSpec, tree: Branch) -> None:
+    """Check a road as a whole.
+
+    Raises:
+        InputError: a patch that covers nothing, at its place in the file.
+    """
+    if road.patch is None:
+        return
+    for first, last in (("x0_m", "x1_m"), ("y0_m", "y1_m")):
+        start, end = getattr(road.patch, first), getattr(road.patch, last)
+        if start >= end:
+            raise place_of(tree, "patch", first).error(
+                f"{start:g} m is not before {last}, {end:g} m", f"less than {last}")
 
 
 def place_of(tree: Branch, *keys: str) -> Place:

@@ -9,7 +9,7 @@ from pathlib import Path
 from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.physics.layout import WorldParams
 from truck_blowout_sim.resources import config_file
-from truck_blowout_sim.vehicle.checks import check_vehicle
+from truck_blowout_sim.vehicle.checks import check_road, check_vehicle
 from truck_blowout_sim.vehicle.document import Branch, Leaf, extended, read_document
 from truck_blowout_sim.vehicle.packing.chassis import world_block
 from truck_blowout_sim.vehicle.reading import Notes, Section, build, to_number, unknown
@@ -53,7 +53,7 @@ def vehicle_of(document: Branch, path: Path) -> Vehicle:
         tire_specs=tire_specs,
         tire_files=tire_files,
         blowout=_named_file(BlowoutSpec, "blowout", tree, notes, "blowout", written_out),
-        road=_named_file(RoadSpec, "roads", tree, notes, "road", written_out),
+        road=_road(tree, notes, written_out),
         effects=_effects(effects_entry, notes),
         sources=notes.sources,
         spreads=notes.spreads,
@@ -68,7 +68,10 @@ def load_road(name_or_path: str | PathLike[str]) -> RoadSpec:
     Raises:
         InputError: no such file, or something in it cannot be used.
     """
-    return build(RoadSpec, read_document(config_file("roads", name_or_path), "roads"), Notes())
+    document = read_document(config_file("roads", name_or_path), "roads")
+    road = build(RoadSpec, document, Notes())
+    check_road(road, document)
+    return road
 
 
 def road_values(road: RoadSpec) -> dict[str, float]:
@@ -100,6 +103,14 @@ def _sections_as_names(tree: Branch) -> tuple[Branch, dict[str, Branch]]:
     if isinstance(tires, Branch):
         entries["tires"] = Branch(tires.place, named(tires.entries, tires.entries, "tires."))
     return Branch(tree.place, entries), written_out
+
+
+def _road(tree: Branch, notes: Notes, written_out: Mapping[str, Branch]) -> RoadSpec:
+    entry = tree.entries["road"]
+    assert isinstance(entry, Leaf)  # `build` has seen to it
+    road = _named_file(RoadSpec, "roads", tree, notes, "road", written_out)
+    check_road(road, _document("roads", entry, written_out.get("road")))
+    return road
 
 
 def _named_file(of: type[Section], kind: str, tree: Branch, notes: Notes, key: str,
