@@ -124,3 +124,18 @@ def test_a_bent_ratio_turns_further_at_large_angles_only(thesis: Packed) -> None
     assert small == pytest.approx(1.0, abs=3e-4)
     assert large == pytest.approx(1.0 + 2.0 * 0.2**2)
     assert steering.commanded_rad(bent, -5.0) == -steering.commanded_rad(bent, 5.0)
+
+
+@pytest.mark.parametrize("compliant", [0.0, 1.0])
+@pytest.mark.parametrize("side", [1.0, -1.0])
+def test_the_road_wheels_stand_at_one_stop(truck: Packed, state: Floats, compliant: float,
+                                           side: float) -> None:
+    """However far the hand wheel goes; no rate is kept there, and they leave it at once."""
+    p = truck.with_values({"steering.compliance_on": compliant}).params
+    for _ in range(3000):
+        steering.advance_steering(state, p, side * 50.0, side * 1e5, 0.001)
+    assert state[GLOBAL_S.steer_rad] == pytest.approx(side * 0.9)
+    assert state[GLOBAL_S.steer_rate_radps] == 0.0
+    for _ in range(20):
+        steering.advance_steering(state, p, 0.0, 0.0, 0.001)
+    assert side * state[GLOBAL_S.steer_rad] < 0.9

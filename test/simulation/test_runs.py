@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.recordings import (
     INPUT_NAMES,
     Recording,
@@ -140,3 +141,19 @@ def test_a_rollover_is_called_one(truck: Packed) -> None:
     fast = replace(scenario, spec=replace(scenario.spec, start=replace(
         scenario.spec.start, speed_mps=30.0)), values={"steering.ratio": 6.0})
     assert "rolled over at" in summarize(simulate(truck, fast))
+
+
+@pytest.mark.parametrize("step_s", [-0.001, 0.0, 0.05, float("nan"), float("inf")])
+def test_a_truck_takes_no_step_that_is_none(truck: Packed, step_s: float) -> None:
+    with pytest.raises(InputError, match=r"step_s is .*; expected a step .* up to 0\.005 s"):
+        Truck(truck, step_s=step_s)
+    with pytest.raises(InputError, match="step_s is"):
+        simulate_inputs(truck, simulate(truck, "brake_stop").between(0.0, 1.0), step_s=step_s)
+
+
+def test_time_does_not_run_backward(truck: Packed) -> None:
+    run = Truck(truck)
+    with pytest.raises(InputError, match="n_steps is -5; expected 0 steps or more"):
+        run.advance(Inputs(), -5)
+    run.advance(Inputs(), 0)
+    assert run.time_s == 0.0

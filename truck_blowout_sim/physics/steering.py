@@ -25,6 +25,8 @@ from truck_blowout_sim.physics.scalar import clip, deadzone, hysteresis
 from truck_blowout_sim.physics.trig import turned
 
 Floats = NDArray[np.float64]
+_STOP_RAD = 0.9  # of the mean road-wheel angle: beyond the 45 deg at which trucks' stops are set
+_FASTEST_RADPS = 20.0  # keeps a wheel that is torn around within what a step resolves
 
 
 @core
@@ -94,7 +96,7 @@ def advance_steering(x: Floats, p: Floats, hand_wheel_rad: float, moment_nm: flo
     x[GLOBAL_S.steer_command_rad] = target
     x[GLOBAL_S.kingpin_moment_nm] = moment_nm
     if shared(p[STEER_AT + STEER.compliance_on]) == 0.0:
-        x[GLOBAL_S.steer_rad] = target
+        x[GLOBAL_S.steer_rad] = clip(target, -_STOP_RAD, _STOP_RAD)
         x[GLOBAL_S.steer_rate_radps] = 0.0
         return
     lash = p[STEER_AT + STEER.lash_rad] + p[STEER_AT + STEER.lash_extra_rad]
@@ -109,5 +111,7 @@ def advance_steering(x: Floats, p: Floats, hand_wheel_rad: float, moment_nm: flo
     inertia = p[STEER_AT + STEER.inertia_kgm2]
     push = moment_nm + link - x[GLOBAL_S.steer_friction_nm]
     rate = (rate + dt * push / inertia) / (1.0 + dt * damping / inertia)
-    x[GLOBAL_S.steer_rate_radps] = clip(rate, -20.0, 20.0)
-    x[GLOBAL_S.steer_rad] = clip(x[GLOBAL_S.steer_rad] + dt * rate, -0.9, 0.9)
+    rate = clip(rate, -_FASTEST_RADPS, _FASTEST_RADPS)
+    angle = x[GLOBAL_S.steer_rad] + dt * rate
+    x[GLOBAL_S.steer_rad] = clip(angle, -_STOP_RAD, _STOP_RAD)
+    x[GLOBAL_S.steer_rate_radps] = where(abs(angle) < _STOP_RAD, rate, 0.0)

@@ -22,6 +22,7 @@ from truck_blowout_sim.simulation.drive import (
 from truck_blowout_sim.simulation.equilibrium import InitialState
 from truck_blowout_sim.simulation.inputs import opening
 from truck_blowout_sim.simulation.plausible import diverged, implausible
+from truck_blowout_sim.simulation.rates import check_rates
 from truck_blowout_sim.simulation.start import initial_state, start_time_s
 from truck_blowout_sim.vehicle import Packed, Vehicle, pack
 
@@ -84,9 +85,10 @@ def simulate_inputs(vehicle: Vehicle | Packed, recording: Recording, *, step_s: 
     """The model driven by a recording: a recording with the same clock.
 
     Raises:
-        InputError: see :func:`drive_from`.
+        InputError: an impossible step or rate; and see :func:`drive_from`.
         DivergedError: the run left the range of the model.
     """
+    check_rates(step_s, rate_hz)
     packed = vehicle if isinstance(vehicle, Packed) else pack(vehicle)
     drive = drive_from(recording, packed.vehicle, step_s=step_s, rate_hz=rate_hz, initial=initial,
                        impose_speed=impose_speed)

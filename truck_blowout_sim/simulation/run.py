@@ -18,6 +18,7 @@ from truck_blowout_sim.simulation.driver import input_table, pilot_of, speed_to_
 from truck_blowout_sim.simulation.equilibrium import InitialState
 from truck_blowout_sim.simulation.events import events_of
 from truck_blowout_sim.simulation.inputs import Inputs
+from truck_blowout_sim.simulation.rates import check_rates
 from truck_blowout_sim.simulation.replay import as_recording, drive_from
 from truck_blowout_sim.simulation.scenario import Scenario, load_scenario
 from truck_blowout_sim.vehicle import Packed, Vehicle, load_road, pack, road_values
@@ -79,7 +80,7 @@ def prepare(vehicle: Vehicle | Packed, scenario: Scenario, *, step_s: float = 0.
     Raises:
         InputError: see :func:`simulate`.
     """
-    _check_rates(step_s, rate_hz)
+    check_rates(step_s, rate_hz)
     packed = _on_the_road(vehicle if isinstance(vehicle, Packed) else pack(vehicle), scenario)
     spec = scenario.spec
     n_steps = round((spec.end_s - spec.start_s) / step_s)
@@ -106,14 +107,6 @@ def prepare(vehicle: Vehicle | Packed, scenario: Scenario, *, step_s: float = 0.
     drive = Drive(initial, step_s, every, inputs, speed, events.steps, events.tires, pilot, path,
                   watch=events.watch, blow_watch=events.conditions, blow_delays=events.delays)
     return packed, drive, blowouts
-
-
-def _check_rates(step_s: float, rate_hz: float) -> None:
-    if not (math.isfinite(step_s) and 0.0 < step_s <= 0.005):
-        raise InputError(f"step_s is {step_s!r}", expected="a step over 0 and up to 0.005 s")
-    if not (math.isfinite(rate_hz) and 0.0 < rate_hz <= 1.0 / step_s * 1.001):
-        raise InputError(f"rate_hz is {rate_hz!r}",
-                         expected=f"a rate over 0 and up to {1.0 / step_s:g} Hz, one row a step")
 
 
 def _on_the_road(packed: Packed, scenario: Scenario) -> Packed:

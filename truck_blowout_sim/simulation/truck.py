@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -12,6 +14,7 @@ from truck_blowout_sim.physics.step import advance
 from truck_blowout_sim.simulation.ending import Ending, ending_of, rolled_over_rad
 from truck_blowout_sim.simulation.equilibrium import InitialState, initial_vector
 from truck_blowout_sim.simulation.inputs import Inputs, opening
+from truck_blowout_sim.simulation.rates import check_step
 from truck_blowout_sim.vehicle import Packed, Vehicle, pack
 
 Floats = NDArray[np.float64]
@@ -24,14 +27,20 @@ class Truck:
         vehicle: a vehicle, or a vehicle already packed into parameters.
         step_s: fixed step [s].
         initial: where and how fast it starts; settled there before time begins.
+
+    Raises:
+        InputError: a step that is none or too long, a throttle that is none.
     """
 
     def __init__(self, vehicle: Vehicle | Packed, *, step_s: float = 0.001,
                  initial: InitialState | None = None) -> None:
+        check_step(step_s)
         self.packed = vehicle if isinstance(vehicle, Packed) else pack(vehicle)
         self.vehicle = self.packed.vehicle
         self.step_s = step_s
-        self.initial = initial or InitialState()
+        begin = initial or InitialState()
+        inputs = begin.inputs._replace(throttle=opening(begin.inputs.throttle))
+        self.initial = replace(begin, inputs=inputs)
         self.output_names = output_names(self.vehicle.units, self.vehicle.hubs, self.vehicle.tires)
         self._params = self.packed.params
         self._topology = self.packed.topology
@@ -63,8 +72,10 @@ class Truck:
         """Advance ``n_steps`` steps with ``inputs`` held.
 
         Raises:
-            InputError: a throttle that is none.
+            InputError: a throttle that is none, or steps back in time.
         """
+        if n_steps < 0:
+            raise InputError(f"n_steps is {n_steps}", expected="0 steps or more")
         self._inputs[:] = inputs
         self._inputs[INPUT.throttle] = opening(inputs.throttle)
         # the counter rules time, so that it never drifts from the step grid
