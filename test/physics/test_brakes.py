@@ -7,9 +7,16 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.physics import brakes
 from truck_blowout_sim.physics.layout import HUB_S, N_INPUTS
-from truck_blowout_sim.simulation import InitialState, Inputs, Truck
+from truck_blowout_sim.simulation import (
+    InitialState,
+    Inputs,
+    Truck,
+    simulate,
+    simulate_inputs,
+)
 from truck_blowout_sim.vehicle import Packed
 
 Floats = NDArray[np.float64]
@@ -106,3 +113,21 @@ def test_trailer_brakes_come_later_than_the_tractors(truck: Packed) -> None:
     assert reached["steer_left"] == pytest.approx(0.10 + 0.15 * math.log(2.5), abs=0.003)
     assert reached["drive_2_right"] == reached["steer_left"]
     assert reached["trailer_2_left"] == pytest.approx(0.15 + 0.20 * math.log(2.5), abs=0.003)
+
+
+def test_a_delay_is_as_long_as_it_says_or_refused(truck: Packed, slot: Slot) -> None:
+    """The line holds 600 samples: a second has room in them at 2 ms, not at 1 ms."""
+    late = truck.with_values({"circuit.steer.delay_s": 0.9, "circuit.steer.delay_extra_s": 0.1})
+    words = r"the steer brakes come 1 s late; expected at most 0\.598 s with a step of 0\.001 s"
+    with pytest.raises(InputError, match=words):
+        Truck(late)
+    for run in (simulate, lambda packed, name: simulate_inputs(packed, simulate(truck, name))):
+        with pytest.raises(InputError, match="the steer brakes come 1 s late"):
+            run(late, "brake_stop")
+    braked = Truck(late, step_s=0.002)
+    at = slot("hub", "steer_left") + HUB_S.chamber_pa
+    for _ in range(510):
+        if braked.state[at] > 0.0:
+            break
+        braked.advance(Inputs(brake_pressure_steer_pa=3e5))
+    assert braked.time_s == pytest.approx(1.0, abs=0.005)

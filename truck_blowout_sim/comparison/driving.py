@@ -17,6 +17,7 @@ from truck_blowout_sim.comparison.words import labels_for
 from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.recordings import Recording
 from truck_blowout_sim.simulation.plausible import implausible
+from truck_blowout_sim.simulation.rates import check_delays
 from truck_blowout_sim.simulation.replay import drive_from, replayed
 from truck_blowout_sim.vehicle import Packed, Vehicle
 
@@ -57,6 +58,7 @@ def side_by_side(recording: Recording, packed: Packed, *, step_s: float = STEP_S
     Raises:
         InputError: no steering in the recording, no channel in common.
     """
+    check_delays(packed, step_s)
     recording = longest_run(recording)
     drive = drive_from(recording, packed.vehicle, step_s=step_s, impose_speed=impose_speed)
     if ask:

@@ -22,7 +22,7 @@ from truck_blowout_sim.simulation.drive import (
 from truck_blowout_sim.simulation.equilibrium import InitialState
 from truck_blowout_sim.simulation.inputs import opening
 from truck_blowout_sim.simulation.plausible import diverged, implausible
-from truck_blowout_sim.simulation.rates import check_rates
+from truck_blowout_sim.simulation.rates import check_delays, check_rates
 from truck_blowout_sim.simulation.start import initial_state, start_time_s
 from truck_blowout_sim.vehicle import Packed, Vehicle, pack
 
@@ -90,6 +90,7 @@ def simulate_inputs(vehicle: Vehicle | Packed, recording: Recording, *, step_s: 
     """
     check_rates(step_s, rate_hz)
     packed = vehicle if isinstance(vehicle, Packed) else pack(vehicle)
+    check_delays(packed, step_s)
     drive = drive_from(recording, packed.vehicle, step_s=step_s, rate_hz=rate_hz, initial=initial,
                        impose_speed=impose_speed)
     return replayed(recording, packed, drive)

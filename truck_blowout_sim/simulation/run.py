@@ -18,7 +18,7 @@ from truck_blowout_sim.simulation.driver import input_table, pilot_of, speed_to_
 from truck_blowout_sim.simulation.equilibrium import InitialState
 from truck_blowout_sim.simulation.events import events_of
 from truck_blowout_sim.simulation.inputs import Inputs
-from truck_blowout_sim.simulation.rates import check_rates
+from truck_blowout_sim.simulation.rates import check_delays, check_rates
 from truck_blowout_sim.simulation.replay import as_recording, drive_from
 from truck_blowout_sim.simulation.scenario import Scenario, load_scenario
 from truck_blowout_sim.vehicle import Packed, Vehicle, load_road, pack, road_values
@@ -82,6 +82,7 @@ def prepare(vehicle: Vehicle | Packed, scenario: Scenario, *, step_s: float = 0.
     """
     check_rates(step_s, rate_hz)
     packed = _on_the_road(vehicle if isinstance(vehicle, Packed) else pack(vehicle), scenario)
+    check_delays(packed, step_s)
     spec = scenario.spec
     n_steps = round((spec.end_s - spec.start_s) / step_s)
     if n_steps < 1:

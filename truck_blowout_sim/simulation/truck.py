@@ -14,7 +14,7 @@ from truck_blowout_sim.physics.step import advance
 from truck_blowout_sim.simulation.ending import Ending, ending_of, rolled_over_rad
 from truck_blowout_sim.simulation.equilibrium import InitialState, initial_vector
 from truck_blowout_sim.simulation.inputs import Inputs, opening
-from truck_blowout_sim.simulation.rates import check_step
+from truck_blowout_sim.simulation.rates import check_delays, check_step
 from truck_blowout_sim.vehicle import Packed, Vehicle, pack
 
 Floats = NDArray[np.float64]
@@ -29,13 +29,15 @@ class Truck:
         initial: where and how fast it starts; settled there before time begins.
 
     Raises:
-        InputError: a step that is none or too long, a throttle that is none.
+        InputError: a step that is none or too long, or too short for the delay of the brakes; a
+            throttle that is none.
     """
 
     def __init__(self, vehicle: Vehicle | Packed, *, step_s: float = 0.001,
                  initial: InitialState | None = None) -> None:
         check_step(step_s)
         self.packed = vehicle if isinstance(vehicle, Packed) else pack(vehicle)
+        check_delays(self.packed, step_s)
         self.vehicle = self.packed.vehicle
         self.step_s = step_s
         begin = initial or InitialState()

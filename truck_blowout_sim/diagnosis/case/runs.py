@@ -24,6 +24,7 @@ from truck_blowout_sim.recordings import Recording
 from truck_blowout_sim.simulation.course import Course
 from truck_blowout_sim.simulation.drive import Drive, execute, names_of, run_drive
 from truck_blowout_sim.simulation.plausible import diverged
+from truck_blowout_sim.simulation.rates import check_delays
 from truck_blowout_sim.simulation.replay import drive_from
 from truck_blowout_sim.vehicle import Packed
 
@@ -182,6 +183,7 @@ def prepare_run(recording: Recording, role: Role, packed: Packed, settings: Sett
     Raises:
         InputError: the recording cannot drive the model, or is too short to try any event in it.
     """
+    check_delays(packed, step_s)
     fine, drive = (drive_from(recording, packed.vehicle, step_s=step, impose_speed=impose_speed)
                    for step in (step_s, max(step_s, settings.trial_step_s)))
     names = names_of(packed.vehicle)
