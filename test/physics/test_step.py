@@ -11,7 +11,7 @@ import pytest
 from truck_blowout_sim.physics.step import advance, step
 from truck_blowout_sim.simulation import InitialState, Inputs, Truck, simulate
 from truck_blowout_sim.simulation.validation.soundness import symmetry_error
-from truck_blowout_sim.vehicle import Packed
+from truck_blowout_sim.vehicle import Packed, load_vehicle
 
 sys.path.insert(0, str(Path(__file__).parent))
 
@@ -124,3 +124,20 @@ def test_a_motion_that_is_not_finite_is_caught(truck: Packed) -> None:
     run = Truck(truck, initial=InitialState(speed_mps=15.0))
     run.advance(Inputs(throttle=float("nan")), 5)
     assert not run.finite
+
+
+@pytest.mark.parametrize("step_s", [0.001, 0.002, 0.0025, 0.005])
+@pytest.mark.parametrize("vehicle", ["international_9400i_trailmobile", "ferrari_250lm",
+                                     "bmw_320i"])  # fmt: skip
+def test_wheels_of_a_standing_vehicle_are_still(vehicle: str, step_s: float) -> None:
+    """Without brakes, nudged, and at any step that is taken: no force swings, nothing turns."""
+    run = Truck(load_vehicle(vehicle), step_s=step_s, initial=InitialState(speed_mps=0.02))
+    run.advance(Inputs(), round(2.0 / step_s))
+    forces, spins = [], []
+    for _ in range(100):
+        run.advance(Inputs())
+        out = run.outputs()
+        forces.append([out[f"tire_fx_{tire}_n"] for tire in run.vehicle.tires])
+        spins.append([out[f"hub_speed_{hub}_radps"] for hub in run.vehicle.hubs])
+    assert np.ptp(forces, axis=0).max() < 50.0
+    assert np.ptp(spins, axis=0).max() < 0.02

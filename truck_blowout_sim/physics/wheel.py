@@ -31,6 +31,7 @@ from truck_blowout_sim.physics.layout import (
 from truck_blowout_sim.physics.places import tire_params, tire_state
 from truck_blowout_sim.physics.tires import blowout, gas
 from truck_blowout_sim.physics.tires.lanes import LANE, lane_offset
+from truck_blowout_sim.physics.tires.tire import STANDSTILL_MPS, standstill_damping_spm
 from truck_blowout_sim.physics.trig import turned
 
 Floats = NDArray[np.float64]
@@ -75,6 +76,11 @@ def place_tires(x: Floats, s: int, p: Floats, h: int, a: int, axle_s: int, topo:
         lanes[w + LANE.cos_steer], lanes[w + LANE.sin_steer] = cd, sd
         lanes[w + LANE.slip] = x[ts + TIRE_S.slip]
         lanes[w + LANE.slip_tan] = x[ts + TIRE_S.slip_tan]
+        lanes[w + LANE.damping_spm] = 0.0
+        if any_of(abs(lanes[w + LANE.vx_mps]) < STANDSTILL_MPS):
+            lanes[w + LANE.damping_spm] = standstill_damping_spm(
+                p, t, lanes[w + LANE.vx_mps], x[ts + TIRE_S.fz_n],
+                p[h + HUB.spin_inertia_kgm2] / count, dt)
         inflate(x, ts, p, t, topo[TOPOLOGY.table_at], above, lanes, w, dt)
 
 

@@ -42,6 +42,7 @@ class TireLanes(NamedTuple):
     arm_m: int  # lateral place on the axle
     cos_steer: int
     sin_steer: int
+    damping_spm: int  # slip per slip speed, at standstill
     # in and out
     slip: int
     slip_tan: int

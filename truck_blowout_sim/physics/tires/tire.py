@@ -21,8 +21,9 @@ from truck_blowout_sim.physics.tires.string import kept_share, lag
 
 Floats = NDArray[np.float64]
 MAGIC_FORMULA, LOOKUP_MAP, LINEAR = 0.0, 1.0, 2.0  # TIRE.model
-_STANDSTILL_MPS = 0.5  # below it the string gets a damper, so that a standing truck does not ring
+STANDSTILL_MPS = 0.5  # below it the string gets a damper, so that a standing truck does not ring
 _STANDSTILL_DAMPING = 0.2  # slip per m/s
+_LEAST_SLOPE_N = 1.0  # of a tire without load, whose damper has nothing to hold
 _STILL_RADPS = 0.5  # rolling resistance fades below this spin
 
 
@@ -159,12 +160,27 @@ def stretch(p: Floats, t: int, lanes: Floats, w: int, dt: float) -> None:
     slip, tan = kept * slip, kept * tan
     lanes[w + LANE.slip] = slip
     lanes[w + LANE.slip_tan] = tan
-    damping = _STANDSTILL_DAMPING * max(1.0 - abs(vx) / _STANDSTILL_MPS, 0.0)
+    damping = lanes[w + LANE.damping_spm]
     lanes[w + LANE.force_slip] = clip(slip + damping * slide_x, -1.0, 1.0)
     lanes[w + LANE.force_slip_tan] = clip(tan + damping * slide_y, -3.0, 3.0)
     lanes[w + LANE.slope_n], lanes[w + LANE.cornering_nprad] = slope_x, cornering
     lanes[w + LANE.grip], lanes[w + LANE.grip_tan] = grip, grip_tan
     lanes[w + LANE.soft] = max(rim, lanes[w + LANE.collapse])
+
+
+@core
+def standstill_damping_spm(p: Floats, t: int, vx_mps: float, fz: float, inertia_kgm2: float,
+                           dt: float) -> float:
+    """Slip that the damper adds per slip speed [1 per m/s], 0 from `STANDSTILL_MPS` on.
+
+    ``inertia_kgm2``: the tire's part of its hub's. The damper takes at most the whole slip speed of
+    the wheel in a step: with more the wheel would chatter.
+    """
+    slope = magic_formula.limits(p, t, fz, 1.0, 1.0)[2]
+    slope = where(p[t + TIRE.model] == LINEAR, p[t + TIRE.linear_slip_n], slope)
+    radius = p[t + TIRE.unloaded_radius_m]
+    whole = inertia_kgm2 / (dt * max(slope, _LEAST_SLOPE_N) * radius * radius)
+    return min(whole, _STANDSTILL_DAMPING) * max(1.0 - abs(vx_mps) / STANDSTILL_MPS, 0.0)
 
 
 @core
@@ -219,7 +235,7 @@ def soften(p: Floats, t: int, lanes: Floats, w: int) -> None:
         flat = where(stepped, lanes[w + LANE.row_cornering], flat)
         trail = where(stepped, lanes[w + LANE.row_aligning], trail)
     # the contact trails behind the wheel: on the other side of it in reverse
-    trail *= clip(lanes[w + LANE.vx_mps] / _STANDSTILL_MPS, -1.0, 1.0)
+    trail *= clip(lanes[w + LANE.vx_mps] / STANDSTILL_MPS, -1.0, 1.0)
     camber = p[t + TIRE.camber_gain] * (1.0 - soft * (1.0 - p[t + TIRE.flat_camber]))
     camber = where(mapped, 0.0, camber)
     limit = p[t + TIRE.peak_y] * fz * lanes[w + LANE.friction] * p[t + TIRE.friction_scale]
