@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 
+from truck_blowout_sim.simulation import InitialState, Inputs, Truck
 from truck_blowout_sim.vehicle import Vehicle, load_vehicle, pack, write_vehicle
 from truck_blowout_sim.vehicle.packing import packed_spreads
 from truck_blowout_sim.vehicle.packing.formula import cornering_nprad
@@ -152,3 +153,39 @@ def test_a_stated_spread_reaches_the_vehicle(tmp_path: Path) -> None:
     assert found["tire.rear_left.pressure_pa"] == pytest.approx(10000.0)
     assert found["driveline.power_w"] == pytest.approx(9000.0)
     assert found["unit.tractor.origin_x_m"] == pytest.approx(2.7 * 15.0 / body)
+
+
+def test_a_flat_tire_stands_on_the_rim_of_its_own_size(write: Callable[..., Path]) -> None:
+    """A low-loader: its small trailer tires have their own rim, radius and belt."""
+    text = TRACTOR_TRAILER.replace("275/80R22.5", "315/80R22.5").replace(
+        "cg_x_m: 6.64}", "cg_x_m: 6.64, tire: 245/70R17.5}")
+    packed = pack(load_vehicle(write(text, "low.yaml")))
+    heights = {"steer_left": (22.5, 0.8 * 0.315), "trailer_1_left_outer": (17.5, 0.7 * 0.245)}
+    shares = []
+    for tire, (rim_in, height_m) in heights.items():
+        seat = 0.5 * rim_in * 0.0254
+        for key in ("rim_radius_m", "rim_contact_radius_m", "flat_radius_m"):
+            assert seat < packed[f"tire.{tire}.{key}"] < seat + height_m
+        shares.append([(packed[f"tire.{tire}.{key}"] - seat) / height_m
+                       for key in ("rim_radius_m", "rim_contact_radius_m")])
+        shares[-1].append(packed[f"tire.{tire}.rim_span_m"] / height_m)
+        shares[-1].append(packed[f"tire.{tire}.flat_radius_m"] / (seat + height_m))
+    assert shares[0] == pytest.approx(shares[1])
+
+
+def test_a_flat_small_trailer_tire_turns_faster(write: Callable[..., Path]) -> None:
+    """Its rolling radius falls: with the front tire's belt it grew beyond its free radius."""
+    text = TRACTOR_TRAILER.replace("cg_x_m: 6.64}", "cg_x_m: 6.64, tire: 245/70R19.5}")
+    vehicle = load_vehicle(write(text, "small.yaml"))
+    run = Truck(vehicle, initial=InitialState(speed_mps=20.0))
+    before = run.outputs()["hub_speed_trailer_1_left_radps"]
+    for dual in ("outer", "inner"):
+        run.blow(f"trailer_1_left_{dual}")
+    run.advance(Inputs(throttle=0.3), 2500)
+    out = run.outputs()
+    rolls = out["hub_speed_trailer_1_left_radps"] / out["tractor_vx_mps"]
+    assert 1.0 < rolls / (before / 20.0) < 1.1
+
+
+def test_an_axle_of_the_front_size_needs_no_rim_of_its_own(truck: Vehicle) -> None:
+    assert all(spec.rim is None for spec in truck.tire_specs.values())

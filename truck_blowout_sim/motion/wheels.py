@@ -122,8 +122,8 @@ def _height(source: Source, vehicle: Vehicle, tires: tuple[str, ...], air: Mappi
     if known:
         return np.max(known, axis=0)
     source.assume("height of the hubs: that at rest, of a blown tire that of the rim")
-    flat = vehicle.blowout.rim_contact_radius_m
-    return np.max([flat + (rest[tire] - flat) * air[tire] for tire in tires], axis=0)
+    flat = {tire: vehicle.rim(tire).rim_contact_radius_m for tire in tires}
+    return np.max([flat[tire] + (rest[tire] - flat[tire]) * air[tire] for tire in tires], axis=0)
 
 
 def _forces(source: Source, tire: str) -> Floats | None:

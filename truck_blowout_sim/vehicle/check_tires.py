@@ -7,7 +7,13 @@ from itertools import pairwise
 from truck_blowout_sim.physics.layout import STEP_COLUMNS
 from truck_blowout_sim.vehicle.document import Place
 from truck_blowout_sim.vehicle.packing.formula import loaded_radius_m
-from truck_blowout_sim.vehicle.schema.tire import StepTableSpec, TireMapSpec, TireSpec
+from truck_blowout_sim.vehicle.schema.tire import (
+    BlowoutSpec,
+    RimSpec,
+    StepTableSpec,
+    TireMapSpec,
+    TireSpec,
+)
 from truck_blowout_sim.vehicle.vehicle import Vehicle
 
 
@@ -18,16 +24,20 @@ def check_blowout(vehicle: Vehicle, place: Place) -> None:
         InputError: radii out of order, or a table of steps that cannot be walked.
     """
     law = vehicle.blowout
-    if law.rim_span_m >= law.rim_radius_m:
-        raise place.error("rim_span_m reaches the hub", f"less than {law.rim_radius_m:g} m")
-    if law.rim_contact_radius_m > law.rim_radius_m:
-        raise place.error(
-            "rim_contact_radius_m is above rim_radius_m", f"at most {law.rim_radius_m:g} m"
-        )
+    _check_rim(law, place)
     if law.law == "steps":
         if law.steps is None:
             raise place.error("law steps has no table", "a steps section in the blowout file")
         _check_steps(law.steps, place)
+
+
+def _check_rim(rim: RimSpec | BlowoutSpec, place: Place) -> None:
+    if rim.rim_span_m >= rim.rim_radius_m:
+        raise place.error("rim_span_m reaches the hub", f"less than {rim.rim_radius_m:g} m")
+    if rim.rim_contact_radius_m > rim.rim_radius_m:
+        raise place.error(
+            "rim_contact_radius_m is above rim_radius_m", f"at most {rim.rim_radius_m:g} m"
+        )
 
 
 def _check_steps(steps: StepTableSpec, place: Place) -> None:
@@ -50,12 +60,15 @@ def check_tire(vehicle: Vehicle, tire: str, place: Place) -> None:
         InputError: a tire that cannot carry or has no numbers for its model.
     """
     spec, file, law = vehicle.tire_specs[tire], vehicle.tire_files[tire], vehicle.blowout
+    rim = vehicle.rim(tire)
+    if spec.rim is not None:
+        _check_rim(rim, place)
     if spec.stiffness_npm + spec.stiffness_npmppa * spec.pressure_pa <= 0.0:
         raise place.error(f"{file} for {tire} has no radial stiffness", "stiffness or pressure")
-    if loaded_radius_m(spec, spec.reference_load_n) <= law.rim_radius_m and law.law == "continuous":
+    if loaded_radius_m(spec, spec.reference_load_n) <= rim.rim_radius_m and law.law == "continuous":
         raise place.error(
             f"{file} for {tire} stands on its rim under its reference load",
-            f"a loaded radius above rim_radius_m {law.rim_radius_m:g} m of the blowout law",
+            f"a loaded radius above its rim_radius_m, {rim.rim_radius_m:g} m",
         )
     if spec.model == "linear" and spec.linear_cornering_nprad <= 0.0:
         raise place.error(

@@ -11,7 +11,7 @@ from truck_blowout_sim.vehicle.document import Place
 from truck_blowout_sim.vehicle.schema.axle import AxleSpec
 from truck_blowout_sim.vehicle.schema.body import UnitSpec
 from truck_blowout_sim.vehicle.schema.road import RoadSpec
-from truck_blowout_sim.vehicle.schema.tire import BlowoutSpec, TireSpec
+from truck_blowout_sim.vehicle.schema.tire import BlowoutSpec, RimSpec, TireSpec
 from truck_blowout_sim.vehicle.schema.vehicle import VehicleSpec
 
 SIDES = ("left", "right")
@@ -107,6 +107,14 @@ class Vehicle:
         if hub not in self.hubs:
             raise KeyError(hub)
         return self.axles[self.hubs.index(hub) // 2]
+
+    def rim(self, tire: str) -> RimSpec | BlowoutSpec:
+        """What a tire does on its rim: its own numbers, else those of the blowout file.
+
+        Raises:
+            KeyError: no tire of this name.
+        """
+        return self.tire_specs[tire].rim or self.blowout
 
     def hub_of_tire(self, tire: str) -> str:
         """Name of the hub a tire sits on.

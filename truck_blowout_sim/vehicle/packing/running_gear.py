@@ -66,9 +66,9 @@ def tire_block(vehicle: Vehicle, tire: str, hub: str, tables: Tables) -> list[fl
         "law": float(LAWS.index(law.law)),
         "table": float(tables.steps(spec)),
         "map_table": float(tables.map(spec)),
-        "rim_damping_nspm": rim_damping_nspm(law, axle),
+        "rim_damping_nspm": rim_damping_nspm(law, vehicle.rim(tire).rim_stiffness_npm, axle),
     }
-    return fill(layout.TireParams, computed, [spec, law])
+    return fill(layout.TireParams, computed, [spec, law, vehicle.rim(tire)])
 
 
 def offset_m(axle: AxleSpec, tire: str, hub: str) -> float:
@@ -80,6 +80,6 @@ def offset_m(axle: AxleSpec, tire: str, hub: str) -> float:
     return 0.5 * out * axle.dual_spacing_m * (1.0 if tire == names[0] else -1.0)
 
 
-def rim_damping_nspm(law: BlowoutSpec, axle: AxleSpec) -> float:
+def rim_damping_nspm(law: BlowoutSpec, stiffness_npm: float, axle: AxleSpec) -> float:
     """Damping of half an axle on the rim: 2 zeta sqrt(k m)."""
-    return 2.0 * law.rim_damping_ratio * sqrt(law.rim_stiffness_npm * 0.5 * axle.mass_kg)
+    return 2.0 * law.rim_damping_ratio * sqrt(stiffness_npm * 0.5 * axle.mass_kg)

@@ -37,6 +37,18 @@ class TireMapSpec:
 
 
 @dataclass(frozen=True, kw_only=True)
+class RimSpec:
+    """A tire on its rim: what the blowout file says for all tires, of one of another size."""
+
+    rim_radius_m: float = positive("loaded radius at which carcass and rim begin to touch")
+    rim_span_m: float = positive("loss of radius from there to rho = 1")
+    rim_contact_radius_m: float = positive("loaded radius below which the rim carries")
+    rim_stiffness_npm: float = at_least_zero("radial stiffness on the rim")
+    flat_radius_m: float = positive("rolling radius at rho = 1")
+    flat_relaxation_m: float = positive("lateral relaxation length at rho = 1")
+
+
+@dataclass(frozen=True, kw_only=True)
 class TireSpec:
     """One kind of tire. d = load / reference load - 1, q = pressure / reference pressure."""
 
@@ -84,6 +96,9 @@ class TireSpec:
     linear_slip_n: float = at_least_zero("longitudinal stiffness, linear model", default=0.0)
     map: TireMapSpec | None = section(
         TireMapSpec, "map model; absent: made from the formula at the set pressure", optional=True
+    )
+    rim: RimSpec | None = section(
+        RimSpec, "this tire on its rim; absent: as the blowout file says", optional=True
     )
 
 

@@ -11,7 +11,7 @@ from truck_blowout_sim.vehicle.single_track.draft import RULE, Draft
 from truck_blowout_sim.vehicle.single_track.plan import UnitPlan, towing_plan, trailer_plan
 from truck_blowout_sim.vehicle.single_track.rules import load_rules
 from truck_blowout_sim.vehicle.single_track.schema import SingleTrackSpec
-from truck_blowout_sim.vehicle.single_track.tires import put_blowout, put_tires
+from truck_blowout_sim.vehicle.single_track.tires import put_blowout, put_rims, put_tires
 
 KEY = "single_track"
 
@@ -54,6 +54,7 @@ def _whole_vehicle(section: Branch) -> Branch:
         put_axles(draft, unit, total_driven=sum(axle.driven for axle in towing.axles))
         put_tires(draft, unit, spec)
     put_blowout(draft, towing)
+    put_rims(draft, units)
     put_controls(draft, spec, units)
     return draft.tree()
 

@@ -7,6 +7,7 @@ Validated with: test/vehicle/test_single_track.py (the stated cornering stiffnes
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from functools import cache
 from math import atan, sin
 
@@ -101,21 +102,34 @@ def _put_forces(draft: Draft, at: str, unit: UnitPlan, axle: AxlePlan) -> None:
 
 
 def put_blowout(draft: Draft, towing: UnitPlan) -> None:
-    """The shipped law of a blowout with its radii at the same parts of the section height."""
+    """The shipped law of a blowout, with the numbers on the rim of the front tires."""
+    draft.put("blowout.extends", BASE_BLOWOUT)
+    _put_rim(draft, "blowout", towing.axles[0])
+
+
+def put_rims(draft: Draft, units: Sequence[UnitPlan]) -> None:
+    """Numbers on the rim of every axle whose tires are of another size than the front ones."""
+    front = units[0].axles[0]
+    for axle in (axle for unit in units for axle in unit.axles):
+        if axle.size != front.size:
+            _put_rim(draft, f"tires.{axle.name}.rim", axle)
+
+
+def _put_rim(draft: Draft, at: str, axle: AxlePlan) -> None:
+    """A flat tire of an axle: the shipped law's radii at the same parts of the section height."""
     document = read_document(config_file("blowout", BASE_BLOWOUT), "blowout")
     law = build(BlowoutSpec, document, Notes())
-    size, base = towing.axles[0].size, parse_size(BASE_SIZE, draft.place)
-    draft.put("blowout.extends", BASE_BLOWOUT)
+    size, base = axle.size, parse_size(BASE_SIZE, draft.place)
     for key in ("rim_radius_m", "rim_contact_radius_m"):
         share = (getattr(law, key) - 0.5 * base.rim_diameter_m) / base.height_m
         radius = 0.5 * size.rim_diameter_m + share * size.height_m
-        draft.put(f"blowout.{key}", radius, SCALED + "the same part of the section height")
+        draft.put(f"{at}.{key}", radius, SCALED + "the same part of the section height")
     span = law.rim_span_m * size.height_m / base.height_m
-    draft.put("blowout.rim_span_m", span, SCALED + "with the section height")
-    draft.put("blowout.flat_radius_m", law.flat_radius_m * size.radius_m / base.radius_m,
+    draft.put(f"{at}.rim_span_m", span, SCALED + "with the section height")
+    draft.put(f"{at}.flat_radius_m", law.flat_radius_m * size.radius_m / base.radius_m,
               SCALED + "the belt rolls its own length")  # fmt: skip
-    load = towing.axles[0].load_kg / towing.axles[0].tires * g
+    load = axle.load_kg / axle.tires * g
     stiffness = law.rim_stiffness_npm * load / _base_tire().reference_load_n
-    draft.put("blowout.rim_stiffness_npm", stiffness, SCALED + "with the load")
-    draft.put("blowout.flat_relaxation_m", law.flat_relaxation_m * size.radius_m / base.radius_m,
+    draft.put(f"{at}.rim_stiffness_npm", stiffness, SCALED + "with the load")
+    draft.put(f"{at}.flat_relaxation_m", law.flat_relaxation_m * size.radius_m / base.radius_m,
               SCALED + "with the radius")  # fmt: skip
