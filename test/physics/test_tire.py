@@ -19,12 +19,12 @@ FZ, SPEED = 25_000.0, 20.0
 
 
 def force(truck: Packed, state: Floats, s: int, t: int, *, vx: float = SPEED, vy: float = 0.0,
-          roll: float | None = None, rim: float = 0.0, camber: float = 0.0, fz: float = FZ
-          ) -> tuple[float, float, float]:
+          roll: float | None = None, rim: float = 0.0, camber: float = 0.0, fz: float = FZ,
+          axle_peak: float = 1.0) -> tuple[float, float, float]:
     """Forces of one tire after a step of 1 ms, its slips kept in the state, its load given."""
     lanes = np.zeros(LANE_BLOCK)
     lanes[[LANE.vx_mps, LANE.vy_mps, LANE.sin_camber]] = vx, vy, np.sin(camber)
-    lanes[[LANE.friction, LANE.axle_peak, LANE.radius_m]] = 1.0, 1.0, 1.0
+    lanes[[LANE.friction, LANE.axle_peak, LANE.radius_m]] = 1.0, axle_peak, 1.0
     lanes[LANE.spin_radps] = vx if roll is None else roll
     lanes[[LANE.pressure_pa, LANE.rim, LANE.fz_n]] = state[s + TIRE_S.pressure_pa], rim, fz
     lanes[[LANE.slip, LANE.slip_tan]] = state[s + TIRE_S.slip], state[s + TIRE_S.slip_tan]
@@ -110,3 +110,40 @@ def test_in_reverse_the_trail_lies_on_the_other_side(truck: Packed, inflated: tu
     assert ends[-SPEED][0] == pytest.approx(ends[SPEED][0], rel=1e-6)
     assert ends[-SPEED][1] == pytest.approx(-ends[SPEED][1], rel=1e-6)
     assert ends[0.0][1] == 0.0
+
+
+@pytest.mark.parametrize("camber", [0.0, 0.05])
+@pytest.mark.parametrize("rim", [0.0, 1.0])
+@pytest.mark.parametrize("axle_peak", [0.7, 1.3])
+@pytest.mark.parametrize("fz", [0.4 * FZ, 1.6 * FZ])
+def test_the_most_side_force_is_the_formulas_peak(
+    truck: Packed, inflated: tuple[Floats, int], block: Block, fz: float, axle_peak: float,
+    rim: float, camber: float
+) -> None:
+    """At light loads and large ones, on an axle with other grip, flat, with camber thrust."""
+    (state, s), t = inflated, block("tire.steer_left")
+    peak = magic_formula.limits(truck.params, t, fz, 1.0, axle_peak)[1]
+    kept = 1.0 - rim * (1.0 - truck["tire.steer_left.flat_cornering"])
+    most = 0.0
+    for tan in np.linspace(0.02, 1.5, 60):
+        for _ in range(400):
+            fy = force(truck, state, s, t, vy=-tan * SPEED, roll=SPEED, rim=rim, camber=camber,
+                       fz=fz, axle_peak=axle_peak)[1]
+        most = max(most, fy)
+    assert most == pytest.approx(kept * peak, rel=2e-3)
+
+
+def test_grip_falls_with_the_load(truck: Packed, inflated: tuple[Floats, int], block: Block
+                                  ) -> None:
+    """Below the reference load as above it: the loss per load is the file's, with mu of Fz."""
+    (state, s), t = inflated, block("tire.steer_left")
+    grips = []
+    for fz in (0.4 * FZ, 0.8 * FZ, 1.2 * FZ):
+        most = 0.0
+        for tan in np.linspace(0.05, 0.6, 40):
+            for _ in range(400):
+                most = max(most, force(truck, state, s, t, vy=-tan * SPEED, roll=SPEED, fz=fz)[1])
+        grips.append(most / fz)
+    loss = truck["tire.steer_left.peak_y_load"] * truck["tire.steer_left.friction_scale"]
+    step = 0.4 * FZ / truck["tire.steer_left.reference_load_n"]
+    assert np.diff(grips) == pytest.approx([-loss * step] * 2, rel=0.03)

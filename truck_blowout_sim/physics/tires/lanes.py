@@ -63,6 +63,7 @@ class TireLanes(NamedTuple):
     cornering_nprad: int
     grip: int  # these divided by the peaks of the force
     grip_tan: int
+    peak_tan_n: int  # peak of the lateral force while the tire is whole
     soft: int
     slip_angle_rad: int
     total: int  # combined slip, in which both curves are

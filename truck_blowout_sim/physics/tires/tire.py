@@ -165,6 +165,7 @@ def stretch(p: Floats, t: int, lanes: Floats, w: int, dt: float) -> None:
     lanes[w + LANE.force_slip_tan] = clip(tan + damping * slide_y, -3.0, 3.0)
     lanes[w + LANE.slope_n], lanes[w + LANE.cornering_nprad] = slope_x, cornering
     lanes[w + LANE.grip], lanes[w + LANE.grip_tan] = grip, grip_tan
+    lanes[w + LANE.peak_tan_n] = peak_y
     lanes[w + LANE.soft] = max(rim, lanes[w + LANE.collapse])
 
 
@@ -238,8 +239,7 @@ def soften(p: Floats, t: int, lanes: Floats, w: int) -> None:
     trail *= clip(lanes[w + LANE.vx_mps] / STANDSTILL_MPS, -1.0, 1.0)
     camber = p[t + TIRE.camber_gain] * (1.0 - soft * (1.0 - p[t + TIRE.flat_camber]))
     camber = where(mapped, 0.0, camber)
-    limit = p[t + TIRE.peak_y] * fz * lanes[w + LANE.friction] * p[t + TIRE.friction_scale]
-    limit = where(mapped, np.inf, limit)
+    limit = where(mapped, np.inf, flat * lanes[w + LANE.peak_tan_n])
     fy = clip(lanes[w + LANE.fy_n] * flat + camber * fz * lanes[w + LANE.sin_camber], -limit, limit)
     # no load, no force
     lanes[w + LANE.fx_n] = where(fz > 0.0, lanes[w + LANE.fx_n], 0.0)
