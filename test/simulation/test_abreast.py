@@ -84,6 +84,19 @@ def test_every_kind_of_tire_and_brake(vehicle: str, tires: tuple[str, ...],
     assert not np.allclose(last, together[0].out[-1])
 
 
+def test_wheels_that_spin_stand_or_roll_back() -> None:
+    """On ice: some start at full throttle, one stands, one brakes in reverse, one is retarded."""
+    packed = pack(load_vehicle(TRUCK))
+    trucks = [packed.with_values({"world.friction_scale": 0.1 + 0.1 * k,
+                                  "driveline.retarder_n": 6000.0 * k}) for k in range(7)]
+    drives = []
+    for k, speed in enumerate((0.0, 0.0, 0.3, -8.0, 1.0, 15.0, 15.0)):
+        drive = turning(packed, k, (), brake_pa=4e5 if speed < 0.0 else 0.0)
+        drive.inputs[:, 1] = 1.0 if 0.0 <= speed < 0.5 and k else 0.0
+        drives.append(replace(drive, initial=InitialState(speed_mps=speed)))
+    assert_same(execute_abreast(trucks, drives), alone(trucks, drives), 1e-6)
+
+
 def test_events_on_step_edges_come_at_the_same_step() -> None:
     """0.3 s is rounded up as a number of a file and down as a sum of steps, or the reverse."""
     packed = pack(load_vehicle(TRUCK))
