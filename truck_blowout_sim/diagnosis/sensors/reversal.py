@@ -4,7 +4,7 @@ A gain error is regressed on a motion that was measured. Where the noise of a ch
 the slopes J and the residual e = J a + g n, least squares finds an amount without a fault: J'e is
 not zero, because n stands in both. How large n is, is known where instruments are as quiet as they
 seem; in a rough log, the worst is assumed for each channel in turn: that all that is left over is
-its noise. Slopes without that noise are
+its noise, as far as it is not larger than what the channel shows. Slopes without that noise are
 
     J_c = J - (dJ/dc) / (de/dc) e
 
@@ -12,8 +12,9 @@ and the amount that they give, as instruments of the regression, is
 
     a_c = (J_c' J)^-1 J_c' e .
 
-Truth lies between a and a_c if c alone is noisy. A fault is doubtful if they point in opposite
-directions, a' V^-1 a_c < 0: noise explains it then. Where instruments are quiet, a_c is a.
+Truth lies between a and a_c if c alone is noisy. A fault is doubtful if a' V^-1 a_c is less than
+half of a' V^-1 a: noise explains more of it then than the fault does. Where instruments are quiet,
+a_c is a.
 
 References: Frisch 1934 (Statistical confluence analysis: direct and reversed regression enclose the
 truth); Reiersol 1941 (instrumental variables).
@@ -52,13 +53,14 @@ _R = TypeVar("_R", Rows, SlowRows)
 _STEP = 1e-3
 # where an identity reads a channel by less than this share of its most, noise there explains little
 _WEAK = 0.05
+_TINY = 1e-300
 
 
 def doubtful(
     case: Case, chosen: Sequence[Hypothesis], amounts: Sequence[Sequence[float]],
     inflation: Mapping[str, float],
 ) -> list[bool]:  # fmt: skip
-    """For each chosen fault, whether noise of a single channel would turn its amount around.
+    """For each chosen fault, whether noise of a single channel explains more of it than it does.
 
     Args:
         case: the recordings.
@@ -68,7 +70,7 @@ def doubtful(
     """
     taken = [Applied(h, tuple(a)) for h, a in zip(chosen, amounts, strict=True)]
     left = _Left.of(case, chosen, taken, inflation)
-    return [left.turns(k, np.array(amount)) for k, amount in enumerate(amounts)]
+    return [left.made(k, np.array(amount)) for k, amount in enumerate(amounts)]
 
 
 @dataclass(frozen=True, eq=False)
@@ -99,11 +101,13 @@ class _Recording:
 
     def _noise(self, channel: str) -> FloatArray:
         """Noise of a channel under each bump, were it all that each identity leaves over."""
-        out = np.zeros_like(self.rows.residual)
+        shown, out = float(np.nanstd(self.smooth[channel])), np.zeros_like(self.rows.residual)
         for a, gain in enumerate(self.rows.gains_of(self.smooth, channel)):
             most = float(np.abs(gain).max(initial=0.0))
             if most > 0.0:
-                out[:, a] = self.rows.residual[:, a] * gain / (gain**2 + (_WEAK * most) ** 2)
+                noise = self.rows.residual[:, a] * gain / (gain**2 + (_WEAK * most) ** 2)
+                size = float(np.sqrt(np.mean(noise[self.rows.valid[:, a]] ** 2)))
+                out[:, a] = noise * min(1.0, shown / max(size, _TINY))
         return out
 
 
@@ -137,13 +141,13 @@ class _Left:
                 smoothed_signals(clean, case.noise[k]), acts))
         return cls(found, chosen, unknowns, inflation)
 
-    def turns(self, which: int, amount: FloatArray) -> bool:
-        """Whether some channel's noise turns the amount of one fault around."""
+    def made(self, which: int, amount: FloatArray) -> bool:
+        """Whether some channel's noise makes more than half of the amount of one fault."""
         for channel in self._channels():
             found = self._without(which, channel)
             if found is not None:
                 shift, precision = found
-                if float(amount @ precision @ (amount + shift)) < 0.0:
+                if float(amount @ precision @ (0.5 * amount + shift)) < 0.0:
                     return True
         return False
 

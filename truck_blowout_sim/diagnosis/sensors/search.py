@@ -25,7 +25,7 @@ from truck_blowout_sim.diagnosis.sensors.judgement import (
     family_p,
     handicap,
 )
-from truck_blowout_sim.diagnosis.sensors.reversal import doubtful as turned_around
+from truck_blowout_sim.diagnosis.sensors.reversal import doubtful as made_by_noise
 from truck_blowout_sim.diagnosis.sensors.solve import Estimate, noise_inflation, refine, solve
 from truck_blowout_sim.diagnosis.sensors.steady import chances, independent_candidates
 from truck_blowout_sim.diagnosis.sensors.system import System, assemble, normal_equations
@@ -190,7 +190,7 @@ def _pruned(
             for k, (h, g) in enumerate(zip(kept, gains, strict=True))
         ]
         if not any(doubtful):
-            doubtful = turned_around(case, kept, estimate.amounts, inflation)
+            doubtful = made_by_noise(case, kept, estimate.amounts, inflation)
         if not any(doubtful):
             break
         weakest = int(np.argmin([g if d else np.inf for g, d in zip(gains, doubtful, strict=True)]))
