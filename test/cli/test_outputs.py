@@ -7,9 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from truck_blowout_sim.cli.diagnose import _free
 from truck_blowout_sim.cli.main import main
-from truck_blowout_sim.cli.outputs import claim, say
+from truck_blowout_sim.cli.outputs import claim, free_name, say
 from truck_blowout_sim.errors import InputError, StorageError
 from truck_blowout_sim.recordings.atomic import replacing
 
@@ -108,7 +107,7 @@ def test_a_file_never_replaces_a_folder(tmp_path: Path) -> None:
 def test_corrected_recordings_of_one_name_do_not_replace_each_other() -> None:
     taken: set[str] = set()
     for name in ("drive", "drive", "Drive", "drive_2"):
-        taken.add(_free(name, taken).lower())
+        taken.add(free_name(name, taken).lower())
     assert taken == {"drive", "drive_2", "drive_3", "drive_2_2"}
 
 

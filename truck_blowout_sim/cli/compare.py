@@ -15,7 +15,7 @@ from rich.table import Table
 from rich.text import Text
 
 from truck_blowout_sim.cli.listing import list_option, names_of
-from truck_blowout_sim.cli.outputs import FORCE, JSON, YES, ask_about, claim, say
+from truck_blowout_sim.cli.outputs import FORCE, JSON, YES, ask_about, claim, free_name, say
 from truck_blowout_sim.cli.progress import bar
 from truck_blowout_sim.cli.reading import AS_IT_IS, LogOptions, reads_logs
 from truck_blowout_sim.errors import InputError
@@ -171,9 +171,7 @@ def _folders(recordings: list[str], output: Path) -> list[Path]:
     names: list[str] = []
     for recording in recordings:
         stem = Path(recording).name.split(".")[0] or "recording"
-        tries = (stem, *(f"{stem}_{k}" for k in range(2, len(recordings) + 2)))
-        taken = {name.lower() for name in names}  # some disks tell no capitals apart
-        names.append(next(one for one in tries if one.lower() not in taken))
+        names.append(free_name(stem, names))
     return [output / name for name in names]
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import gc
 import re
 import time
-from collections.abc import Callable, Mapping, Sequence, Set
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -15,7 +15,7 @@ from rich.progress import BarColumn, Progress, TaskID, TextColumn, TimeElapsedCo
 
 from truck_blowout_sim.cli.failures import interruptible
 from truck_blowout_sim.cli.listing import list_option, names_of
-from truck_blowout_sim.cli.outputs import FORCE, JSON, YES, ask_about, claim, say
+from truck_blowout_sim.cli.outputs import FORCE, JSON, YES, ask_about, claim, free_name, say
 from truck_blowout_sim.cli.progress import bar
 from truck_blowout_sim.cli.reading import (
     AS_IT_IS,
@@ -174,15 +174,10 @@ def _write_corrected(answer: Diagnosis, runs: Mapping[str, Sequence[Recording]],
     for role, group in runs.items():
         faults = [f for f in answer.evidence.findings if f.in_baseline or role != "baseline"]
         for run in group:
-            name = _free(re.sub(r"\W+", "_", run.name).strip("_") or role, taken)
+            # two folders may hold a `drive.csv` each
+            name = free_name(re.sub(r"\W+", "_", run.name).strip("_") or role, taken)
             write_recording(correct(run, faults), folder / f"{name}.csv")
-            taken.add(name.lower())
-
-
-def _free(name: str, taken: Set[str]) -> str:
-    """A name that no other recording has: two folders may hold a `drive.csv` each."""
-    tries = (name, *(f"{name}_{k}" for k in range(2, len(taken) + 3)))
-    return next(one for one in tries if one.lower() not in taken)
+            taken.add(name)
 
 
 def _write(answer: Diagnosis, vehicle: Vehicle, base: str, values: Mapping[str, float],

@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 import os
 import sys
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from os import PathLike
 from pathlib import Path
 from typing import Any
@@ -88,6 +88,13 @@ def claim(output: str | PathLike[str], *, force: bool = False,
                                  expected="a new name, or --force to replace it")
     _check_writable(target)
     return target
+
+
+def free_name(name: str, taken: Collection[str]) -> str:
+    """The name, with a number where others have it; some disks tell no capitals apart."""
+    lower = {one.lower() for one in taken}
+    tries = (name, *(f"{name}_{k}" for k in range(2, len(lower) + 3)))
+    return next(one for one in tries if one.lower() not in lower)
 
 
 def check_span(start_s: float | None, end_s: float | None) -> None:

@@ -63,7 +63,7 @@ def command(
     lines = read_lines(output / RESULTS)
     todo = unfinished(found, lines, Manner(step_s, baselines, code if renew else ""))
     _say_old([lines[c.id] for c in found if c.id in lines and c not in todo], code)
-    _diagnose(found, len(found) - len(todo), output, workers=workers, step_s=step_s,
+    _diagnose(todo, len(found), output, workers=workers, step_s=step_s,
               with_baselines=baselines, renew=renew)
     figures = score_run(found, read_lines(output / RESULTS), output,
                         manifest or find_manifest(root, "" if cases else name))
@@ -73,16 +73,17 @@ def command(
         _print(figures, output)
 
 
-def _diagnose(cases: Sequence[Case], done: int, output: Path, **manner: Any) -> None:  # noqa: ANN401
+def _diagnose(todo: Sequence[Case], total: int, output: Path, **manner: Any) -> None:  # noqa: ANN401
     """Make the answers that are not there yet, under a bar; failures are told as they come.
 
+    ``total``: how many there will be then.
     ``manner``: as :func:`truck_blowout_sim.proof.run.run_cases` takes it.
     """
     from truck_blowout_sim.proof.run import run_cases
 
     with _progress() as progress:
-        task = progress.add_task("diagnosing", total=len(cases), completed=done)
-        for line in run_cases(cases, output, **manner):
+        task = progress.add_task("diagnosing", total=total, completed=total - len(todo))
+        for line in run_cases(todo, output, **manner):
             progress.update(task, advance=1, description=line["case"])
             if line["error"]:
                 progress.console.print(f"{line['case']}: {line['error']}", style="red",

@@ -27,28 +27,34 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from truck_blowout_sim.diagnosis.sensors.case import Applied, Case, Hypothesis, undone
+from truck_blowout_sim.diagnosis.sensors.distortions import Distortion
+from truck_blowout_sim.diagnosis.sensors.identities import with_kinematic_accelerations
 from truck_blowout_sim.diagnosis.sensors.rows import (
     Rows,
+    channel_gains,
     fault_slopes,
     smoothed_signals,
 )
 from truck_blowout_sim.diagnosis.sensors.signals import Signals
 from truck_blowout_sim.diagnosis.sensors.slow import SlowRows
-from truck_blowout_sim.diagnosis.sensors.solve import Estimate, Unknowns, solve, unknowns_of
+from truck_blowout_sim.diagnosis.sensors.solve import Unknowns, slices_of, solve, unknowns_of
 from truck_blowout_sim.diagnosis.sensors.system import (
     assemble,
     normal_equations,
     whitened_parts,
 )
+from truck_blowout_sim.diagnosis.sensors.windows import make_windows
 
 FloatArray = NDArray[np.float64]
 _R = TypeVar("_R", Rows, SlowRows)
+_Columns = Sequence[tuple[Distortion, int]]
 
 _STEP = 1e-3
 # where an identity reads a channel by less than this share of its most, noise there explains little
@@ -88,21 +94,36 @@ class _Recording:
     smooth: Signals
     acts: FloatArray
 
-    def freed(self, hypothesis: Hypothesis, channel: str) -> FloatArray | None:
-        """A fault's slopes without the worst noise of a channel; None if they do not read it."""
-        columns = [(hypothesis.distortion, k)
-                   for k in range(len(hypothesis.distortion.parameters))]
-        plain = fault_slopes(self.smooth, self.rows, columns)
+    def slopes(self, columns: _Columns) -> FloatArray:
+        """Of a fault, by the regressors as they are, (bumps, identities, parameters)."""
+        return fault_slopes(self.smooth, self.rows, columns)
+
+    def freed(self, columns: _Columns, plain: FloatArray, channel: str) -> FloatArray | None:
+        """A fault's slopes without the worst noise of a channel; None if they do not read it.
+
+        ``plain``: with it.
+        """
+        if channel not in self.smooth:
+            return None
         moved = self.smooth.with_values({channel: self.smooth[channel] + _STEP})
         reads = (fault_slopes(moved, self.rows, columns) - plain) / _STEP
         if not reads.any():
             return None
         return np.asarray(plain - reads * self._noise(channel)[:, :, None])
 
+    @cached_property
+    def _gains(self) -> list[dict[str, FloatArray]]:
+        """By identity and channel, how an identity moves with the channel under each bump."""
+        smooth = with_kinematic_accelerations(self.smooth)
+        centres = make_windows(smooth.period_s).centres(smooth.time_s.size)
+        return [{channel: gain[centres] for channel, gain in channel_gains(smooth, i).items()}
+                for i in self.rows.identities]
+
     def _noise(self, channel: str) -> FloatArray:
         """Noise of a channel under each bump, were it all that each identity leaves over."""
         shown, out = float(np.nanstd(self.smooth[channel])), np.zeros_like(self.rows.residual)
-        for a, gain in enumerate(self.rows.gains_of(self.smooth, channel)):
+        for a, gains in enumerate(self._gains):
+            gain = gains.get(channel, np.zeros(1))
             most = float(np.abs(gain).max(initial=0.0))
             if most > 0.0:
                 noise = self.rows.residual[:, a] * gain / (gain**2 + (_WEAK * most) ** 2)
@@ -127,6 +148,8 @@ class _Left:
         system = assemble(case, taken, [h.distortion for h in chosen])
         unknowns = unknowns_of(case, system.faults, chosen)
         estimate = solve(case, normal_equations(system, inflation), chosen)
+        errors = np.zeros(unknowns.column.size)  # nothing for the faults, which were taken out
+        errors[:unknowns.first_fault] = estimate.normal_errors(unknowns)
         found = []
         for k, rows in enumerate(system.rows):
             if rows is None:
@@ -134,66 +157,56 @@ class _Left:
             is_baseline = case.is_baseline[k]
             clean = undone(case.signals[k], taken, baseline=is_baseline)
             acts = unknowns.in_baseline if is_baseline else unknowns.in_recordings
-            normal = _normal(estimate, unknowns) * acts
             found.append(_Recording(
-                _less(rows, unknowns, normal, acts),
-                tuple(_less(s, unknowns, normal, acts) for s in system.slow[k]),
+                _less(rows, unknowns, errors, acts),
+                tuple(_less(s, unknowns, errors, acts) for s in system.slow[k]),
                 smoothed_signals(clean, case.noise[k]), acts))
         return cls(found, chosen, unknowns, inflation)
 
     def made(self, which: int, amount: FloatArray) -> bool:
         """Whether some channel's noise makes more than half of the amount of one fault."""
-        for channel in self._channels():
-            found = self._without(which, channel)
-            if found is not None:
-                shift, precision = found
-                if float(amount @ precision @ (0.5 * amount + shift)) < 0.0:
-                    return True
+        own, fault = self._own[which], self.chosen[which].distortion
+        columns = [(fault, k) for k in range(len(fault.parameters))]
+        plain = [one.slopes(columns) for one in self.recordings]
+        precision = np.linalg.inv(np.linalg.inv(self._gram)[own, own])
+        for channel in self._channels:
+            freed = [one.freed(columns, slopes, channel)
+                     for one, slopes in zip(self.recordings, plain, strict=True)]
+            if any(one is not None for one in freed) and float(
+                    amount @ precision @ (0.5 * amount + self._shift(own, freed))) < 0.0:
+                return True
         return False
 
+    @cached_property
     def _channels(self) -> list[str]:
         return sorted({c for r in self.recordings for i in r.rows.identities
                        for c in i.channels if c in r.smooth})  # fmt: skip
 
-    def _without(self, which: int, channel: str) -> tuple[FloatArray, FloatArray] | None:
-        """How far the amount moves, and its precision; None if its slopes do not read it."""
-        own = self._own(which)
-        size = self.unknowns.column.size
-        gram, right = self.unknowns.prior.copy(), np.zeros(size)
-        plain, any_freed = self.unknowns.prior.copy(), False
-        for recording in self.recordings:
-            freed = (recording.freed(self.chosen[which], channel)
-                     if channel in recording.smooth else None)
-            any_freed |= freed is not None
-            for e, j, z in _whitened(recording, own, freed, self.inflation):
+    @cached_property
+    def _own(self) -> list[slice]:
+        return slices_of(self.chosen, self.unknowns.first_fault)
+
+    @cached_property
+    def _gram(self) -> FloatArray:
+        """Sums of squares and products of the slopes, priors included."""
+        return np.asarray(self.unknowns.prior + sum(
+            j.T @ j for one in self.recordings
+            for _, _, j in whitened_parts(one.rows, one.slow, self.inflation)))
+
+    def _shift(self, own: slice, freed: Sequence[FloatArray | None]) -> FloatArray:
+        """How far the amount of a fault moves with freed slopes as instruments."""
+        gram, right = self.unknowns.prior.copy(), np.zeros(self.unknowns.column.size)
+        for recording, instead in zip(self.recordings, freed, strict=True):
+            for e, j, z in _whitened(recording, own, instead, self.inflation):
                 gram += z.T @ j
-                plain += j.T @ j
                 right += z.T @ e
-        if not any_freed:
-            return None
-        return (np.linalg.solve(gram, right)[own],
-                np.linalg.inv(np.linalg.inv(plain)[own, own]))
-
-    def _own(self, which: int) -> slice:
-        sizes = [len(h.distortion.parameters) for h in self.chosen]
-        start = self.unknowns.first_fault + sum(sizes[:which])
-        return slice(start, start + sizes[which])
+        return np.asarray(np.linalg.solve(gram, right)[own])
 
 
-def _normal(estimate: Estimate, unknowns: Unknowns) -> FloatArray:
-    """Normal errors as estimated, nothing for the faults, which were taken out."""
-    usual = [estimate.usual]
-    if unknowns.first_fault > estimate.usual.size:
-        usual.append(estimate.usual_in_baseline)
-    out = np.zeros(unknowns.column.size)
-    out[:unknowns.first_fault] = np.concatenate(usual)
-    return out
-
-
-def _less(rows: _R, unknowns: Unknowns, normal: FloatArray, acts: FloatArray) -> _R:
+def _less(rows: _R, unknowns: Unknowns, errors: FloatArray, acts: FloatArray) -> _R:
     """Rows of the unknowns, without what normal errors explain."""
     slopes = rows.slopes[..., unknowns.column] * acts
-    return replace(rows, residual=rows.residual - slopes @ normal, slopes=slopes)
+    return replace(rows, residual=rows.residual - slopes @ errors, slopes=slopes)
 
 
 def _whitened(

@@ -63,13 +63,6 @@ class Rows:
         """Variance of each row, (bumps, identities)."""
         return np.asarray(np.einsum("kaa->ka", self.blocks[0]))
 
-    def gains_of(self, smooth: Signals, channel: str) -> list[FloatArray]:
-        """By identity, d(algebraic part) / d(channel) under each bump."""
-        windows, smooth = make_windows(smooth.period_s), with_kinematic_accelerations(smooth)
-        centres = windows.centres(smooth.time_s.size)
-        none = np.zeros_like(smooth.time_s)
-        return [channel_gains(smooth, i).get(channel, none)[centres] for i in self.identities]
-
 
 def build_rows(
     signals: Signals,

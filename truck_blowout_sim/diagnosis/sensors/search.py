@@ -26,7 +26,13 @@ from truck_blowout_sim.diagnosis.sensors.judgement import (
     handicap,
 )
 from truck_blowout_sim.diagnosis.sensors.reversal import doubtful as made_by_noise
-from truck_blowout_sim.diagnosis.sensors.solve import Estimate, noise_inflation, refine, solve
+from truck_blowout_sim.diagnosis.sensors.solve import (
+    Estimate,
+    noise_inflation,
+    refine,
+    slices_of,
+    solve,
+)
 from truck_blowout_sim.diagnosis.sensors.steady import chances, independent_candidates
 from truck_blowout_sim.diagnosis.sensors.system import System, assemble, normal_equations
 
@@ -217,9 +223,8 @@ def part(
     chosen: Sequence[Hypothesis], estimate: Estimate, which: int
 ) -> tuple[FloatArray, FloatArray]:
     """Amounts of one fault and their covariance."""
-    start = sum(len(h.distortion.parameters) for h in chosen[:which])
-    end = start + len(chosen[which].distortion.parameters)
-    return np.array(estimate.amounts[which]), estimate.covariance[start:end, start:end]
+    own = slices_of(chosen)[which]
+    return np.array(estimate.amounts[which]), estimate.covariance[own, own]
 
 
 def _summary(

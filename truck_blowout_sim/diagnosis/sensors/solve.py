@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -49,6 +50,12 @@ class Estimate:
     usual: FloatArray
     usual_in_baseline: FloatArray
     usual_sigma: FloatArray
+
+    def normal_errors(self, unknowns: Unknowns) -> FloatArray:
+        """Those of the recordings, and of the baseline if any, in the order of the unknowns."""
+        if unknowns.first_fault > self.usual.size:
+            return np.concatenate([self.usual, self.usual_in_baseline])
+        return self.usual
 
 
 def solve(case: Case, normal: Normal, hypotheses: Sequence[Hypothesis]) -> Estimate:
@@ -183,6 +190,12 @@ def unknowns_of(
     )
 
 
+def slices_of(hypotheses: Sequence[Hypothesis], first: int = 0) -> list[slice]:
+    """Unknowns of each fault, where those of the first begin at ``first``."""
+    ends = first + np.cumsum([0, *(len(h.distortion.parameters) for h in hypotheses)])
+    return [slice(*both) for both in pairwise(ends.tolist())]
+
+
 def _scatter(
     system: System, hypotheses: Sequence[Hypothesis], estimate: Estimate
 ) -> dict[str, float]:
@@ -190,10 +203,7 @@ def _scatter(
     blocks: dict[str, list[FloatArray]] = {}
     unknowns = unknowns_of(system.case, system.faults, hypotheses)
     amounts = [np.array(a) for a in estimate.amounts]
-    usual = [estimate.usual]
-    if unknowns.first_fault > estimate.usual.size:
-        usual.append(estimate.usual_in_baseline)
-    theta = np.concatenate([*usual, *amounts])
+    theta = np.concatenate([estimate.normal_errors(unknowns), *amounts])
     for rows, is_baseline in zip(system.rows, system.case.is_baseline, strict=True):
         if rows is None:
             continue

@@ -36,7 +36,6 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -47,7 +46,7 @@ from scipy.stats import f as f_law
 from truck_blowout_sim.diagnosis.fit.color import Color, autocovariance
 from truck_blowout_sim.diagnosis.fit.independent import independent_among
 from truck_blowout_sim.diagnosis.sensors.case import Applied, Case, Hypothesis
-from truck_blowout_sim.diagnosis.sensors.solve import Unknowns, gram_of, unknowns_of
+from truck_blowout_sim.diagnosis.sensors.solve import Unknowns, gram_of, slices_of, unknowns_of
 from truck_blowout_sim.diagnosis.sensors.system import (
     Normal,
     System,
@@ -189,12 +188,10 @@ class _Fit:
         slopes = rows.slopes[:, kept]
         away = inverse @ (slopes.T @ rows.left)
         left = rows.left - slopes @ away
-        sizes = [len(h.distortion.parameters) for h in chosen]
-        ends = every.first_fault + np.cumsum([0, *sizes])
         longer = (rows.grouped(times) for times in _TIMES)
         return _Fit([(one, _usual(one, gram, kept, inverse, left))
                      for one in (rows, *(one for one in longer if one.many))],
-                    slopes, inverse, away, left, [slice(*e) for e in pairwise(ends.tolist())])
+                    slopes, inverse, away, left, slices_of(chosen, every.first_fault))
 
     def chance(self, which: int, start: FloatArray) -> float:
         """Of one fault's amount; ``start``: what was taken out of it."""
