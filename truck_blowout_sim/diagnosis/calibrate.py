@@ -25,7 +25,7 @@ from truck_blowout_sim.comparison import rms_errors
 from truck_blowout_sim.diagnosis.case.calibration import apply_amounts
 from truck_blowout_sim.diagnosis.case.calibration import calibrate as settle
 from truck_blowout_sim.diagnosis.case.names import names_apart
-from truck_blowout_sim.diagnosis.case.nuisance import Nuisance
+from truck_blowout_sim.diagnosis.case.nuisance import Nuisance, unit_of
 from truck_blowout_sim.diagnosis.case.runs import prepare_run
 from truck_blowout_sim.diagnosis.case.study import FURTHEST, Study
 from truck_blowout_sim.diagnosis.case.usable import check_each_once, determined
@@ -249,13 +249,10 @@ def describe(number: SheetNumber) -> str:
 
 def _shown_unit(number: SheetNumber) -> tuple[float, str]:
     """Factor from SI and unit of a number that is added."""
-    name = next(iter(number.values), "")
-    units = {"_rad": (float(np.degrees(1.0)), "deg"), "_m": (1000.0, "mm"), "_n": (1.0, "N"),
-             "_pa": (1e-3, "kPa"), "_kg": (1.0, "kg"),
-             "_s": (1e3, "ms"), "_prad2": (1.0, "1/rad²")}  # fmt: skip
-    if "misalignment" in name:
-        return units["_rad"]
-    return next((unit for end, unit in units.items() if name.endswith(end)), (1.0, ""))
+    unit = unit_of(next(iter(number.values), ""))
+    shown = {"rad": (float(np.degrees(1.0)), "deg"), "m": (1000.0, "mm"), "Pa": (1e-3, "kPa"),
+             "s": (1e3, "ms"), "1/rad^2": (1.0, "1/rad²")}  # fmt: skip
+    return shown.get(unit, (1.0, unit))
 
 
 def _posterior(study: Study) -> tuple[Floats, Floats, NDArray[np.bool_]]:

@@ -13,6 +13,11 @@ _UNITS = {"_rad": "rad", "_m": "m", "_n": "N", "_pa": "Pa", "_kg": "kg", "_s": "
 _LEAST_SCALE = 0.1  # a number of the sheet never shrinks below this share
 
 
+def unit_of(name: str) -> str:
+    """SI unit of a packed parameter by its name; empty: it is a pure number."""
+    return next((unit for end, unit in _UNITS.items() if name.endswith(end)), "")
+
+
 @dataclass(frozen=True)
 class Nuisance:
     """A number of the spec sheet that strays from truck to truck.
@@ -38,8 +43,7 @@ class Nuisance:
         """SI unit of the amount; ``1`` of a share, and of a pure number."""
         if self.kind == "scale":
             return "1"
-        name = self.targets[0][0]
-        return next((unit for end, unit in _UNITS.items() if name.endswith(end)), "1")
+        return unit_of(self.targets[0][0]) or "1"
 
     def between(self, here: float, there: float) -> float:
         """Amount that takes a truck from one number of prior sigmas to another."""
