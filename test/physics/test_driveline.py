@@ -111,3 +111,21 @@ def test_drag_alone_stops_a_wheel_within_a_step_at_most(truck: Packed) -> None:
     light = 1e-4
     force = hub_force_n(truck.params, 0.25, (0.0, 30_000.0, 20.0), 1.0, RADIUS_M, light, STEP_S)
     assert force * RADIUS_M * STEP_S / light == pytest.approx(-1.0)
+
+
+def test_a_wheel_that_rolls_has_the_force_of_the_map_and_one_that_spins_the_power(truck: Packed
+                                                                                  ) -> None:
+    """In between the force falls without a step."""
+    power, speed, slip = 90e3, 20.0, truck["driveline.rolling_slip"]
+
+    def force(wheel_slip: float) -> float:
+        spin = speed / (1.0 - wheel_slip) / RADIUS_M
+        return hub_force_n(truck.params, 1.0, (power, 0.0, speed), spin, RADIUS_M, INERTIA_KGM2,
+                           STEP_S)
+
+    assert force(0.0) == force(0.9 * slip) == pytest.approx(power / speed)
+    assert force(2.0 * slip) == pytest.approx(power / speed * (1.0 - 2.0 * slip))
+    assert force(0.5) == pytest.approx(power / speed * 0.5)
+    between = [force(s) for s in np.linspace(slip, 2.0 * slip, 101)]
+    assert np.all(np.diff(between) < 0.0)
+    assert np.min(np.diff(between)) > -0.01 * power / speed

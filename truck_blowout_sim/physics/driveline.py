@@ -38,14 +38,16 @@ def hub_force_n(p: Floats, share: float, offered: tuple[float, float, float], sp
                 radius_m: float, inertia_kgm2: float, dt: float) -> float:
     """Force [N] at the rolling radius of one driven hub, forward positive.
 
-    ``offered``: power and drag of `engine`, and forward speed. Drag fades with the spin of the hub,
-    in such a way that it stops a wheel and never drives it backward.
+    ``offered``: power and drag of `engine`, and forward speed. The map is measured on the road and
+    holds there while the wheel rolls; a wheel that spins takes no more power than it is offered.
+    Drag fades with the spin of the hub, so that it stops a wheel and never drives it backward.
     """
     power, drag, speed = offered
     creep = p[DRIVE_AT + DRIVE.creep_speed_mps]
     rim = spin_radps * radius_m
-    # by what is faster, road or wheel: a wheel that spins takes no more power than it is offered
+    ahead = abs(rim) - abs(speed)
+    spun = clip(2.0 * (ahead - p[DRIVE_AT + DRIVE.rolling_slip] * abs(rim)), 0.0, ahead)
     pull, fade = two_ratios(
-        power, max(abs(speed), abs(rim), creep), rim * inertia_kgm2,
+        power, max(abs(speed) + spun, creep), rim * inertia_kgm2,
         max(creep * inertia_kgm2, dt * drag * share * radius_m * radius_m))
     return share * (min(pull, p[DRIVE_AT + DRIVE.max_force_n]) - drag * clip(fade, -1.0, 1.0))

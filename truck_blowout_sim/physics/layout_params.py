@@ -91,6 +91,7 @@ class DrivelineParams(NamedTuple):
     retarder_n: int  # 0; holds back only while the throttle is as good as closed
     retarder_throttle: int  # at which it lets go
     creep_speed_mps: int  # below this speed drag fades to zero, force is held
+    rolling_slip: int  # up to this slip power counts at road speed, from twice it at wheel speed
     clutch_open_time_s: int  # inf: closed throughout
     clutch_open_drag_n: int
     push_n: int  # external force on unit 0 at the road plane, where a speed is imposed; 0

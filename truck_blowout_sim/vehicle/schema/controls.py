@@ -53,6 +53,9 @@ class DrivelineSpec:
     max_force_n: float = at_least_zero("drive force that torque allows at low speed")
     drag_n: float = at_least_zero("engine drag with the throttle closed")
     creep_speed_mps: float = positive("speed below which engine drag fades away")
+    rolling_slip: float = fraction(
+        "slip up to which power counts at road speed; from twice this at wheel speed", default=0.1
+    )
     clutch_open_time_s: float = number(
         "time at which the clutch opens", infinite=True, default=math.inf
     )

@@ -57,3 +57,4 @@ def _put_driveline(draft: Draft, spec: SingleTrackSpec, units: Sequence[UnitPlan
     draft.put("driveline.max_force_n", TRACTION * driven * g, "half of the driven axles' load")
     draft.rule("driveline.drag_n", rules, "engine_drag_mps2", mass)
     draft.put("driveline.creep_speed_mps", 0.5, "numerical: lets the vehicle stand")
+    draft.put("driveline.rolling_slip", 0.1, "half of the slip at which traction peaks")
