@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 import trial_faults as faults
@@ -11,7 +13,10 @@ from trial_drive import make_run
 
 from truck_blowout_sim.diagnosis.fit.independent import independent_among
 from truck_blowout_sim.diagnosis.sensors import sensor_gate
-from truck_blowout_sim.diagnosis.sensors.steady import color_of, moderated
+from truck_blowout_sim.diagnosis.sensors.case import make_case
+from truck_blowout_sim.diagnosis.sensors.solve import noise_inflation
+from truck_blowout_sim.diagnosis.sensors.steady import chances, color_of, moderated
+from truck_blowout_sim.diagnosis.sensors.system import assemble
 from truck_blowout_sim.recordings import Recording, Series
 
 MEMORY_S, TIMES = 1.5, 8.0
@@ -66,6 +71,22 @@ def test_a_large_fault_is_named_in_a_rough_log() -> None:
     found = sensor_gate(runs, [rough(make_run(90, 12.0), 9)]).findings[0]
     assert (found.name, found.body) == ("yaw_rate_bias", "tractor")
     assert found.parameters["bias"].value == pytest.approx(np.radians(2.0), rel=0.1)
+
+
+def test_how_far_normal_errors_reach_says_nothing_of_how_a_log_scatters() -> None:
+    """A wide prior is no noise of the rows: it may not make the other questions' scatter large."""
+    change = faults.scaled("tractor_ay_mps2", 0.3)
+    runs = [change(rough(make_run(20 + k, 15.0, steer=0.5 * k), 1 + k)) for k in range(2)]
+    case = make_case(runs, [rough(make_run(22, 12.0), 3)], None)
+    wide = replace(case, usual=tuple(
+        replace(one, usual=tuple(1000.0 * u for u in one.usual))
+        if one.distortion.name == "yaw_rate_bias" else one for one in case.usual))
+    gain = next(h for h in case.hypotheses
+                if h.distortion.name == "lateral_accel_scale" and not h.everywhere)
+    logs = [np.log10(chances(one, [gain], [(0.3,)], noise_inflation(assemble(one)))[0])
+            for one in (case, wide)]
+    assert logs[0] < -2.0
+    assert logs[0] == pytest.approx(logs[1], rel=0.05)
 
 
 def test_a_tone_and_a_memory_are_taken_out_and_white_noise_is_left_as_it_is() -> None:

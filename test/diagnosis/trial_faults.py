@@ -41,6 +41,17 @@ def offset(channel: str, amount: float) -> Change:
     return lambda r: _changed(r, channel, r[channel].value + amount)
 
 
+def noisy(channels: Sequence[str], sigma: float, rng: np.random.Generator) -> Change:
+    """White noise on top of channels."""
+
+    def change(r: Recording) -> Recording:
+        for c in channels:
+            r = _changed(r, c, r[c].value + sigma * rng.standard_normal(r[c].value.size))
+        return r
+
+    return change
+
+
 def delayed(channels: Sequence[str], delay_s: float) -> Change:
     """Channels that arrive late, resampled to their own instants."""
 

@@ -19,7 +19,13 @@ from truck_blowout_sim.diagnosis.sensors.identities import (
     body_identities,
     hitch_identities,
 )
-from truck_blowout_sim.diagnosis.sensors.noise import Noise, believable, channel_noise, seen_quanta
+from truck_blowout_sim.diagnosis.sensors.noise import (
+    Noise,
+    believable,
+    channel_noise,
+    excess_noise,
+    seen_quanta,
+)
 from truck_blowout_sim.diagnosis.sensors.path import (
     distance_name,
     path_identities,
@@ -105,6 +111,9 @@ def make_case(
     signals = tuple(
         with_distance(with_reckoned(read_signals(recording))) for recording in everything
     )
+    noise = tuple(
+        _with_distance_noise(believable(channel_noise(r.only_channels(list(s.values)), quanta)))
+        for r, s in zip(everything, signals, strict=True))
     lengths = stated_geometry(everything, geometry)
     reference = signals[len(recordings) :] if baseline else signals
     radii = rolling_radii(reference, lengths)
@@ -116,15 +125,12 @@ def make_case(
     return Case(
         signals=signals,
         is_baseline=(False,) * len(recordings) + (True,) * len(baseline),
-        noise=tuple(
-            _with_distance_noise(believable(channel_noise(r.only_channels(list(s.values)),
-                                                          quanta)))
-            for r, s in zip(everything, signals, strict=True)
-        ),
+        noise=noise,
         geometry=lengths,
         radii=radii,
         usual=imperfections(
             present,
+            excess_noise(noise),
             radius_known=bool(baseline),
             gravity_read=any(s.gravity > 0.0 for s in signals),
         ),

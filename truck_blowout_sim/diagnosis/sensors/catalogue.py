@@ -5,12 +5,15 @@ never becomes a fault. A fault is the same distortion without that prior.
 
 References: mounting errors of the test instruments (gyro 0.006 deg/s, accelerometer 0.006 m/s2,
 angles 0.05 deg on the tractor, twice that on the trailer); gain, timing and position tolerances
-of a good installation (0.1-0.5 %, 3 ms, 2 cm) are engineering judgement.
+of a good installation (0.1-0.5 %, 3 ms, 2 cm) are engineering judgement. Noise and zero of a gyro
+go with its grade: data sheets of automotive gyros give a zero that drifts with temperature by the
+rms noise or more, so noise beyond that of the test instruments is added to the normal zero.
 Validated with: test/diagnosis/test_sensors_gate.py.
 """
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -63,18 +66,19 @@ class Imperfection:
 
 
 def imperfections(
-    present: set[str], *, radius_known: bool, gravity_read: bool = True
+    present: set[str], excess: Mapping[str, float], *, radius_known: bool, gravity_read: bool = True
 ) -> tuple[Imperfection, ...]:
     """Normal errors of the instruments whose channels were recorded.
 
     Args:
         present: channels recorded anywhere in the case.
+        excess: of a channel's noise beyond a good instrument's, see ``noise.excess_noise``.
         radius_known: rolling radii come from baseline recordings of the same truck.
         gravity_read: accelerometers read gravity, so a tilt that was not recorded matters.
     """
     found: list[Imperfection] = []
     for unit in _UNITS:
-        found += _unit_imperfections(unit, present, gravity_read=gravity_read)
+        found += _unit_imperfections(unit, present, excess, gravity_read=gravity_read)
         hubs = tuple(sorted(c for c in present if c.startswith("hub_speed_")
                             and _hub_belongs(c, unit)))  # fmt: skip
         radius = _RADIUS_KNOWN if radius_known else _RADIUS_UNKNOWN
@@ -114,7 +118,8 @@ def candidates(present: set[str]) -> tuple[Distortion, ...]:
     return tuple(kept)
 
 
-def _unit_imperfections(unit: str, present: set[str], *, gravity_read: bool) -> list[Imperfection]:
+def _unit_imperfections(unit: str, present: set[str], excess: Mapping[str, float], *,
+                        gravity_read: bool) -> list[Imperfection]:
     n = channel_names(unit)
     k = _TRAILER_FACTOR if unit == "trailer" else 1.0
     accel = k * float(np.hypot(_ACCELEROMETER_MPS2, _GRAVITY_MPS2 * _ANGLE_RAD))
@@ -129,7 +134,8 @@ def _unit_imperfections(unit: str, present: set[str], *, gravity_read: bool) -> 
         return _RECKONED_TILT_SCALE if reckoned and angle == n["roll"] else _UNKNOWN_TILT_SCALE
 
     found = [Imperfection(bias("yaw_rate_bias" if key == "r" else "gyro_bias", key, "rad/s"),
-                          (k * _GYRO_RADPS,)) for key in ("p", "q", "r")]  # fmt: skip
+                          (float(np.hypot(k * _GYRO_RADPS, excess.get(n[key], 0.0))),))
+             for key in ("p", "q", "r")]  # fmt: skip
     found += [Imperfection(bias("accelerometer_bias", key, "m/s2"), (accel,))
               for key in ("ax", "ay")]  # fmt: skip
     found += [Imperfection(bias("angle_bias", key, "rad"), (k * _ANGLE_RAD,))

@@ -120,8 +120,23 @@ def believable(noise: Mapping[str, Noise]) -> Mapping[str, Noise]:
     return {name: _believed(name, one) for name, one in noise.items()}
 
 
+def excess_noise(runs: Sequence[Mapping[str, Noise]]) -> Mapping[str, float]:
+    """1 sigma of each channel beyond a good instrument's, as squares add.
+
+    Of the run in which it is quietest, because motion only adds to it.
+    """
+    least = {name: min(own[name].sigma for own in runs if name in own)
+             for name in {name for own in runs for name in own}}
+    return {name: float(np.sqrt(max(sigma**2 - _good_sigma(name) ** 2, 0.0)))
+            for name, sigma in least.items()}
+
+
+def _good_sigma(name: str) -> float:
+    return next((sigma for end, sigma in _GOOD_INSTRUMENT.items() if name.endswith(end)), 0.0)
+
+
 def _believed(name: str, one: Noise) -> Noise:
-    usual = next((sigma for end, sigma in _GOOD_INSTRUMENT.items() if name.endswith(end)), 0.0)
+    usual = _good_sigma(name)
     if one.sigma > _COMPUTED * usual:
         return one
     return replace(one, sigma=usual, floor=usual, relative=0.0)

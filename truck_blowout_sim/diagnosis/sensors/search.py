@@ -163,20 +163,34 @@ def _refined_best(
 ) -> tuple[Hypothesis, Estimate, tuple[tuple[Hypothesis, float], ...]]:  # fmt: skip
     """Compare the leaders at their own nonlinear optimum; the linear score ranks the rest."""
     linear = {h: score for score, _, h in scored}
-    short = [h for score, _, h in scored if score < _WORTH_A_LOOK * scored[0][0]]
+    close = [h for score, _, h in scored if score < _WORTH_A_LOOK * scored[0][0]]
+    short = shortlist([h for _, _, h in scored], len(close))
     exact: dict[Hypothesis, float] = {}
     estimates: dict[Hypothesis, Estimate] = {}
-    for hypothesis in short[:_SHORTLIST]:
+    for hypothesis in short:
         estimates[hypothesis] = refine(case, [*chosen, hypothesis], inflation, starts[hypothesis])
         exact[hypothesis] = estimates[hypothesis].chi2 + handicap(case, hypothesis)
         if not admissible(hypothesis, estimates[hypothesis].amounts[-1]):
             exact[hypothesis] += _FORBIDDEN
     best = min(exact, key=lambda h: exact[h])
     above = {h: value - exact[best] for h, value in exact.items() if h != best}
-    for hypothesis in short[_SHORTLIST:]:
-        above[hypothesis] = max(0.0, linear[hypothesis] - linear[best])
+    for hypothesis in close:
+        if hypothesis not in exact:
+            above[hypothesis] = max(0.0, linear[hypothesis] - linear[best])
     near = sorted((v, i, h) for i, (h, v) in enumerate(above.items()) if v <= ALIAS_CHI2)
     return best, estimates[best], tuple((h, v) for v, _, h in near)
+
+
+def shortlist(ranked: Sequence[Hypothesis], close: int) -> list[Hypothesis]:
+    """The leaders among the ``close`` first, and the first of each other kind of fault.
+
+    A delay that is long against the motion gains little in its first, linear step.
+    """
+    short = list(ranked[:min(close, _SHORTLIST)])
+    for hypothesis in ranked:
+        if hypothesis.distortion.name not in {one.distortion.name for one in short}:
+            short.append(hypothesis)
+    return short
 
 
 def _pruned(

@@ -7,9 +7,11 @@ seen there. So an amount is taken apart into what each stretch of five seconds s
     V_own = n/(n-1) sum_b u_b u_b' ,   n = (sum w)^2 / sum w^2  stretches that carry information.
 
 A few stretches tell it badly. How far such a figure goes astray in this log, all candidates tell
-together: their ratios of V_own over the modeled V scatter as ``s^2 F(n, m)``. So
+together: their ratios of V_own over V_rows scatter as ``s^2 F(n, m)``. So
 
-    V = (m s^2 V_model + n V_own) / (m + n) ,   a' V^-1 a / k ~ F(k, m + n - k) .
+    V = V_prior + (m s^2 V_rows + n V_own) / (m + n) ,   a' V^-1 a / k ~ F(k, m + n - k) ,
+
+with the modeled covariance V_rows + V_prior: what noise of the rows and what normal errors make.
 
 The rows are first freed of what their own past foretells, so that neither a memory of seconds nor a
 tone that all channels hear passes for a fault. In long logs the stretches are also taken 4 and 16
@@ -73,7 +75,7 @@ class Usual:
     """How far covariances from stretches lie from the modeled one in this log.
 
     Attributes:
-        factor: variance over the modeled one, at least 1.
+        factor: variance over what the noise of the rows makes, at least 1.
         degrees: of freedom, ``m``.
     """
 
@@ -213,7 +215,9 @@ def _chance(
     if degrees <= _LEAST:
         return 1.0
     own = count / max(count - 1.0, _LEAST) * says.T @ says
-    covariance = (usual.degrees * usual.factor * model + count * own) / (usual.degrees + count)
+    by_rows = weight.T @ weight
+    covariance = model - by_rows + (
+        usual.degrees * usual.factor * by_rows + count * own) / (usual.degrees + count)
     return float(f_law.sf(amount @ np.linalg.solve(covariance, amount) / size, size, degrees))
 
 
@@ -236,8 +240,9 @@ def _usual(
     share = rows.sums(free**2)
     count = share.sum(axis=0) ** 2 / np.maximum(np.sum(share**2, axis=0), 1e-300)
     tells = count > _FEWEST
-    ratio = (says**2).sum(axis=0)[tells] / square[tells] * count[tells] / (count[tells] - 1.0)
-    return moderated(ratio, count[tells] - 1.0)
+    degrees = count[tells] - 1.0
+    ratio = (says[:, tells]**2).sum(axis=0) / share[:, tells].sum(axis=0) * count[tells] / degrees
+    return moderated(ratio, degrees)
 
 
 def moderated(ratio: FloatArray, degrees: FloatArray) -> Usual:
