@@ -16,7 +16,7 @@ from truck_blowout_sim.diagnosis.fit.refit import refit
 from truck_blowout_sim.diagnosis.fit.scatter import Chance, Scatter
 from truck_blowout_sim.diagnosis.fit.shown import SCATTERS
 from truck_blowout_sim.diagnosis.name.judging import Found
-from truck_blowout_sim.diagnosis.name.pairing import pair_with, settled
+from truck_blowout_sim.diagnosis.name.pairing import masked_pair, pair_with, settled
 from truck_blowout_sim.diagnosis.prove.holdout import predict
 from truck_blowout_sim.vehicle import Packed
 
@@ -46,11 +46,15 @@ def begun(study: Study) -> Found:
                  after=before)
 
 
-def drag_alone(study: Study, truck: Packed) -> Ranked:
-    effect = effect_of("driveline_drag")
+def alone(study: Study, truck: Packed, name: str) -> Ranked:
+    effect = effect_of(name)
     start = Hypothesis(effect, effect.places(truck.vehicle)[0], 0.0)
     one = refit(study, Ranked(start, 0.0, 100.0), study.projector().chi2(study.residual()))
     return replace(one, support=one.delta)
+
+
+def drag_alone(study: Study, truck: Packed) -> Ranked:
+    return alone(study, truck, "driveline_drag")
 
 
 @pytest.fixture
@@ -93,3 +97,28 @@ def test_what_is_named_alone_is_left_as_it_is(both: Study, truck: Packed) -> Non
     before = (list(found.named), found.chi2_after, found.after)
     settled(both, found)
     assert (found.named, found.chi2_after, found.after) == before
+
+
+def weakly(study: Study, truck: Packed) -> list[Ranked]:
+    """Both, each a little less supported than is asked."""
+    return [replace(alone(study, truck, name), support=0.9 * CHANCE.asked) for name in TRUE]
+
+
+def test_two_that_hide_each_other_are_named_together(both: Study, truck: Packed) -> None:
+    found, weak = begun(both), weakly(both, truck)
+    pair = masked_pair(both, found, weak, CHANCE)
+    assert pair is not None
+    for one in pair.named:
+        assert one.hypothesis.amount == pytest.approx(TRUE[one.hypothesis.effect.name], rel=0.1)
+        assert one.support > CHANCE.asked
+    assert found.named == []
+    assert masked_pair(both, found, weak[:1], CHANCE) is None
+    faint = [replace(one, support=0.2 * CHANCE.asked) for one in weak]
+    assert masked_pair(both, found, faint, CHANCE) is None
+
+
+def test_what_hides_nothing_is_no_half_of_a_pair(study_of: Studies, truck: Packed) -> None:
+    effect = effect_of("driveline_drag")
+    only = dict(effect.values(truck, effect.places(truck.vehicle)[0], TRUE["driveline_drag"]))
+    study = study_of(only, holdout=only, baseline=True)
+    assert masked_pair(study, begun(study), weakly(study, truck), CHANCE) is None

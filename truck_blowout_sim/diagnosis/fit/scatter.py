@@ -115,6 +115,12 @@ class Chance:
         chance = float(chi2.isf(-np.expm1(np.log1p(-self.rate) / self.independent), 1))
         return chance + self.further
 
+    @property
+    def asked_of_two(self) -> float:
+        """Support of two hypotheses together that chance reaches in ``rate`` of the searches."""
+        pairs = max(0.5 * self.independent * (self.independent - 1.0), 1.0)
+        return float(chi2.isf(-np.expm1(np.log1p(-self.rate) / pairs), 2))
+
     def p_value(self, support: float) -> float:
         """Chance that the best of a search is supported so much where nothing is missing."""
         alone = float(chi2.sf(max(support, 0.0), 1))

@@ -1,11 +1,17 @@
-"""Two effects that hold only together: each alone has a wrong amount and predicts nothing.
+"""Two effects that hold only together: each alone has a wrong amount, or too little speaks for it.
 
 Where much speaks for a hypothesis in training and only the holdout speaks against it, its amount
 may make up for another effect that is not named yet. It is fitted together with what is named
 already, then with each of the next best; all together must predict the holdout better.
 
-References: none beyond `judging.py`.
-Known limits: pairs are built on the strongest hypothesis that was disbelieved, and on two others.
+Where nothing is named and nothing is supported enough, two effects may hide each other: what one of
+them explains, the other leaves over, and the runs scatter. The best supported is fitted together
+with each of the next. Each must be supported enough beside the other, and the two together beyond
+what chance reaches among all pairs: `chi2` with two degrees of freedom, `n (n - 1) / 2` questions.
+
+References: Wilks 1938 (two amounts at once); else none beyond `judging.py`.
+Known limits: pairs are built on the strongest hypothesis that was disbelieved or is best supported,
+and on two or three others; two that hide each other wholly are not found.
 Validated with: test/diagnosis/test_together.py, test/diagnosis/test_pairing.py.
 """
 
@@ -25,6 +31,7 @@ from truck_blowout_sim.diagnosis.fit.together import fit_together
 from truck_blowout_sim.diagnosis.name.judging import (
     ODDS,
     Found,
+    at_bound,
     models_with,
     predict_with,
     predicts_better,
@@ -37,6 +44,8 @@ from truck_blowout_sim.diagnosis.prove.holdout import Prediction
 Floats = NDArray[np.float64]
 _MUCH = 2.0  # times what chance may reach: so much must support what the holdout speaks against
 _SECONDS = 2  # how many others are tried beside it
+_BESIDE_BEST = 3  # the same, where nothing is supported enough
+_HALF = 0.5  # of what is asked of two together, they must have alone: else a trial is not worth it
 
 
 @dataclass(frozen=True, eq=False)
@@ -88,11 +97,29 @@ def pair_with(study: Study, found: Found, disbelieved: Sequence[Ranked], chance:
     return None
 
 
+def masked_pair(study: Study, found: Found, ranked: Sequence[Ranked], chance: Chance
+                ) -> Pair | None:
+    """The best supported hypothesis with one of the next, where none is supported enough alone."""
+    weak = [one for one in ranked if one.refitted and not one.hypothesis.times
+            and not at_bound(one.hypothesis) and one.support < chance.asked]
+    best, asked = sorted(weak, key=lambda one: -one.support), chance.asked_of_two
+    for second in best[1:1 + _BESIDE_BEST]:
+        first = best[0]
+        if first.support + second.support < _HALF * asked:
+            break
+        pair = _holds(study, found, [first, second], ranked, chance)
+        if pair is not None and asked < max(first.support + pair.named[1].support,
+                                            second.support + pair.named[0].support):
+            return pair
+    return None
+
+
 def _holds(study: Study, found: Found, named: list[Ranked], ranked: Sequence[Ranked],
            chance: Chance) -> Pair | None:
     """Everything fitted together, if each stays what it was named and the holdout gains."""
     fitted, chi2 = fit_together(study, named)
-    if any(weakness(one, chance) for one in _each_supported(study, fitted, chance)):
+    fitted = _each_supported(study, fitted, chance)
+    if any(weakness(one, chance) for one in fitted):
         return None
     models, after = predict_with(study, [one.hypothesis for one in fitted])
     if predicts_better(study, found.after, after) <= 0.0:

@@ -29,7 +29,7 @@ from truck_blowout_sim.diagnosis.name.judging import (
     weakness,
     worth,
 )
-from truck_blowout_sim.diagnosis.name.pairing import Pair, pair_with, settled
+from truck_blowout_sim.diagnosis.name.pairing import Pair, masked_pair, pair_with, settled
 from truck_blowout_sim.diagnosis.name.quieting import quieting
 from truck_blowout_sim.diagnosis.name.shortlist import Round, shortlist
 from truck_blowout_sim.diagnosis.name.trial import Fate, Trial
@@ -69,6 +69,8 @@ def search(study: Study, progress: Progress | None = None, most: int = _MOST_EFF
             settled(study, found)
             continue
         pair = pair_with(study, found, disbelieved, this.chance, most, progress)
+        if pair is None and not found.named and most > 1:
+            pair = masked_pair(study, found, ranked, this.chance)
         if pair is None:
             break
         rounds += [ranked, pair.ranked][:_take(study, found, pair, this.chance)]
