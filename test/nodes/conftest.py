@@ -70,9 +70,12 @@ class Running:
     def __init__(self, words: list[str], env: dict[str, str], log: Path, **options: Any) -> None:  # noqa: ANN401
         self.log_path = log
         self._log = log.open("w")
+        # as from a terminal, also where the tests run under nohup
+        before = signal.signal(signal.SIGHUP, signal.SIG_DFL)
         self.process = subprocess.Popen(
             words, env=env, stdout=self._log, stderr=subprocess.STDOUT, **options
         )
+        signal.signal(signal.SIGHUP, before)
 
     @property
     def output(self) -> str:
