@@ -112,7 +112,8 @@ class Chance:
     @property
     def asked(self) -> float:
         """Support that chance reaches in ``rate`` of the searches, and what is asked beyond it."""
-        chance = float(chi2.isf(-np.expm1(np.log1p(-self.rate) / self.independent), 1))
+        questions = max(self.independent, 1.0)
+        chance = float(chi2.isf(-np.expm1(np.log1p(-self.rate) / questions), 1))
         return chance + self.further
 
     @property
