@@ -110,22 +110,26 @@ class Chance:
                            for other, one in self.questions if other != key])
 
     @property
+    def _questions(self) -> float:
+        """At least one, also where every name was excluded."""
+        return max(self.independent, 1.0)
+
+    @property
     def asked(self) -> float:
         """Support that chance reaches in ``rate`` of the searches, and what is asked beyond it."""
-        questions = max(self.independent, 1.0)
-        chance = float(chi2.isf(-np.expm1(np.log1p(-self.rate) / questions), 1))
+        chance = float(chi2.isf(-np.expm1(np.log1p(-self.rate) / self._questions), 1))
         return chance + self.further
 
     @property
     def asked_of_two(self) -> float:
         """Support of two hypotheses together that chance reaches in ``rate`` of the searches."""
-        pairs = max(0.5 * self.independent * (self.independent - 1.0), 1.0)
+        pairs = max(0.5 * self._questions * (self._questions - 1.0), 1.0)
         return float(chi2.isf(-np.expm1(np.log1p(-self.rate) / pairs), 2))
 
     def p_value(self, support: float) -> float:
         """Chance that the best of a search is supported so much where nothing is missing."""
         alone = float(chi2.sf(max(support, 0.0), 1))
-        return float(-np.expm1(self.independent * np.log1p(-min(alone, 1.0 - 1e-15))))
+        return float(-np.expm1(self._questions * np.log1p(-min(alone, 1.0 - 1e-15))))
 
 
 def independent(columns: Floats, projector: Projector) -> float:
