@@ -28,7 +28,7 @@ Validated with: test/diagnosis/test_scatter.py (closed forms; false alarms of si
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -119,6 +119,11 @@ class Chance:
         """Support that chance reaches in ``rate`` of the searches, and what is asked beyond it."""
         chance = float(chi2.isf(-np.expm1(np.log1p(-self.rate) / self._questions), 1))
         return chance + self.further
+
+    @property
+    def alone(self) -> Chance:
+        """The same for a hypothesis that was not chosen from many."""
+        return replace(self, independent=1.0)
 
     @property
     def asked_of_two(self) -> float:

@@ -6,7 +6,7 @@ What a hypothesis must pass is in `judging.py`, what holds only together in `pai
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -162,9 +162,8 @@ def _explaining_more(study: Study, found: Found, this: Round, named: Sequence[Hy
     only because a cause that is always there was asked among many.
     """
     most = max(worth(p.ranked) for p in passing)
-    alone = replace(this.chance, independent=1.0)
     more = [one for one in this.ranked if worth(one) > most and not one.hypothesis.times
-            and weakness(one, alone) is None]
+            and weakness(one, this.chance.alone) is None]
     tried = [_believed(study, found, named, one)[0] for one in more]
     return [one for one in tried if one is not None]
 

@@ -149,7 +149,31 @@ def _events(study: Study, beside: Beside, chi2: float, chance: Chance,
                    else supported(study, one, beside, chance))
             cost = _TIMED_COST * len(one.hypothesis.times) + _TIMED_SHARE * max(one.delta, 0.0)
         found.append(replace(one, delta=one.delta - cost, evidence=one.evidence - cost))
-    return found
+    return _confirmed(study, found, beside, chance)
+
+
+def _confirmed(study: Study, found: Sequence[Ranked], beside: Beside, chance: Chance
+               ) -> list[Ranked]:
+    """Events that stand out of their own force, less what scatters so much for all hypotheses.
+
+    How far runs scatter at all, the other hypotheses know. The event was chosen before, so it is
+    asked as a single question. No odds are better than what is explained, free instants paid.
+    """
+    checked = list(found)
+    strong = [k for k, one in enumerate(found) if one.refitted and one.hypothesis.effect.adds_up
+              and one.support >= chance.asked]
+    for key in {found[k].hypothesis.key for k in strong}:
+        forms = [k for k in strong if found[k].hypothesis.key == key]
+        again = _mean_odds([supported(study, found[k], beside, chance).support for k in forms])
+        for k in forms:
+            most = found[k].support if again >= chance.alone.asked else again
+            checked[k] = replace(found[k], support=min(found[k].support, most, found[k].delta))
+    return checked
+
+
+def _mean_odds(supports: Sequence[float]) -> float:
+    """Support of a hypothesis that has several forms."""
+    return float(2.0 * logsumexp([0.5 * one for one in supports]) - 2.0 * np.log(len(supports)))
 
 
 def _scanned(study: Study, named: Sequence[Hypothesis], places: Sequence[tuple[Effect, Place]],
@@ -172,8 +196,8 @@ def _scanned(study: Study, named: Sequence[Hypothesis], places: Sequence[tuple[E
             progress("events", (k + 1) / len(places))
     for key, found in forms.items():
         if found[0].hypothesis.effect.adds_up:
-            mean = 2.0 * logsumexp([0.5 * r.support for r in found]) - 2.0 * np.log(len(found))
-            forms[key] = [replace(r, support=float(mean)) for r in found]
+            mean = _mean_odds([r.support for r in found])
+            forms[key] = [replace(r, support=mean) for r in found]
     return [one for found in forms.values() for one in found]
 
 
