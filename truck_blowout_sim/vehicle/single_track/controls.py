@@ -8,6 +8,7 @@ from scipy.constants import g
 
 from truck_blowout_sim.resources import config_file
 from truck_blowout_sim.vehicle.document import Branch, Leaf, read_document
+from truck_blowout_sim.vehicle.schema.controls import DrivelineSpec
 from truck_blowout_sim.vehicle.single_track.draft import Draft
 from truck_blowout_sim.vehicle.single_track.plan import UnitPlan
 from truck_blowout_sim.vehicle.single_track.schema import SingleTrackSpec
@@ -57,4 +58,5 @@ def _put_driveline(draft: Draft, spec: SingleTrackSpec, units: Sequence[UnitPlan
     draft.put("driveline.max_force_n", TRACTION * driven * g, "half of the driven axles' load")
     draft.rule("driveline.drag_n", rules, "engine_drag_mps2", mass)
     draft.put("driveline.creep_speed_mps", 0.5, "numerical: lets the vehicle stand")
-    draft.put("driveline.rolling_slip", 0.1, "half of the slip at which traction peaks")
+    draft.put("driveline.rolling_slip", DrivelineSpec.rolling_slip,
+              "half of the slip at which traction peaks")  # fmt: skip
