@@ -12,7 +12,7 @@ from truck_blowout_sim import read_recording
 from truck_blowout_sim.diagnosis.sensors import correct, sensor_gate
 from truck_blowout_sim.diagnosis.sensors.case import Hypothesis
 from truck_blowout_sim.diagnosis.sensors.distortions import Delay, LeverArm
-from truck_blowout_sim.diagnosis.sensors.search import shortlist
+from truck_blowout_sim.diagnosis.sensors.search import leaders_of_each_kind
 from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.recordings import Recording, Series
 
@@ -117,8 +117,8 @@ def test_each_kind_of_fault_is_tried_at_its_own_optimum() -> None:
             for unit in ("tractor", "trailer") for c in ("vx_mps", "vy_mps", "ax_mps2")]
     late, later = (Hypothesis(Delay("channel_delay", unit, "", (f"{unit}_ay_mps2",)),
                               everywhere=False) for unit in ("tractor", "trailer"))
-    assert shortlist([*arms, late, later], 6) == [*arms[:4], late]
-    assert shortlist([late, *arms, later], 1) == [late, arms[0]]
+    assert leaders_of_each_kind([*arms, late, later], 6) == [*arms[:4], late]
+    assert leaders_of_each_kind([late, *arms, later], 1) == [late, arms[0]]
 
 
 def test_two_faults_at_once() -> None:

@@ -43,7 +43,7 @@ _FAMILY_P = 1e-4
 _MOST_FAULTS = 5
 _MOST_REFUSED = 3  # each costs a nonlinear fit; the next is rarely better than the first
 _FORBIDDEN = 1e9
-_SHORTLIST = 4
+_LEADERS = 4
 _WORTH_A_LOOK = 0.5  # share of the leader's linear gain that earns a nonlinear try
 
 
@@ -164,7 +164,7 @@ def _refined_best(
     """Compare the leaders at their own nonlinear optimum; the linear score ranks the rest."""
     linear = {h: score for score, _, h in scored}
     close = [h for score, _, h in scored if score < _WORTH_A_LOOK * scored[0][0]]
-    short = shortlist([h for _, _, h in scored], len(close))
+    short = leaders_of_each_kind([h for _, _, h in scored], len(close))
     exact: dict[Hypothesis, float] = {}
     estimates: dict[Hypothesis, Estimate] = {}
     for hypothesis in short:
@@ -181,12 +181,12 @@ def _refined_best(
     return best, estimates[best], tuple((h, v) for v, _, h in near)
 
 
-def shortlist(ranked: Sequence[Hypothesis], close: int) -> list[Hypothesis]:
+def leaders_of_each_kind(ranked: Sequence[Hypothesis], close: int) -> list[Hypothesis]:
     """The leaders among the ``close`` first, and the first of each other kind of fault.
 
     A delay that is long against the motion gains little in its first, linear step.
     """
-    short = list(ranked[:min(close, _SHORTLIST)])
+    short = list(ranked[:min(close, _LEADERS)])
     for hypothesis in ranked:
         if hypothesis.distortion.name not in {one.distortion.name for one in short}:
             short.append(hypothesis)
