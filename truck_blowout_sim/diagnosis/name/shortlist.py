@@ -2,38 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
 
-import numpy as np
-from scipy.special import logsumexp
-
 from truck_blowout_sim.diagnosis.case.study import Progress, Study
-from truck_blowout_sim.diagnosis.effects import Effect, secondary_blowout
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.fit.attribute import Ranked, rank_steady
-from truck_blowout_sim.diagnosis.fit.event_fit import fit_event
-from truck_blowout_sim.diagnosis.fit.models import models_at
-from truck_blowout_sim.diagnosis.fit.refit import chi2_of, refit
+from truck_blowout_sim.diagnosis.fit.refit import refit
 from truck_blowout_sim.diagnosis.fit.scatter import Chance
 from truck_blowout_sim.diagnosis.fit.support import Beside, supported
-from truck_blowout_sim.diagnosis.fit.timed import refine_times, scan
-from truck_blowout_sim.diagnosis.locate.sinking import sinking_hubs
-from truck_blowout_sim.diagnosis.name.candidates import (
-    failed_tires,
-    steady_candidates,
-    timed_effects,
-    unwatched_tires,
-)
-from truck_blowout_sim.diagnosis.result.parts import Place
-
-_TIMED_COST = 8.0  # evidence that choosing an instant in a run costs
-_TIMED_SHARE = 0.15  # and the share that freedom of shape costs: steady causes come first
-_HOLES = (0.1, 0.3, 1.0)  # of that of a commanded blowout: where to begin
-_HALF = 0.5  # of what the best explains: less is no rival
-_MUCH = 0.5  # of what is unusual: an event that explains it leaves no call for others
-_LARGE = 8.0  # times what is asked: a mismatch from which on a tire may have been lost unseen
+from truck_blowout_sim.diagnosis.name.candidates import steady_candidates
+from truck_blowout_sim.diagnosis.name.events import event_places, rank_events
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,18 +34,17 @@ def shortlist(study: Study, named: Sequence[Hypothesis], progress: Progress | No
     chi2 = study.projector(named).chi2(study.residual())
     steady = [h for h in steady_candidates(study) if h.key not in taken]
     ranking = rank_steady(study, steady, named, progress)
-    ranked, places = ranking.ranked, _event_places(study, named)
-    beside = Beside.of(study, named, study.models)
+    ranked, beside = ranking.ranked, Beside.of(study, named, study.models)
     chance = Chance(ranking.scatter, ranking.independent, study.settings.alarms_by_name,
                     ranking.questions, further)
-    places = _called_for(study, named, places, ranked, chance)
+    places = event_places(study, named, ranked, chance)
     events = {(effect.name, str(place)) for effect, place in places}
     chance = replace(chance, independent=ranking.independent + len(events))
     promising = _promising(ranked, chance, study.refits[0])
     forms = {one.hypothesis.form for one in promising}
     done = [*_refitted(study, promising, chi2, beside, chance, progress),
             *(one for one in ranked if one.hypothesis.form not in forms)]
-    done += _events(study, beside, chi2, chance, done, places, progress)
+    done += rank_events(study, beside, chi2, chance, done, places, progress)
     best = best_forms([one for one in done if one.hypothesis.key not in taken], chance.asked)
     return Round(tuple(best), chance)
 
@@ -117,137 +96,3 @@ def _refitted(study: Study, chosen: Sequence[Ranked], chi2: float, beside: Besid
                 progress("refitting", len(done) / len(chosen))
     study.simulations += sum(one.simulations for one in alone)
     return done
-
-
-def _events(study: Study, beside: Beside, chi2: float, chance: Chance,
-            steady: Sequence[Ranked], places: Sequence[tuple[Effect, Place]],
-            progress: Progress | None) -> list[Ranked]:
-    """Tires that lost pressure by themselves, and everything scanned over time."""
-    named = beside.named
-    excess = chi2 - study.level * study.columns.shape[0]
-    found = [supported(study, _failed(study, named, chi2, tire, times), beside, chance)
-             for tire, times in failed_tires(study, study.train).items()]
-    scanned = sorted(_scanned(study, named, places, chance.asked, progress),
-                     key=lambda r: (r.support < chance.asked, -r.delta))
-    large = _large([*steady, *scanned], chance)
-    worth = max(chance.asked, _HALF * max((r.delta for r in steady if r.refitted), default=0.0))
-    keys: set[tuple[str, str]] = set()
-    for one in scanned:
-        cost = _TIMED_COST * len(one.hypothesis.times) + _TIMED_SHARE * one.delta
-        # what acts only near a limit shows little to a linear scan: looked at where much is open
-        curved = bool(one.hypothesis.effect.amount.grid) and large and (
-            max((r.delta for r in found), default=0.0) < _MUCH * excess)
-        among = one.hypothesis.key in keys or len(keys) < study.refits[1]
-        worth = max(worth, _HALF * max((r.delta for r in found), default=0.0))
-        if one.hypothesis.times and (curved or (among and (
-                one.delta - cost > worth or one.support > chance.asked))):
-            keys.add(one.hypothesis.key)
-            support = one.support
-            one = refine_times(study, one, chi2, named)
-            one = fit_event(study, refit(study, one, chi2, named), chi2, named)
-            one = (replace(one, support=support) if one.hypothesis.effect.adds_up
-                   else supported(study, one, beside, chance))
-            cost = _TIMED_COST * len(one.hypothesis.times) + _TIMED_SHARE * max(one.delta, 0.0)
-        found.append(replace(one, delta=one.delta - cost, evidence=one.evidence - cost))
-    return _confirmed(study, found, beside, chance)
-
-
-def _confirmed(study: Study, found: Sequence[Ranked], beside: Beside, chance: Chance
-               ) -> list[Ranked]:
-    """Events that stand out of their own force, less what scatters so much for all hypotheses.
-
-    How far runs scatter at all, the other hypotheses know. The event was chosen before, so it is
-    asked as a single question. No odds are better than what is explained, free instants paid.
-    """
-    checked = list(found)
-    strong = [k for k, one in enumerate(found) if one.refitted and one.hypothesis.effect.adds_up
-              and one.support >= chance.asked]
-    for key in {found[k].hypothesis.key for k in strong}:
-        forms = [k for k in strong if found[k].hypothesis.key == key]
-        again = _mean_odds([supported(study, found[k], beside, chance).support for k in forms])
-        for k in forms:
-            most = found[k].support if again >= chance.alone.asked else again
-            checked[k] = replace(found[k], support=min(found[k].support, most, found[k].delta))
-    return checked
-
-
-def _mean_odds(supports: Sequence[float]) -> float:
-    """Support of a hypothesis that has several forms."""
-    return float(2.0 * logsumexp([0.5 * one for one in supports]) - 2.0 * np.log(len(supports)))
-
-
-def _scanned(study: Study, named: Sequence[Hypothesis], places: Sequence[tuple[Effect, Place]],
-             asked: float, progress: Progress | None) -> list[Ranked]:
-    """Each event at its best instants; another form of it only where the plain one is supported.
-
-    Or explains much, however it scatters: a block of the load, not all of it, may have moved.
-
-    Forms of one event, as the places where a wind may take hold, share their support: its mean
-    odds. Which of them it is, the sum of squares says.
-    """
-    projector = study.projector(named)
-    forms: dict[tuple[str, str], list[Ranked]] = {}
-    for k, (effect, place) in enumerate(sorted(places, key=lambda one: one[0].variant)):
-        of_event = forms.setdefault((effect.name, str(place)), [])
-        plain = of_event[0] if of_event and effect.adds_up else None
-        if plain is None or plain.support > 0.0 or plain.delta > _LARGE * asked:
-            of_event.append(scan(study, projector, effect, place, named))
-        if progress:
-            progress("events", (k + 1) / len(places))
-    for key, found in forms.items():
-        if found[0].hypothesis.effect.adds_up:
-            mean = _mean_odds([r.support for r in found])
-            forms[key] = [replace(r, support=mean) for r in found]
-    return [one for found in forms.values() for one in found]
-
-
-def _large(ranked: Sequence[Ranked], chance: Chance) -> bool:
-    """Whether the mismatch is large enough to look where it costs more."""
-    return max((max(r.promise, r.delta) for r in ranked), default=0.0) > _LARGE * chance.asked
-
-
-def _event_places(study: Study, named: Sequence[Hypothesis]) -> list[tuple[Effect, Place]]:
-    """Where each event could be looked for."""
-    taken = {h.key for h in named}
-    tried: list[tuple[Effect, Place]] = []
-    for effect in timed_effects(study):
-        places = (unwatched_tires(study) if effect.name == secondary_blowout.EFFECT.name
-                  else effect.places(study.packed.vehicle))
-        tried += [(effect, p) for p in places if (effect.name, str(p)) not in taken]
-    return tried
-
-
-def _called_for(study: Study, named: Sequence[Hypothesis],
-                places: Sequence[tuple[Effect, Place]], steady: Sequence[Ranked], chance: Chance
-                ) -> list[tuple[Effect, Place]]:
-    """Where to look: for another form of an event where one explains something.
-
-    For a lost tire where much is open, or at a hub that sinks.
-    """
-    lost = secondary_blowout.EFFECT
-    hubs = {place.hub for effect, place in places if effect.name == lost.name and place.hub}
-    if not _large(steady, chance):
-        hubs &= sinking_hubs(study, named, lost, chance.asked, hubs)
-
-    def worth(effect: Effect, place: Place) -> bool:
-        if effect.name == lost.name:
-            return place.hub in hubs
-        own = [r.promise for r in steady if r.hypothesis.effect.name == effect.name]
-        return not effect.variant or not own or max(own) > chance.asked
-
-    return [(effect, place) for effect, place in places if worth(effect, place)]
-
-
-def _failed(study: Study, named: Sequence[Hypothesis], chi2: float, tire: str,
-            times: Mapping[str, float]) -> Ranked:
-    """A tire seen to lose its pressure: the hypothesis at those instants, its hole refitted.
-
-    No motion of the truck tells the instant as well as the gauge does.
-    """
-    effect = secondary_blowout.EFFECT
-    place = next(p for p in effect.places(study.packed.vehicle) if p.tire == tire)
-    spans = {run: (t, np.inf) for run, t in times.items()}
-    starts = [Hypothesis(effect, place, hole, spans) for hole in _HOLES]
-    projector = study.projector([*named, starts[0]])
-    sums = [chi2_of(study, projector, models) for models in models_at(study, starts, named)]
-    return refit(study, Ranked(starts[int(np.argmin(sums))], 0.0, 1.0), chi2, named)

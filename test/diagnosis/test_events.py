@@ -1,0 +1,47 @@
+"""Which events the scatter of the case explains."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from truck_blowout_sim.diagnosis.case.study import Study
+from truck_blowout_sim.diagnosis.effects import LIBRARY
+from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
+from truck_blowout_sim.diagnosis.fit.attribute import Ranked
+from truck_blowout_sim.diagnosis.fit.scatter import Chance, Scatter
+from truck_blowout_sim.diagnosis.fit.shown import SCATTERS
+from truck_blowout_sim.diagnosis.fit.support import Beside
+from truck_blowout_sim.diagnosis.name import events
+from truck_blowout_sim.diagnosis.result.parts import Place
+
+CHANCE = Chance(Scatter(np.eye(SCATTERS.size)[0]), 20.0, 0.009)  # 12.4 of many, 6.8 alone
+
+
+def moved(amount: float, delta: float, support: float) -> Ranked:
+    effect = next(e for e in LIBRARY if e.name == "payload_shift" and not e.variant)
+    place = Place(body="trailer")
+    return Ranked(Hypothesis(effect, place, amount, {"run": (1.0, 2.0)}), delta, 0.01,
+                  refitted=True, support=support)
+
+
+@pytest.mark.parametrize(("delta", "again", "left"), [
+    (300.0, [8.0, 8.0], 30.0),  # beyond chance as a single question
+    (300.0, [2.0, 2.0], 2.0),  # other hypotheses scatter as much
+    (300.0, [7.0, -30.0], 7.0 - 2.0 * np.log(2.0)),  # of two forms one holds: their mean odds
+    (7.0, [8.0, 8.0], 7.0),  # explains hardly more than its free instants
+])  # fmt: skip
+def test_an_event_must_stand_out_of_what_all_hypotheses_scatter(
+    study_of: Callable[..., Study], monkeypatch: pytest.MonkeyPatch, delta: float,
+    again: list[float], left: float
+) -> None:
+    asked = iter(again)
+    monkeypatch.setattr(events, "supported", lambda study, one, beside, chance: replace(
+        one, support=next(asked)))
+    study = study_of()
+    found = [moved(0.1, delta, 30.0), moved(0.2, delta, 30.0), moved(0.3, delta, 3.0)]
+    checked = events._confirmed(study, found, Beside.of(study, (), study.models), CHANCE)
+    assert [one.support for one in checked] == pytest.approx([left, left, 3.0], abs=1e-3)
