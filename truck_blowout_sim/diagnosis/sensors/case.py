@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -60,6 +60,13 @@ class Applied:
 
     hypothesis: Hypothesis
     amounts: tuple[float, ...]
+
+
+def with_amounts(
+    hypotheses: Sequence[Hypothesis], amounts: Sequence[Iterable[float]]
+) -> tuple[Applied, ...]:
+    """Each hypothesis with its amounts."""
+    return tuple(Applied(h, tuple(a)) for h, a in zip(hypotheses, amounts, strict=True))
 
 
 @dataclass(frozen=True)

@@ -33,7 +33,13 @@ from typing import TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from truck_blowout_sim.diagnosis.sensors.case import Applied, Case, Hypothesis, undone
+from truck_blowout_sim.diagnosis.sensors.case import (
+    Applied,
+    Case,
+    Hypothesis,
+    undone,
+    with_amounts,
+)
 from truck_blowout_sim.diagnosis.sensors.distortions import Distortion
 from truck_blowout_sim.diagnosis.sensors.identities import with_kinematic_accelerations
 from truck_blowout_sim.diagnosis.sensors.rows import (
@@ -74,7 +80,7 @@ def doubtful(
         amounts: of each, as estimated, in full.
         inflation: factor on the noise of each identity.
     """
-    taken = [Applied(h, tuple(a)) for h, a in zip(chosen, amounts, strict=True)]
+    taken = with_amounts(chosen, amounts)
     left = _Left.of(case, chosen, taken, inflation)
     return [left.made(k, np.array(amount)) for k, amount in enumerate(amounts)]
 

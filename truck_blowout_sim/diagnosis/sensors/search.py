@@ -16,7 +16,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from truck_blowout_sim.diagnosis.sensors.case import Applied, Case, Hypothesis
+from truck_blowout_sim.diagnosis.sensors.case import Applied, Case, Hypothesis, with_amounts
 from truck_blowout_sim.diagnosis.sensors.judgement import (
     ALIAS_CHI2,
     FALSE_ALARMS,
@@ -117,7 +117,7 @@ def search(case: Case, false_alarms: float = FALSE_ALARMS) -> SearchResult:
         hypothesis, tried, near = best
         rivals[hypothesis] = near
         trial = [*chosen, hypothesis]
-        cleaned = assemble(case, _amounts_out(trial, tried))
+        cleaned = assemble(case, with_amounts(trial, tried.amounts))
         scatter = noise_inflation(cleaned)
         kept, refined = _pruned(case, trial, tried, scatter, highest)
         if hypothesis in kept:
@@ -125,10 +125,6 @@ def search(case: Case, false_alarms: float = FALSE_ALARMS) -> SearchResult:
         else:  # as before it was tried
             refused.append(hypothesis)
     return _summary(case, chosen, rivals, before, estimate)
-
-
-def _amounts_out(chosen: Sequence[Hypothesis], estimate: Estimate) -> tuple[Applied, ...]:
-    return tuple(Applied(h, a) for h, a in zip(chosen, estimate.amounts, strict=True))
 
 
 def _next(
@@ -246,7 +242,7 @@ def _summary(
     rivals: Mapping[Hypothesis, tuple[tuple[Hypothesis, float], ...]],
     before: System, estimate: Estimate,
 ) -> SearchResult:  # fmt: skip
-    after = assemble(case, _amounts_out(chosen, estimate))
+    after = assemble(case, with_amounts(chosen, estimate.amounts))
     inflation = noise_inflation(after)
     normal = normal_equations(after, inflation)
     final = solve(case, normal, chosen)

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import cho_factor, cho_solve
 
-from truck_blowout_sim.diagnosis.sensors.case import Applied, Case, Hypothesis
+from truck_blowout_sim.diagnosis.sensors.case import Case, Hypothesis, with_amounts
 from truck_blowout_sim.diagnosis.sensors.distortions import Distortion
 from truck_blowout_sim.diagnosis.sensors.judgement import farthest
 from truck_blowout_sim.diagnosis.sensors.rows import Rows
@@ -111,8 +111,8 @@ def refine(
     if start is not None:
         amounts = [_held(h, np.array(s)) for h, s in zip(hypotheses, start, strict=True)]
     for _ in range(_STEPS):
-        applied = [Applied(h, tuple(a)) for h, a in zip(hypotheses, amounts, strict=True)]
-        system = assemble(case, applied, [h.distortion for h in hypotheses])
+        taken = with_amounts(hypotheses, amounts)
+        system = assemble(case, taken, [h.distortion for h in hypotheses])
         estimate = solve(case, normal_equations(system, inflation), hypotheses)
         steps = [np.array(step) for step in estimate.amounts]
         amounts = [

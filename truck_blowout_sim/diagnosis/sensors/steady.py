@@ -47,7 +47,7 @@ from scipy.stats import f as f_law
 
 from truck_blowout_sim.diagnosis.fit.color import Color, autocovariance
 from truck_blowout_sim.diagnosis.fit.independent import independent_among
-from truck_blowout_sim.diagnosis.sensors.case import Applied, Case, Hypothesis
+from truck_blowout_sim.diagnosis.sensors.case import Applied, Case, Hypothesis, with_amounts
 from truck_blowout_sim.diagnosis.sensors.solve import Unknowns, gram_of, slices_of, unknowns_of
 from truck_blowout_sim.diagnosis.sensors.system import (
     Normal,
@@ -146,7 +146,7 @@ def chances(
     """
     if not chosen:
         return []
-    taken = [Applied(h, tuple(a)) for h, a in zip(chosen, amounts, strict=True)]
+    taken = with_amounts(chosen, amounts)
     fitted, found = _Fit.of(case, chosen, taken, inflation), []
     for k, amount in enumerate(amounts):
         none = _Fit.of(case, chosen, [*taken[:k], *taken[k + 1:]], inflation)
