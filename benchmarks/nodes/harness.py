@@ -29,12 +29,6 @@ class Measured:
 
     process: psutil.Process
 
-    def cpu_share(self, duration_s: float) -> float:
-        """Part of one core used over an interval."""
-        before, begin_s = self.cpu_s(), time.monotonic()
-        time.sleep(duration_s)
-        return (self.cpu_s() - before) / (time.monotonic() - begin_s)
-
     def memory_mb(self) -> float:
         """Resident memory."""
         return float(self.process.memory_info().rss) / 1e6

@@ -1,7 +1,5 @@
 from __future__ import annotations
 
-import base64
-
 import matplotlib as mpl
 import numpy as np
 
@@ -18,7 +16,7 @@ def draw() -> Picture:
 
 def test_the_same_drawing_gives_the_same_bytes() -> None:
     assert draw().png() == draw().png()
-    assert draw().svg_uri() == draw().svg_uri()
+    assert draw().saved("svg") == draw().saved("svg")
 
 
 def test_the_users_own_settings_neither_count_nor_change() -> None:
@@ -29,7 +27,7 @@ def test_the_users_own_settings_neither_count_nor_change() -> None:
 
 
 def test_a_drawing_carries_neither_date_nor_addresses_to_fetch() -> None:
-    svg = base64.b64decode(draw().svg_uri().partition(",")[2]).decode()
+    svg = draw().saved("svg").decode()
     assert "<dc:date>" not in svg
     assert 'href="http' not in svg
     assert INK in svg or "#1b1f24" in svg

@@ -1,6 +1,6 @@
 """Time of a simulation: counted in whole steps, released by the wall or by another clock.
 
-Nothing here knows ROS. A `Pace` says how long to wait before the next tick; a tick is always the
+Nothing here knows ROS. A pace says how long to wait before the next tick; a tick is always the
 same number of steps. A pace never asks for two ticks to make up for a late one: time that was
 lost stays lost, and shows in the factor achieved.
 """
@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
-from typing import Protocol
 
 NS = 1_000_000_000
 
@@ -36,19 +35,6 @@ class StepClock:
         self.base_ns, self.steps = now_ns, 0
 
 
-class Pace(Protocol):
-    """When the next tick is due."""
-
-    def wait_s(self, wall_s: float, now_ns: int) -> float:
-        """Seconds of wall time until the next tick may begin; 0 or less: now; inf: unknown."""
-
-    def ticked(self, wall_s: float) -> float:
-        """A tick begins at this wall time; returns how late it is in seconds."""
-
-    def restart(self, wall_s: float) -> None:
-        """Forget the past: after a pause, or when the factor changed."""
-
-
 class WallPace:
     """Paced by the wall clock, `factor` simulated seconds a second; 0: as fast as possible."""
 
@@ -67,7 +53,7 @@ class WallPace:
         return self._due_s - wall_s if self.factor > 0 else 0.0
 
     def ticked(self, wall_s: float) -> float:
-        """Set the next tick's time; the grid moves when a tick is late by more than one."""
+        """Set the next tick's time; seconds this one is late: by more than one, the grid moves."""
         if self.factor <= 0:
             return 0.0
         late_s = wall_s - self._due_s

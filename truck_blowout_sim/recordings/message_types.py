@@ -69,11 +69,6 @@ def _parsed(ros_type: str, text: str) -> dict[str, Any]:
     return types
 
 
-def is_known(ros_type: str) -> bool:
-    """Whether the message type can be taken apart here."""
-    return ros_type in typestore().fielddefs
-
-
 @lru_cache(maxsize=64)
 def definition(ros_type: str) -> str:
     """Full message definition text, nested types included, as MCAP's ``ros2msg`` wants it."""

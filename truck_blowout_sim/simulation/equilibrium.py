@@ -62,7 +62,6 @@ class InitialState:
     y_m: float = 0.0
     yaw_rad: float = 0.0
     articulation_rad: float = 0.0
-    trailer_lateral_speed_mps: float | None = None  # at the trailer's base_link
     time_s: float = 0.0
     inputs: Inputs = STANDSTILL
 

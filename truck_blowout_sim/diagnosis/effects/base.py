@@ -18,7 +18,6 @@ from truck_blowout_sim.vehicle import Packed, Vehicle
 Values = Mapping[str, float]
 Timing = Literal["always", "step", "pulse", "ramp"]
 WRONG_SHEET = 4.0  # times what trucks of a kind differ by, where a sheet is wrong
-WRONG_SHEETS = 0.1  # of its numbers
 
 
 @dataclass(frozen=True)

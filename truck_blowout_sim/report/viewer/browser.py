@@ -7,7 +7,6 @@ Validated with: test/report/test_viewer_in_browser.py.
 
 from __future__ import annotations
 
-import base64
 import contextlib
 import json
 import os
@@ -96,11 +95,6 @@ class Browser:
             if time.monotonic() > end:
                 raise InputError(f"the page never came to {expression}; " + "; ".join(self.errors))
             time.sleep(0.05)
-
-    def screenshot(self) -> bytes:
-        """The window as PNG."""
-        answer = self._call("Page.captureScreenshot", format="png")
-        return base64.b64decode(answer["data"])
 
     def close(self) -> None:
         """End the browser."""

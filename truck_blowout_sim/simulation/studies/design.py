@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -120,11 +120,6 @@ def sample(axes: Sequence[Axis], count: int, seed: int) -> list[dict[str, Value]
     shares = qmc.LatinHypercube(len(axes), seed=seed).random(count)
     return [{axis.key: axis.sampled(float(s)) for axis, s in zip(axes, row, strict=True)}
             for row in shares]
-
-
-def is_listed(axes: Sequence[Axis]) -> Mapping[str, bool]:
-    """By key: whether its values are words or a few numbers, not a range that is sampled."""
-    return {axis.key: bool(axis.values) or axis.count > 0 for axis in axes}
 
 
 def _check(axes: Sequence[Axis]) -> None:

@@ -35,11 +35,6 @@ class Audit:
     open_j: Floats
 
     @property
-    def turned_over_j(self) -> float:
-        """Work of all elements, whatever its sign."""
-        return float(sum(abs(work) for work in self.work_j.values()))
-
-    @property
     def closure(self) -> float:
         """Largest open energy at any time against the energy at the start."""
         return float(np.abs(self.open_j).max() / self.start_j)

@@ -43,13 +43,6 @@ def _first_second(run: Recording, normal: Recording, unit: str) -> float:
     return float(change[np.argmax(np.abs(change))])
 
 
-def _path_change_m(run: Recording, normal: Recording, unit: str) -> float:
-    """Largest distance between a unit's places and those of the normal run."""
-    dx = window(run, f"{unit}_x_m", 0.0, _END_S) - window(normal, f"{unit}_x_m", 0.0, _END_S)
-    dy = window(run, f"{unit}_y_m", 0.0, _END_S) - window(normal, f"{unit}_y_m", 0.0, _END_S)
-    return float(np.hypot(dx, dy).max())
-
-
 def _outward_m(run: Recording, normal: Recording) -> float:
     """How far the trailer's path lies outside the normal circle at the end."""
     x, y = (window(normal, f"trailer_{k}_m", 6.0, _END_S) for k in "xy")
