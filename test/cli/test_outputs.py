@@ -8,9 +8,10 @@ from pathlib import Path
 import pytest
 
 from truck_blowout_sim.cli.main import main
-from truck_blowout_sim.cli.outputs import claim, free_name, say
+from truck_blowout_sim.cli.outputs import free_name, say
 from truck_blowout_sim.errors import InputError, StorageError
 from truck_blowout_sim.recordings.atomic import replacing
+from truck_blowout_sim.recordings.claims import claim
 
 
 def made(path: Path) -> Path:

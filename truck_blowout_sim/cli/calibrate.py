@@ -10,7 +10,7 @@ import typer
 from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 
 from truck_blowout_sim.cli.listing import list_option, names_of
-from truck_blowout_sim.cli.outputs import FORCE, JSON, YES, ask_about, claim, say
+from truck_blowout_sim.cli.outputs import FORCE, JSON, YES, ask_about, say
 from truck_blowout_sim.cli.progress import bar
 from truck_blowout_sim.cli.reading import (
     AS_IT_IS,
@@ -20,6 +20,7 @@ from truck_blowout_sim.cli.reading import (
     reads_logs,
     say_notes,
 )
+from truck_blowout_sim.recordings.claims import claim
 
 if TYPE_CHECKING:
     from truck_blowout_sim.diagnosis.calibrate import Calibration

@@ -15,10 +15,11 @@ from rich.table import Table
 from rich.text import Text
 
 from truck_blowout_sim.cli.listing import list_option, names_of
-from truck_blowout_sim.cli.outputs import FORCE, JSON, YES, ask_about, claim, free_name, say
+from truck_blowout_sim.cli.outputs import FORCE, JSON, YES, ask_about, free_name, say
 from truck_blowout_sim.cli.progress import bar
 from truck_blowout_sim.cli.reading import AS_IT_IS, LogOptions, reads_logs
 from truck_blowout_sim.errors import InputError
+from truck_blowout_sim.recordings.claims import claim
 from truck_blowout_sim.recordings.shipped import find_recording
 
 if TYPE_CHECKING:

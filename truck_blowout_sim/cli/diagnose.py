@@ -15,7 +15,7 @@ from rich.progress import BarColumn, Progress, TaskID, TextColumn, TimeElapsedCo
 
 from truck_blowout_sim.cli.failures import interruptible
 from truck_blowout_sim.cli.listing import list_option, names_of
-from truck_blowout_sim.cli.outputs import FORCE, JSON, YES, ask_about, claim, free_name, say
+from truck_blowout_sim.cli.outputs import FORCE, JSON, YES, ask_about, free_name, say
 from truck_blowout_sim.cli.progress import bar
 from truck_blowout_sim.cli.reading import (
     AS_IT_IS,
@@ -25,6 +25,7 @@ from truck_blowout_sim.cli.reading import (
     reads_logs,
     say_notes,
 )
+from truck_blowout_sim.recordings.claims import claim
 
 if TYPE_CHECKING:
     from truck_blowout_sim.diagnosis import Diagnosis

@@ -7,9 +7,10 @@ from pathlib import Path
 import typer
 
 from truck_blowout_sim.cli.conversion import convert, report
-from truck_blowout_sim.cli.outputs import FORCE, JSON, claim
+from truck_blowout_sim.cli.outputs import FORCE, JSON
 from truck_blowout_sim.cli.reading import AS_IT_IS, LogOptions, reads_logs, say_notes
 from truck_blowout_sim.errors import InputError
+from truck_blowout_sim.recordings.claims import claim
 from truck_blowout_sim.recordings.mat_thesis import THESIS_CHANNELS
 
 _FILE_ENDINGS = (".csv", ".mat", ".mcap")

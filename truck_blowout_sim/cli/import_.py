@@ -7,8 +7,9 @@ from pathlib import Path
 import typer
 
 from truck_blowout_sim.cli.conversion import SHOW, VEHICLE, convert, report
-from truck_blowout_sim.cli.outputs import FORCE, JSON, claim
+from truck_blowout_sim.cli.outputs import FORCE, JSON
 from truck_blowout_sim.cli.reading import AS_IT_IS, LogOptions, reads_logs, say_notes
+from truck_blowout_sim.recordings.claims import claim
 
 
 @reads_logs

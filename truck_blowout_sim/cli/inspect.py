@@ -13,9 +13,10 @@ import typer
 from rich.console import Console
 from rich.table import Table
 
-from truck_blowout_sim.cli.outputs import FORCE, JSON, claim, say
+from truck_blowout_sim.cli.outputs import FORCE, JSON, say
 from truck_blowout_sim.cli.reading import AS_IT_IS, LogOptions, reads_logs
 from truck_blowout_sim.recordings import Recording
+from truck_blowout_sim.recordings.claims import claim
 from truck_blowout_sim.recordings.shipped import find_recording
 
 _EPOCH_S = 1e8  # times since 1970 are above

@@ -11,13 +11,14 @@ import typer
 from rich.progress import BarColumn, TextColumn
 
 from truck_blowout_sim.cli.listing import names_of
-from truck_blowout_sim.cli.outputs import FORCE, JSON, check_span, claim, say
+from truck_blowout_sim.cli.outputs import FORCE, JSON, check_span, say
 from truck_blowout_sim.cli.progress import bar
 from truck_blowout_sim.cli.reading import AS_IT_IS, LogOptions, reads_logs, say_notes
 from truck_blowout_sim.cli.units import UNITS
 from truck_blowout_sim.comparison.units import AXES
 from truck_blowout_sim.errors import InputError, nearest, quoted
 from truck_blowout_sim.recordings import Recording
+from truck_blowout_sim.recordings.claims import claim
 
 if TYPE_CHECKING:
     from truck_blowout_sim.report.style import Picture

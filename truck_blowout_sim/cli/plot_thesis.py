@@ -10,8 +10,8 @@ from pathlib import Path
 
 from rich.console import Console
 
-from truck_blowout_sim.cli.outputs import claim
 from truck_blowout_sim.errors import InputError, quoted
+from truck_blowout_sim.recordings.claims import claim
 
 PAGE = "thesis.html"
 

@@ -6,8 +6,9 @@ from pathlib import Path
 
 import typer
 
-from truck_blowout_sim.cli.outputs import FORCE, JSON, claim, say
+from truck_blowout_sim.cli.outputs import FORCE, JSON, say
 from truck_blowout_sim.errors import InputError
+from truck_blowout_sim.recordings.claims import claim
 from truck_blowout_sim.recordings.recover import recover
 
 

@@ -11,7 +11,7 @@ import typer
 from rich.progress import BarColumn, TextColumn, TimeRemainingColumn
 
 from truck_blowout_sim.cli.listing import list_option, names_of
-from truck_blowout_sim.cli.outputs import FORCE, JSON, YES, ask_about, claim, say
+from truck_blowout_sim.cli.outputs import FORCE, JSON, YES, ask_about, say
 from truck_blowout_sim.cli.progress import bar
 from truck_blowout_sim.cli.settings import set_values
 from truck_blowout_sim.cli.units import UNITS
@@ -20,6 +20,7 @@ from truck_blowout_sim.errors import InputError, quoted
 from truck_blowout_sim.recordings import INPUT_NAMES, Recording, write_recording
 from truck_blowout_sim.recordings.bag_export import Extra
 from truck_blowout_sim.recordings.blowout_words import parse_blowouts
+from truck_blowout_sim.recordings.claims import claim
 from truck_blowout_sim.simulation.drive import Drive, Ran, execute
 from truck_blowout_sim.simulation.drive import names_of as output_names_of
 from truck_blowout_sim.simulation.measures import measure

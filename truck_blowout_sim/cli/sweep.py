@@ -12,8 +12,9 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, T
 
 from truck_blowout_sim.cli.failures import REFUSED, interruptible
 from truck_blowout_sim.cli.listing import list_option, names_of
-from truck_blowout_sim.cli.outputs import FORCE, JSON, YES, claim, say
+from truck_blowout_sim.cli.outputs import FORCE, JSON, YES, say
 from truck_blowout_sim.cli.progress import bar
+from truck_blowout_sim.recordings.claims import claim
 
 if TYPE_CHECKING:
     from truck_blowout_sim.report.sweep_page import Findings

@@ -7,8 +7,9 @@ from pathlib import Path
 
 import typer
 
-from truck_blowout_sim.cli.outputs import FORCE, JSON, claim, say
+from truck_blowout_sim.cli.outputs import FORCE, JSON, say
 from truck_blowout_sim.recordings.atomic import replacing
+from truck_blowout_sim.recordings.claims import claim
 from truck_blowout_sim.simulation.validation import as_markdown, validate
 
 MARK = "<!-- below: written by `truck-blowout validate -o docs/validation.md` -->"

@@ -7,7 +7,8 @@ from pathlib import Path
 import typer
 
 from truck_blowout_sim.cli.listing import list_option, names_of
-from truck_blowout_sim.cli.outputs import FORCE, JSON, claim, say
+from truck_blowout_sim.cli.outputs import FORCE, JSON, say
+from truck_blowout_sim.recordings.claims import claim
 
 
 def command(

@@ -12,11 +12,12 @@ from rich.progress import BarColumn, TextColumn, TimeRemainingColumn
 
 from truck_blowout_sim.cli.drawn_vehicle import vehicle_of
 from truck_blowout_sim.cli.listing import list_option, names_of
-from truck_blowout_sim.cli.outputs import FORCE, JSON, check_span, claim, say
+from truck_blowout_sim.cli.outputs import FORCE, JSON, check_span, say
 from truck_blowout_sim.cli.progress import bar
 from truck_blowout_sim.cli.reading import AS_IT_IS, LogOptions, reads_logs, say_notes
 from truck_blowout_sim.errors import InputError, quoted
 from truck_blowout_sim.recordings import Recording
+from truck_blowout_sim.recordings.claims import claim
 
 if TYPE_CHECKING:
     from truck_blowout_sim.report.viewer import RunToShow

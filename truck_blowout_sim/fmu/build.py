@@ -13,6 +13,7 @@ from os import PathLike
 from pathlib import Path
 
 from truck_blowout_sim.errors import InputError
+from truck_blowout_sim.recordings.claims import claim
 from truck_blowout_sim.vehicle import load_vehicle
 
 NAME = "Truck.fmu"
@@ -37,9 +38,8 @@ def build_fmu(vehicle: str | PathLike[str], folder: str | PathLike[str], *, forc
         raise InputError("pythonfmu3 is not installed",
                          expected="pip install 'truck_blowout_sim[fmu]'") from None
     loaded = load_vehicle(vehicle)
-    target = Path(folder) / NAME
-    if target.exists() and not force:
-        raise InputError("exists already", file=target, expected="another folder, or --force")
+    target = claim(folder, force=force, writes=[NAME],
+                   instead="another folder, or --force") / NAME  # fmt: skip
     path = Path(vehicle)
     words = str(path.resolve()) if path.is_file() else loaded.name
     with tempfile.TemporaryDirectory() as work:

@@ -12,6 +12,7 @@ from truck_blowout_sim.errors import InputError, StorageError
 from truck_blowout_sim.nodes.runtime import OneLineParser
 from truck_blowout_sim.nodes.simulator_parameters import DEFAULT_VEHICLE
 from truck_blowout_sim.recordings.atomic import replacing
+from truck_blowout_sim.recordings.claims import claim
 from truck_blowout_sim.vehicle import load_vehicle
 
 
@@ -30,14 +31,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def _write(vehicle: str, output: Path, force: bool) -> None:
-    if output.is_dir():
-        raise InputError("is a folder", file=output, expected="a file to write")
     if output.exists() and Path(vehicle).exists() and output.samefile(vehicle):
         raise InputError("would be written onto the vehicle file", file=output,
                          expected="another file")  # fmt: skip
-    if output.exists() and not force:
-        raise InputError("exists already", file=output,
-                         expected="a new name, or --force to replace it")  # fmt: skip
+    claim(output, force=force, one_file=True)
     text = urdf_of(load_vehicle(vehicle))
     with replacing(output) as temporary:
         temporary.write_text(text, encoding="utf-8")
