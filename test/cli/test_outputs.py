@@ -112,8 +112,15 @@ def test_corrected_recordings_of_one_name_do_not_replace_each_other() -> None:
     assert taken == {"drive", "drive_2", "drive_3", "drive_2_2"}
 
 
-def test_a_shipped_name_is_no_path(tmp_path: Path) -> None:
-    claim(tmp_path / "steer_axle_blowout", inputs=["steer_axle_blowout"])
+def test_a_shipped_name_is_no_path_unless_a_file_has_it(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    target = Path("steer_axle_blowout")
+    assert claim(target, inputs=["steer_axle_blowout"]) == target
+    made(target)
+    with pytest.raises(InputError, match="onto the input steer_axle_blowout"):
+        claim(target, force=True, inputs=["steer_axle_blowout"])
 
 
 def test_a_file_where_a_folder_is_needed_is_refused(tmp_path: Path) -> None:
