@@ -91,8 +91,16 @@ def test_an_amount_has_the_unit_of_what_it_moves(key: str, words: str) -> None:
     assert describe(number).startswith(f"some number {words} (90 %")
 
 
-def test_plain_data_is_json(found: Calibration) -> None:
-    json.dumps(as_plain(found, Path("x.yaml")), allow_nan=False)
+def test_plain_data_is_json_and_holds_the_calibration(found: Calibration) -> None:
+    plain = json.loads(json.dumps(as_plain(found, Path("x.yaml")), allow_nan=False))
+    assert (plain["vehicle"], plain["base"]) == ("x.yaml", BASE)
+    assert (plain["runs"], plain["holdout"]) == (["run 1", "run 2"], ["unseen"])
+    (mass,) = [n for n in plain["numbers"] if n["name"] == "trailer_mass"]
+    assert mass["told"]
+    assert mass["ci90"][0] < mass["change"] < mass["ci90"][1]
+    assert mass["values"]["unit.trailer.mass_kg"] == found.packed["unit.trailer.mass_kg"]
+    assert {e["recording"] for e in plain["errors"] if e["unseen"]} == {"unseen"}
+    assert plain["error_ratio"]["unseen"] < 0.8
 
 
 def test_a_long_coast_down_is_followed_to_millimeters_a_second(ten_line_car: Path) -> None:

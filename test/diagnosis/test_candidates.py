@@ -10,6 +10,7 @@ from typing import cast
 import numpy as np
 import pytest
 
+from truck_blowout_sim.diagnosis.case.runs import Run
 from truck_blowout_sim.diagnosis.case.study import Study
 from truck_blowout_sim.diagnosis.name.candidates import (
     considered,
@@ -81,6 +82,11 @@ def test_a_gyro_gain_is_asked_of_the_model_only_without_a_heading(
     study_of: Callable[..., Study]
 ) -> None:
     study = study_of({})
-    names = {h.effect.name for h in steady_candidates(study)}
-    recorded = study.runs[study.train[0]].recording
-    assert ("yaw_rate_scale" in names) == ("tractor_yaw_rad" not in recorded)
+
+    def names(runs: tuple[Run, ...]) -> set[str]:
+        return {h.effect.name for h in steady_candidates(replace(study, runs=runs))}
+
+    headed = tuple(replace(run, recording=run.recording.with_channels(
+        {f"{unit}_yaw_rad": run.recording[f"{unit}_yaw_rate_radps"]
+         for unit in ("tractor", "trailer")})) for run in study.runs)
+    assert names(study.runs) - names(headed) == {"yaw_rate_scale"}

@@ -51,8 +51,9 @@ def test_what_a_search_may_find_is_no_value_that_a_vehicle_file_refuses(
 ) -> None:
     packed = pack(load_vehicle(vehicle))
     for h in hypotheses(effect, packed):
-        for amount in (effect.amount.low, effect.amount.high):
-            packed.with_values(effect.values(packed, h.place, amount))
+        lowest, highest = (packed.with_values(effect.values(packed, h.place, amount))
+                           for amount in (effect.amount.low, effect.amount.high))
+        assert not np.array_equal(lowest.params, highest.params), str(h.place)
 
 
 @pytest.mark.parametrize("effect", EVERY)

@@ -61,8 +61,7 @@ def test_what_both_wheels_of_an_axle_have_is_no_matter_of_one_wheel(
     study_of: Studies, truck: Packed
 ) -> None:
     study = held_back(study_of, truck, hubs=(HUB, "trailer_2_right"))
-    lag = lagging_wheel(study, [in_force(study)], STILL)
-    assert lag is None or lag.hub not in (HUB, "trailer_2_right")
+    assert lagging_wheel(study, [in_force(study)], STILL) is None
 
 
 def test_a_drag_that_is_named_rightly_leaves_no_wheel_behind(study_of: Studies) -> None:
@@ -83,5 +82,4 @@ def test_a_hub_that_something_named_holds_is_not_asked(study_of: Studies, truck:
     brake = next(e for e in LIBRARY if e.name == "brake_imbalance")
     place = next(p for p in brake.places(truck.vehicle) if p.hub == HUB)
     drag = in_force(study)
-    lag = lagging_wheel(study, [drag, Hypothesis(brake, place, 0.0)], STILL)
-    assert lag is None or lag.hub != HUB
+    assert lagging_wheel(study, [drag, Hypothesis(brake, place, 0.0)], STILL) is None
