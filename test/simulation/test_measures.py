@@ -36,9 +36,12 @@ def test_peaks_are_taken_from_the_burst_on(measured: Measures) -> None:
 
 
 def test_a_wider_lane_is_left_later(fishhook: tuple[Packed, Drive_, Ran]) -> None:
-    narrow, wide = (measure(*fishhook, lane_width_m=width).left_lane_s for width in (3.66, 30.0))
-    assert narrow is not None
-    assert wide is None or wide > narrow
+    narrow, wide, endless = (measure(*fishhook, lane_width_m=width).left_lane_s
+                             for width in (3.66, 30.0, 300.0))
+    assert narrow == 3.5  # off it before the burst, counted from there
+    assert wide is not None
+    assert 6.0 < wide < 10.0
+    assert endless is None
 
 
 def test_a_stop_is_timed_and_measured(truck: Packed) -> None:
