@@ -181,6 +181,8 @@ def test_the_thread_that_writes_says_when_the_disk_is_gone(tmp_path: Path) -> No
         assert time.monotonic() < deadline, "the thread ended without a word"
         time.sleep(0.02)
     writer.close()
+    assert "cannot write: No space left on device; 0 messages saved" in writer.state.error
+    assert writer.state.dropped == 1
 
 
 def pull_out(writer: BagWriter) -> None:

@@ -25,8 +25,9 @@ def at(log: Recording, name: str, time_s: float) -> float:
 
 
 def test_it_is_made_from_its_yaml_and_nothing_else(tmp_path: Path) -> None:
-    for path in write(rebuild(FOLDER / f"{NAME}.yaml"), tmp_path):
-        assert path.read_bytes() == (FOLDER / path.name).read_bytes()
+    write(rebuild(FOLDER / f"{NAME}.yaml"), tmp_path)
+    for name in (f"{NAME}.csv", f"{NAME}.provenance.csv"):
+        assert (tmp_path / name).read_bytes() == (FOLDER / name).read_bytes()
 
 
 def test_clock_and_event(log: Recording) -> None:

@@ -6,6 +6,7 @@ import re
 from collections.abc import Callable
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from truck_blowout_sim.errors import InputError
@@ -27,8 +28,9 @@ def test_the_reference_is_up_to_date() -> None:
 def test_the_examples_load(write: Callable[..., Path]) -> None:
     examples = re.findall(r"```yaml\n(.*?)```", PAGE.read_text(encoding="utf-8"), re.DOTALL)
     assert len(examples) == 3
-    for example in examples:
-        pack(load_vehicle(write(example)))
+    default = pack(load_vehicle("international_9400i_trailmobile"))
+    trucks = [pack(load_vehicle(write(example))) for example in examples]
+    assert not [one for one in trucks if np.array_equal(one.params, default.params)]
 
 
 def test_every_shipped_vehicle_is_on_the_page() -> None:

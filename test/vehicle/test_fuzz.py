@@ -94,9 +94,12 @@ def test_a_file_cut_short(path: Path, end: int) -> None:
 @settings(deadline=None)
 @given(
     key=st.sampled_from(["mass_kg", "x_m", "z_m", "ixx_kgm2", "iyy_kgm2", "izz_kgm2", "ixz_kgm2"]),
-    value=st.one_of(st.floats(), st.integers(), st.text(max_size=5)),
+    value=st.one_of(st.floats(), st.integers(), st.floats(-9.0, 9.0), st.text(max_size=5)),
 )
 def test_any_number_in_a_body(path: Path, key: str, value: object) -> None:
     over = yaml.safe_dump({"units": {"tractor": {"body": {key: value}}}})
     path.write_text(f"extends: {DEFAULT.stem}\n{over}", encoding="utf-8")
-    loads_or_says_why(path)
+    packed = loads_or_says_why(path)
+    if packed is not None:
+        body = packed.vehicle.spec.units.tractor.body
+        assert getattr(body, key) == float(value)  # type: ignore[arg-type]
