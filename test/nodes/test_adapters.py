@@ -13,6 +13,7 @@ import numpy as np
 import pytest
 
 from truck_blowout_sim import InitialState, load_vehicle
+from truck_blowout_sim.nodes import publishing
 from truck_blowout_sim.nodes.adapters import ackermann, attach_all, autoware
 from truck_blowout_sim.nodes.adapters.commands import ForeignCommands
 from truck_blowout_sim.nodes.inputs import InputBank
@@ -199,11 +200,17 @@ def test_autoware_takes_control_and_gives_reports(node: Any, simulator: Any) -> 
 
 
 @pytest.mark.usefixtures("autoware_messages")
-def test_autoware_reports_are_made_for_readers_only(node: Any, simulator: Any) -> None:
+def test_autoware_reports_are_made_for_readers_only(
+    node: Any, simulator: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(publishing, "_LOOK_EVERY_S", 0.0)
     node.readers = 0
     autoware.attach(node, simulator)
     simulator.reports[0](1_500_000_000)
-    assert not any(node.sent.values())
+    assert {len(sent) for sent in node.sent.values()} == {0}
+    node.readers = 1
+    simulator.reports[0](1_510_000_000)
+    assert {len(sent) for sent in node.sent.values()} == {1}
 
 
 @pytest.mark.usefixtures("autoware_messages")

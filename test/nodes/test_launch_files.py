@@ -114,8 +114,11 @@ def test_included_files_declare_the_arguments_they_are_given(
     declared = {argument.words[0] for argument in asked["DeclareLaunchArgument"]}
     for name in ("replay", "closed_loop", "autoware"):
         load(name)
-    for include in asked["IncludeLaunchDescription"]:
-        assert {key for key, _ in include.options["launch_arguments"]} <= declared
+    given = [{key for key, _ in include.options["launch_arguments"]}
+             for include in asked["IncludeLaunchDescription"]]
+    assert len(given) == 3
+    assert all(given)
+    assert set().union(*given) <= declared
 
 
 @pytest.mark.parametrize("path", sorted((ROOT / "config" / "nodes").glob("*.yaml")), ids=str)
