@@ -49,4 +49,9 @@ def test_the_table_shows_hits_by_visibility(scores: list[CaseScore]) -> None:
 
 
 def test_the_map_of_effects_is_drawn(scores: list[CaseScore]) -> None:
-    assert draw_effects(effect_rows(scores)).png().startswith(b"\x89PNG")
+    picture = draw_effects(effect_rows(scores))
+    (axes,) = picture.figure.axes
+    assert [text.get_text() for text in axes.texts] == ["1/2", "0/1", "1/2"]
+    assert [label.get_text() for label in axes.get_yticklabels()] == [
+        "brake lag", "speed scale", "wake"]
+    assert picture.png().startswith(b"\x89PNG")

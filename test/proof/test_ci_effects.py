@@ -14,6 +14,7 @@ LEAST = {"single": 3}
 @pytest.mark.timeout(1800)
 def test_what_the_truck_lacks_is_named(
     prove_ci: Callable[..., dict[str, Any]],
-    as_many_as: Callable[[dict[str, Any], dict[str, int]], None],
+    solved: Callable[[dict[str, Any]], tuple[dict[str, int], list[str]]],
 ) -> None:
-    as_many_as(prove_ci("single"), LEAST)
+    reached, told = solved(prove_ci("single"))
+    assert reached["single"] >= LEAST["single"], told

@@ -113,7 +113,11 @@ def test_files_say_what_was_found(figures: dict[str, Any], tmp_path: Path) -> No
 def test_p_values_are_drawn_where_there_are_enough() -> None:
     from truck_blowout_sim.proof.figures import draw_reliability
 
-    assert draw_reliability([0.1, 0.2, 0.5, 0.7, 0.9]).png().startswith(b"\x89PNG")
+    picture = draw_reliability([0.1, 0.2, 0.5, 0.7, 0.9])
+    shares = picture.figure.axes[0].lines[0]
+    assert list(shares.get_xdata())[1:-1] == [0.1, 0.2, 0.5, 0.7, 0.9]
+    assert list(shares.get_ydata()) == pytest.approx([0.0, 0.2, 0.4, 0.6, 0.8, 1.0, 1.0])
+    assert picture.png().startswith(b"\x89PNG")
 
 
 def test_intervals_of_other_levels_follow_from_the_stated_one() -> None:
