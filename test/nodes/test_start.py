@@ -141,7 +141,7 @@ def test_a_schedule_gives_each_blowout_once_a_run() -> None:
 
 @pytest.mark.parametrize("text", ["a", "a@", "a@-1", "a@nan", "c@1", "a@inf"])
 def test_a_schedule_that_cannot_be_is_refused(text: str) -> None:
-    with pytest.raises(InputError):
+    with pytest.raises(InputError, match=f"'{text}' is no blowout of this vehicle"):
         blow_schedule.parse(text, {"a", "b"})
 
 

@@ -129,8 +129,13 @@ def test_a_vehicle_without_these_tires_is_named(truck: Packed) -> None:
         simulate(load_vehicle("ferrari_250lm"), "fishhook")
 
 
-@pytest.mark.parametrize(("step_s", "rate_hz"), [(0.0, 100.0), (float("nan"), 100.0), (0.1, 100.0),
-                                                 (0.001, 0.0), (0.001, 2000.0)])
-def test_impossible_rates_are_refused(truck: Packed, step_s: float, rate_hz: float) -> None:
-    with pytest.raises(InputError):
+@pytest.mark.parametrize(("step_s", "rate_hz", "words"), [
+    (0.0, 100.0, "step_s is 0.0"), (float("nan"), 100.0, "step_s is nan"),
+    (0.1, 100.0, "step_s is 0.1"), (0.001, 0.0, "rate_hz is 0.0"),
+    (0.001, 2000.0, "rate_hz is 2000.0; expected a rate over 0 and up to 1000 Hz"),
+])
+def test_impossible_rates_are_refused(
+    truck: Packed, step_s: float, rate_hz: float, words: str
+) -> None:
+    with pytest.raises(InputError, match=words):
         simulate(truck, "coast_down", step_s=step_s, rate_hz=rate_hz)

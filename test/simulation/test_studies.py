@@ -193,7 +193,7 @@ def test_an_axis_is_a_list_or_a_range(word: str, values: list[object]) -> None:
 @pytest.mark.parametrize("word", ["a", "a=", "=1", "a=1:2:0", "a=2:1:3", "a=1:b:3", "a=1,,2",
                                   "a=1,1", "a=1:2:3:4", "a=nan:2:3"])
 def test_a_wrong_axis_is_refused(word: str) -> None:
-    with pytest.raises(InputError):
+    with pytest.raises(InputError, match=f"^--vary '{word}'"):
         parse_axis(word)
 
 
