@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Callable
 from dataclasses import replace
+from importlib import import_module
 from pathlib import Path
 
 import numpy as np
@@ -141,3 +142,31 @@ def test_a_person_is_told_why_nothing_is_proven_and_what_did_not_change(found: C
     still = tuple(replace(c, after=c.before) for c in found.changes)
     assert ("fitted runs: errors are as large on average; no channel got worse"
             in said(changes=still))
+
+
+@pytest.mark.parametrize("share", [0.5, 0.0])
+def test_what_is_told_is_what_was_written(truck: Packed, drive_it: Drives, few: Settings,
+                                          monkeypatch: pytest.MonkeyPatch, share: float) -> None:
+    """Moved half of the way, numbers are at no end; with the sheet kept, none is told."""
+    worse_then = iter([1.0, -1.0] if share else [1.0] * 3)
+    monkeypatch.setattr(import_module("truck_blowout_sim.diagnosis.calibrate"), "_mean_log",
+                        lambda changes: next(worse_then))
+    far = {"unit.trailer.mass_kg": 1.3 * truck["unit.trailer.mass_kg"]}
+    moved = calibrate([drive_it(far, seed=1, name="far")], vehicle=BASE, settings=few,
+                      step_s=0.0025)  # fmt: skip
+    mass = next(n for n in moved.numbers if n.name == "trailer_mass")
+    said = list(lines(moved, Path("x.yaml")))
+    assert moved.share == share
+    assert mass.change == pytest.approx(3.0 * share * mass.prior_sigma)
+    assert mass.values == {name: moved.packed[name] for name in mass.values}
+    assert not mass.at_prior_end
+    assert "trailer mass" in said[-2]
+    assert "these runs ask for more than trucks of one kind differ" in said[-2]
+    if share:
+        assert said[0].endswith("numbers are told by these runs:")
+        assert "moved 50% of the way" in "\n".join(said)
+    else:
+        assert moved.told == ()
+        assert said[0].startswith("nothing was calibrated, the sheet was kept: ")
+        assert len(said) == 3
+        assert json.loads(json.dumps(as_plain(moved, Path("x.yaml"))))["share"] == 0.0

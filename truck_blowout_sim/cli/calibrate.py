@@ -108,6 +108,9 @@ def lines(found: Calibration, output: Path) -> Iterator[str]:
 
     for finding in found.instruments:
         yield f"instrument, taken out: {finding.sentence}"
+    if not found.share:
+        yield from (*found.notes, str(output))
+        return
     yield f"{len(found.told)} numbers are told by these runs:"
     yield from (f"  {describe(n)}" for n in found.told)
     road = [n for n in found.numbers if n.of_the_place and n.told]
@@ -147,7 +150,7 @@ def _errors(found: Calibration, unseen: bool, words: str) -> Iterator[str]:
 def as_plain(found: Calibration, output: Path) -> dict[str, object]:
     """The calibration as plain data."""
     return {
-        "vehicle": str(output), "base": found.vehicle, "runs": list(found.runs),
+        "vehicle": str(output), "base": found.vehicle, "share": found.share, "runs": list(found.runs),
         "holdout": list(found.holdout),
         "numbers": [{
             "name": n.name, "kind": n.kind, "change": n.change, "ci90": list(n.ci90),

@@ -111,6 +111,7 @@ class Calibration:
         instruments: faults that were found in the instruments, and taken out.
         packed: the calibrated truck.
         notes: what a user must know.
+        share: of the way to where linear sensitivities point that was gone; 0: the sheet was kept.
     """
 
     vehicle: str
@@ -121,6 +122,7 @@ class Calibration:
     instruments: tuple[SensorFinding, ...]
     packed: Packed
     notes: tuple[str, ...] = ()
+    share: float = 1.0
 
     @property
     def told(self) -> tuple[SheetNumber, ...]:
@@ -189,7 +191,6 @@ def calibrate(
     settle(study, progress=progress)
     amounts, spread, told = _posterior(study)
     place = np.array([_of_the_place(n) for n in rules.nuisances])
-    numbers = _numbers(packed, rules.nuisances, amounts, spread, told)
     truck = apply_amounts(packed, rules.nuisances, np.where(place, 0.0, amounts))
     tell("runs before and after", 0.5)
     sheet = _errors(packed, runs, unseen, impose_speed)
@@ -200,10 +201,10 @@ def calibrate(
         if _mean_log(c for c in after if not c.unseen) < 0.0:
             truck, share, changes = tried, one, after
             break
-    numbers = tuple(_shrunk(n, share) for n in numbers) if share < 1.0 else numbers
     return Calibration(
         loaded.name, tuple(r.name for r in recordings), tuple(r.name for r in holdout),
-        numbers, changes, found, truck if share else packed, _notes(numbers, share))  # fmt: skip
+        _numbers(packed, rules.nuisances, amounts, spread, told, share), changes, found,
+        truck if share else packed, _notes(rules.nuisances, amounts, share), share)  # fmt: skip
 
 
 def write_calibrated_vehicle(
@@ -232,7 +233,8 @@ def write_calibrated_vehicle(
     runs = ", ".join(calibration.runs)
     sources = {name: f"calibrated on {runs}: {'; '.join(said.get(name, ['with another number']))}"
                for name in values}  # fmt: skip
-    return write_vehicle(path, base, values, sources, title=f"{calibration.vehicle}, calibrated")
+    words = "calibrated" if calibration.share else "not calibrated: the sheet was kept"
+    return write_vehicle(path, base, values, sources, title=f"{calibration.vehicle}, {words}")
 
 
 def describe(number: SheetNumber) -> str:
@@ -277,41 +279,42 @@ def _posterior(study: Study) -> tuple[Floats, Floats, NDArray[np.bool_]]:
 
 def _numbers(
     packed: Packed, sheet: Sequence[Nuisance], amounts: Floats, spread: Floats,
-    told: NDArray[np.bool_],
+    told: NDArray[np.bool_], share: float,
 ) -> tuple[SheetNumber, ...]:  # fmt: skip
+    """The numbers, moved a share of the way; their intervals reach to where the runs point.
+
+    Where no share of the way predicts the runs better, they tell none of the numbers.
+    """
     found = []
     for k, number in enumerate(sheet):
-        amount, sigma = float(amounts[k]), float(spread[k])
-        ends = (amount - NINETY * sigma) * number.sigma, (amount + NINETY * sigma) * number.sigma
+        asked, amount = float(amounts[k]), share * float(amounts[k])
+        wide = NINETY * float(spread[k])
+        low, high = min(asked - wide, amount), max(asked + wide, amount)
         found.append(SheetNumber(
-            name=number.name, kind=number.kind, change=amount * number.sigma, ci90=ends,
-            prior_sigma=number.sigma,
-            source=number.source,
-            values=dict(number.values(packed, amount * number.sigma)), told=bool(told[k]),
-            of_the_place=_of_the_place(number), at_prior_end=abs(amount) >= FURTHEST))  # fmt: skip
+            name=number.name, kind=number.kind, change=amount * number.sigma,
+            ci90=(low * number.sigma, high * number.sigma), prior_sigma=number.sigma,
+            source=number.source, values=dict(number.values(packed, amount * number.sigma)),
+            told=bool(told[k]) and share > 0.0, of_the_place=_of_the_place(number),
+            at_prior_end=abs(amount) >= FURTHEST))  # fmt: skip
     return tuple(sorted(found, key=lambda n: -abs(n.change) / n.prior_sigma))
 
 
-def _notes(numbers: Sequence[SheetNumber], share: float) -> tuple[str, ...]:
+def _notes(sheet: Sequence[Nuisance], amounts: Floats, share: float) -> tuple[str, ...]:
     """What a user must know of the result."""
     notes = []
     if share == 0.0:
-        notes.append("the sheet was kept: moved, its numbers predict these runs worse")
+        notes.append("nothing was calibrated, the sheet was kept: moved to where linear "
+                     f"sensitivities point, or {_SHARES[-1]:.0%} of the way, its numbers predict "
+                     "these runs worse")
     elif share < 1.0:
         notes.append(f"the numbers were moved {share:.0%} of the way to where linear sensitivities "
                      "point: further on, these runs are predicted worse")
-    ends = [n.name.replace("_", " ") for n in numbers if n.at_prior_end and not n.of_the_place]
+    ends = [n.name.replace("_", " ") for n, amount in zip(sheet, amounts, strict=True)
+            if abs(amount) >= FURTHEST and not _of_the_place(n)]
     if ends:
         notes.append(f"{', '.join(ends)}: these runs ask for more than trucks of one kind differ; "
                      "the sheet is of another vehicle, or physics is missing (diagnose)")
     return tuple(notes)
-
-
-def _shrunk(number: SheetNumber, share: float) -> SheetNumber:
-    """A number moved a share of the way; its interval still reaches to where the runs point."""
-    low, high = number.ci90
-    change = share * number.change
-    return replace(number, change=change, ci90=(min(low, change), max(high, change)))
 
 
 def _of_the_place(number: Nuisance) -> bool:
