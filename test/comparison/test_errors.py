@@ -46,6 +46,30 @@ def test_a_channel_that_only_shows_its_noise_is_not_rated() -> None:
     assert channel_error(level, "", None).rating is None
 
 
+def test_a_computed_record_that_hardly_moves_has_neither_rating_nor_lag() -> None:
+    """A tenth of a degree a second is less than the noise of a gyro lets anybody see."""
+    swing = np.radians(0.1) * np.sin(TIME)
+    late = np.radians(0.1) * np.sin(TIME - 0.5)
+    error = channel_error(Pair("trailer_yaw_rate_radps", TIME, late, swing), "", None)
+    assert (error.rating, error.lag_s) == (None, None)
+    wide = channel_error(Pair("trailer_yaw_rate_radps", TIME, 30 * late, 30 * swing), "", None)
+    assert wide.rating is not None
+    assert wide.lag_s == pytest.approx(0.5, abs=0.01)
+
+
+def test_an_error_that_no_instrument_resolves_is_a_perfect_match() -> None:
+    """9 mm beside a path that moves sideways by 0.4 m: late by 0.05 s in numbers only."""
+    across, model = 0.2 * np.sin(TIME), 0.2 * np.sin(TIME + 0.06)
+    error = channel_error(Pair("tractor_across_m", TIME, across, model), "", None)
+    assert error.rating is not None
+    assert (error.rating.overall, error.lag_s) == (1.0, None)
+    better = channel_error(Pair("tractor_across_m", TIME, across, model), "",
+                           Sigma(0.001, "stated"))  # fmt: skip
+    assert better.rating is not None
+    assert better.rating.overall < 1.0
+    assert better.lag_s == pytest.approx(0.06, abs=0.01)
+
+
 def test_uneven_samples_are_rated_on_an_even_grid() -> None:
     uneven = np.sort(np.random.default_rng(7).uniform(0, 10, 600))
     pair = Pair("tractor_vx_mps", uneven, np.sin(uneven), np.sin(uneven))

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from truck_blowout_sim.comparison.instruments import good_sigma
 from truck_blowout_sim.comparison.iso18571 import Rating, rate
 from truck_blowout_sim.comparison.lag import best_lag_s
 from truck_blowout_sim.comparison.noise import Sigma
@@ -88,6 +89,7 @@ def channel_error(pair: Pair, label: str, noise: Sigma | None, *, imposed: bool 
     """Errors and rating of one channel."""
     error = pair.error
     peak = int(np.argmax(np.abs(error)))
+    lag_s = best_lag_s(pair, resolved_by(pair, noise)) if moves(pair, noise) else None
     return ChannelError(
         name=pair.name,
         label=label,
@@ -101,7 +103,7 @@ def channel_error(pair: Pair, label: str, noise: Sigma | None, *, imposed: bool 
         noise=noise,
         rating=rating_of(pair, noise),
         imposed=imposed,
-        lag_s=best_lag_s(pair),
+        lag_s=lag_s,
     )
 
 
@@ -111,10 +113,22 @@ def shortened(value: float) -> str:
     return f"{value:.0f}" if "e+" in text else text
 
 
+def resolved_by(pair: Pair, noise: Sigma | None) -> float:
+    """The difference that an instrument resolves: a good one, or the better one that is stated."""
+    good = good_sigma(pair.name, pair.measured)
+    stated = noise is not None and noise.source == "stated"
+    return min(good, noise.value) if stated and noise is not None else good
+
+
+def moves(pair: Pair, noise: Sigma | None) -> bool:
+    """Whether the record shows more than its noise, and than what its instrument resolves."""
+    sigma = max(resolved_by(pair, noise), 0.0 if noise is None else noise.value)
+    return float(np.ptp(pair.measured)) > 2 * _SIGNAL_OVER_NOISE * sigma
+
+
 def rating_of(pair: Pair, noise: Sigma | None = None) -> Rating | None:
-    """Rating on an even grid, ``None`` for a channel that only shows its noise."""
-    spread = float(np.ptp(pair.measured))
-    if spread <= (0.0 if noise is None else 2 * _SIGNAL_OVER_NOISE * noise.value):
+    """Rating on an even grid, ``None`` for a channel that hardly moves or only shows its noise."""
+    if not moves(pair, noise):
         return None
     times = pair.time_s
     intervals = float((times[-1] - times[0]) / np.median(np.diff(times)))
@@ -125,5 +139,7 @@ def rating_of(pair: Pair, noise: Sigma | None = None) -> Rating | None:
     measured = np.interp(grid, times, pair.measured)
     if np.ptp(measured) == 0.0:
         return None
-    model = np.interp(grid, times, pair.model)
+    # relative measures take what no instrument shows for a fault where the truck does little
+    seen = pair.model if pair.rms > resolved_by(pair, noise) else pair.measured
+    model = np.interp(grid, times, seen)
     return rate(measured, model, float(grid[1] - grid[0]))

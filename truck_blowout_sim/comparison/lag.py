@@ -19,11 +19,12 @@ GRID_S = 0.01
 REMAINING = 2.0 / 3.0  # a lag counts where it leaves at most this part of the rms error
 
 
-def best_lag_s(pair: Pair) -> float | None:
+def best_lag_s(pair: Pair, resolved: float = 0.0) -> float | None:
     """Shift [s] by which the model fits best, positive: the model comes too early.
 
     None where the best shift lies at the end of the search, or removes less than a third of the
-    rms error: then nothing says that the difference is one of time.
+    rms error, or less of it than ``resolved``, what an instrument resolves: then nothing says that
+    the difference is one of time.
     """
     start, end = float(pair.time_s[0]) + FURTHEST_S, float(pair.time_s[-1]) - FURTHEST_S
     if end - start < 2.0 * FURTHEST_S:
@@ -38,6 +39,8 @@ def best_lag_s(pair: Pair) -> float | None:
     k = int(np.argmin(errors))
     unshifted = errors[shifts.size // 2]
     if k in (0, shifts.size - 1) or errors[k] > REMAINING**2 * unshifted:
+        return None
+    if np.sqrt(unshifted) - np.sqrt(errors[k]) < resolved:
         return None
     left, middle, right = errors[k - 1 : k + 2]
     bend = left - 2.0 * middle + right

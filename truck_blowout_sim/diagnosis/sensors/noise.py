@@ -23,6 +23,7 @@ from numpy.typing import NDArray
 from scipy.linalg import toeplitz
 from scipy.signal import savgol_coeffs, savgol_filter
 
+from truck_blowout_sim.comparison.instruments import body_sigma
 from truck_blowout_sim.recordings import Recording, Series
 
 FloatArray = NDArray[np.float64]
@@ -33,10 +34,6 @@ _STRETCH_S = 0.5
 _LOCAL_CUBIC = 31  # samples of the local cubic whose residual shows coloured noise
 FEWEST_SAMPLES = 40
 _COMPUTED = 0.02  # of a good instrument's noise: no instrument is that good
-# Single samples of the proving ground's tractor instruments (docs/proving_ground.md).
-_GOOD_INSTRUMENT = {"_vx_mps": 0.012, "_vy_mps": 0.012, "_mps2": 0.03, "_rate_radps": 3.5e-4,
-                    "_yaw_rad": 7e-4, "_roll_rad": 3.5e-4, "_pitch_rad": 3.5e-4,
-                    "_x_m": 0.015, "_y_m": 0.015}  # fmt: skip
 _REPEATS = 0.5  # share of samples that differ from the one before, below which most repeat it
 _LEAST_STEPS = 3  # fewer may be one jump there and back
 _CLEAR_COLOUR = 1.5  # times the white sigma, before colour is believed
@@ -127,16 +124,12 @@ def excess_noise(runs: Sequence[Mapping[str, Noise]]) -> Mapping[str, float]:
     """
     least = {name: min(own[name].sigma for own in runs if name in own)
              for name in {name for own in runs for name in own}}
-    return {name: float(np.sqrt(max(sigma**2 - _good_sigma(name) ** 2, 0.0)))
+    return {name: float(np.sqrt(max(sigma**2 - body_sigma(name) ** 2, 0.0)))
             for name, sigma in least.items()}
 
 
-def _good_sigma(name: str) -> float:
-    return next((sigma for end, sigma in _GOOD_INSTRUMENT.items() if name.endswith(end)), 0.0)
-
-
 def _believed(name: str, one: Noise) -> Noise:
-    usual = _good_sigma(name)
+    usual = body_sigma(name)
     if one.sigma > _COMPUTED * usual:
         return one
     return replace(one, sigma=usual, floor=usual, relative=0.0)
