@@ -8,7 +8,12 @@ import pytest
 from scipy.signal import butter, filtfilt
 
 from truck_blowout_sim import read_recording
-from truck_blowout_sim.diagnosis.sensors import channel_noise, seen_quanta, series_noise
+from truck_blowout_sim.diagnosis.sensors import (
+    channel_noise,
+    seen_quanta,
+    series_noise,
+    told_noise,
+)
 from truck_blowout_sim.recordings import Recording, Series
 
 TIME = np.arange(0.0, 20.0, 0.01)
@@ -112,3 +117,18 @@ def test_stated_noise_of_sample_recordings_is_found(shared_recordings: Path, nam
     for hub in (c for c in noise if c.startswith("hub_speed")):
         level = float(np.median(recording[hub].value))
         assert noise[hub].sigma == pytest.approx(0.002 * level, rel=0.15), hub
+
+
+def test_errors_of_computed_channels_are_told_in_a_good_instruments_noise() -> None:
+    """Pressures and forces too; noise that an instrument really has stays."""
+    time_s = np.arange(500) / 100.0
+    noisy = np.random.default_rng(3).normal(20.0, 0.002, time_s.size)
+    recording = Recording("computed", {
+        "brake_chamber_steer_left_pa": Series(time_s, 0.0 * time_s),
+        "tire_fz_steer_left_n": Series(time_s, 1e4 + np.sin(time_s)),
+        "hub_speed_steer_left_radps": Series(time_s, noisy)})  # fmt: skip
+    noise = channel_noise(recording)
+    told = told_noise(recording, noise)
+    assert told["brake_chamber_steer_left_pa"].sigma == 500.0
+    assert told["tire_fz_steer_left_n"].sigma == 24.0
+    assert told["hub_speed_steer_left_radps"] == noise["hub_speed_steer_left_radps"]

@@ -150,7 +150,8 @@ def _errors(found: Calibration, unseen: bool, words: str) -> Iterator[str]:
 def as_plain(found: Calibration, output: Path) -> dict[str, object]:
     """The calibration as plain data."""
     return {
-        "vehicle": str(output), "base": found.vehicle, "share": found.share, "runs": list(found.runs),
+        "vehicle": str(output), "base": found.vehicle, "share": found.share,
+        "runs": list(found.runs),
         "holdout": list(found.holdout),
         "numbers": [{
             "name": n.name, "kind": n.kind, "change": n.change, "ci90": list(n.ci90),

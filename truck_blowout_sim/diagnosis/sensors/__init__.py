@@ -22,6 +22,7 @@ from truck_blowout_sim.diagnosis.sensors.noise import (
     channel_noise,
     seen_quanta,
     series_noise,
+    told_noise,
 )
 
 __all__ = [
@@ -39,5 +40,6 @@ __all__ = [
     "sensor_gate",
     "series_noise",
     "stated_geometry",
+    "told_noise",
     "vehicle_geometry",
 ]

@@ -23,7 +23,7 @@ from numpy.typing import NDArray
 from scipy.linalg import toeplitz
 from scipy.signal import savgol_coeffs, savgol_filter
 
-from truck_blowout_sim.comparison.instruments import body_sigma
+from truck_blowout_sim.comparison.instruments import body_sigma, good_sigma
 from truck_blowout_sim.recordings import Recording, Series
 
 FloatArray = NDArray[np.float64]
@@ -114,7 +114,16 @@ def believable(noise: Mapping[str, Noise]) -> Mapping[str, Noise]:
 
     Identities hold to what rigid bodies on a level path are worth, not to the last bit.
     """
-    return {name: _believed(name, one) for name, one in noise.items()}
+    return {name: _believed(one, body_sigma(name)) for name, one in noise.items()}
+
+
+def told_noise(recording: Recording, noise: Mapping[str, Noise]) -> Mapping[str, Noise]:
+    """The same noise to tell errors in, that of any computed channel as a good instrument's.
+
+    Unlike :func:`believable` also of forces, pressures and wheels, which no identity is made of.
+    """
+    return {name: _believed(one, good_sigma(name, recording[name].value))
+            for name, one in noise.items()}
 
 
 def excess_noise(runs: Sequence[Mapping[str, Noise]]) -> Mapping[str, float]:
@@ -128,8 +137,7 @@ def excess_noise(runs: Sequence[Mapping[str, Noise]]) -> Mapping[str, float]:
             for name, sigma in least.items()}
 
 
-def _believed(name: str, one: Noise) -> Noise:
-    usual = body_sigma(name)
+def _believed(one: Noise, usual: float) -> Noise:
     if one.sigma > _COMPUTED * usual:
         return one
     return replace(one, sigma=usual, floor=usual, relative=0.0)

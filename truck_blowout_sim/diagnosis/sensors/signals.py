@@ -118,9 +118,10 @@ def _wiener(values: FloatArray, sigma: float) -> FloatArray:
     around = np.concatenate([half, -half[-2:0:-1]])
     spectrum = np.fft.rfft(around)
     power = uniform_filter1d(np.abs(spectrum) ** 2, _WIENER_BINS, mode="nearest")
-    noise = sigma**2 * around.size
-    gain = np.clip(1.0 - _WIENER_MARGIN * noise / np.maximum(power, 1e-300), 0.0, 1.0)
-    return np.asarray(np.fft.irfft(spectrum * gain, around.size)[: values.size] + line)
+    noise = _WIENER_MARGIN * (sigma**2 * around.size)
+    # a channel at rest has no power at all, which nothing can be divided by
+    explained = np.divide(noise, power, out=np.ones_like(power), where=power > noise)
+    return np.asarray(np.fft.irfft(spectrum * (1.0 - explained), around.size)[: values.size] + line)
 
 
 def read_signals(recording: Recording) -> Signals:
