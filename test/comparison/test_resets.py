@@ -39,6 +39,14 @@ def test_a_reset_is_found_and_the_longer_part_kept() -> None:
     assert "reset at 3.00 s" in kept.notes[-1]
 
 
+def test_held_commands_last_beyond_a_reset() -> None:
+    once = {"steering_wheel_angle_rad": Series(np.zeros(1), np.full(1, 0.2)),
+            "throttle": Series(np.zeros(1), np.full(1, 0.3))}  # fmt: skip
+    whole = driving(3.0).with_channels(once).with_metadata(inputs="held until the next message")
+    kept = longest_run(whole)
+    assert kept.inputs_at([5.0])[0, :2].tolist() == [0.2, 0.3]
+
+
 def test_a_gap_in_the_samples_is_no_reset() -> None:
     series = driving(None)["tractor_x_m"]
     keep = (series.time_s < 4.0) | (series.time_s > 6.0)

@@ -81,8 +81,27 @@ def test_a_part_keeps_its_events_and_drops_what_is_empty() -> None:
     assert (recording.start_s, recording.end_s, recording.duration_s) == (0.0, 3.0, 3.0)
     part = recording.between(1.5, 2.5)
     assert set(part.channels) == {"tractor_vx_mps"}
-    assert part.blowouts == (Blowout(2.5, ("steer_left",)),)
+    assert part.blowouts == (Blowout(0.5, ("steer_right",)), Blowout(2.5, ("steer_left",)))
     assert [b.time_s for b in recording.blowouts] == [0.5, 2.5]
+
+
+def test_a_part_keeps_the_tire_that_burst_before_it() -> None:
+    burst = Blowout(0.5, ("steer_left",))
+    part = Recording("r", {"tractor_vx_mps": ramp(0.0, 3.0)}, (burst,)).between(1.5, 2.5)
+    assert part.blowouts == (burst,)
+    assert (part.start_s, part.end_s) == (1.5, 2.5)
+
+
+def test_a_part_keeps_the_command_that_was_given_before_it() -> None:
+    channels = {"throttle": Series(np.array([0.0, 2.0]), np.array([0.3, 0.1])),
+                "steering_wheel_angle_rad": Series(np.zeros(1), np.full(1, 0.2)),
+                "tractor_vx_mps": ramp(0.0, 3.0)}  # fmt: skip
+    held = Recording("r", channels, metadata={"inputs": "held until the next message"})
+    part = held.between(1.5, 2.5)
+    assert part["throttle"] == Series(np.array([1.5, 2.0]), np.array([0.3, 0.1]))
+    assert part["steering_wheel_angle_rad"] == Series(np.array([1.5]), np.array([0.2]))
+    linear = Recording("r", channels).between(1.5, 2.5)
+    assert "steering_wheel_angle_rad" not in linear
 
 
 def test_copies_leave_the_original_alone() -> None:

@@ -157,6 +157,7 @@ class Simulator:
         if self._blowouts_taken:
             self._blowouts_taken.forget()
         self.outputs.restart()
+        self._record_inputs()
         self.meter.restart(monotonic(), self.plant.now_ns)
         self.log.info(f"reset: {why}")
 
@@ -228,8 +229,7 @@ class Simulator:
         reply = self.recorder.start(self.values["record_path"])
         if self.recorder.active and not running:
             self.outputs.record()
-            for topic, value in zip(self.commands, self.plant.applied, strict=True):
-                topic.record(value)
+            self._record_inputs()
         return reply
 
     def quit(self) -> Reply:
@@ -269,6 +269,12 @@ class Simulator:
             if monotonic() - before_s > _IDLE_TURN_S:
                 break
         self._serve_at_s = monotonic() + _SERVE_EVERY_S
+
+    def _record_inputs(self) -> None:
+        """Write what applies now, where no message says it: at a bag's begin and after a reset."""
+        if self.recorder.active:
+            for topic, value in zip(self.commands, self.plant.applied, strict=True):
+                topic.record(value)
 
     def _record_safe_values(self, before: Sequence[float]) -> None:
         for topic, old, new in zip(self.commands, before, self.plant.applied, strict=True):

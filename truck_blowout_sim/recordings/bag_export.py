@@ -71,13 +71,19 @@ def write_bag(recording: Recording, path: Path, beside: Iterable[Extra] = ()) ->
         BagWriter(
             temporary,
             channels=table,
-            time_origin_s=min(0.0, recording.start_s) if recording.channels else 0.0,
+            time_origin_s=_origin_s(recording),
             metadata=recording.metadata,
             background=False,
             file_stem=path.name,
         ) as writer,
     ):
         _interleave(recording, _groups(recording, table, writer), writer, iter(beside))
+
+
+def _origin_s(recording: Recording) -> float:
+    """What stamps count from: a bag has none below zero."""
+    times = [b.time_s for b in recording.blowouts] + [recording.start_s] * bool(recording.channels)
+    return min(0.0, *times) if recording.channels else 0.0
 
 
 def _groups(recording: Recording, table: tuple[Channel, ...], writer: BagWriter) -> list[_Group]:

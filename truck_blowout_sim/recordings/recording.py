@@ -159,23 +159,33 @@ class Recording:
 
     @property
     def start_s(self) -> float:
-        """Earliest sample or event; NaN for an empty recording."""
-        return min(self._edges(0), default=float("nan"))
+        """Earliest sample, without channels the earliest event; NaN for an empty recording.
+
+        A tire that burst before the first sample is flat from there on.
+        """
+        firsts = [float(s.time_s[0]) for s in self.channels.values() if len(s)]
+        return min(firsts or [b.time_s for b in self.blowouts], default=float("nan"))
 
     @property
     def end_s(self) -> float:
         """Latest sample or event; NaN for an empty recording."""
-        return max(self._edges(-1), default=float("nan"))
+        lasts = [float(s.time_s[-1]) for s in self.channels.values() if len(s)]
+        return max([*lasts, *(b.time_s for b in self.blowouts)], default=float("nan"))
 
     @property
     def duration_s(self) -> float:
-        """From the first to the last sample or event."""
+        """From the first sample to the last sample or event."""
         return self.end_s - self.start_s
 
     @property
     def missing_inputs(self) -> tuple[str, ...]:
         """Inputs that were not recorded."""
         return tuple(name for name in INPUT_NAMES if name not in self.channels)
+
+    @property
+    def inputs_are_held(self) -> bool:
+        """Whether inputs are commands to a simulator, which holds each until the next one."""
+        return self.metadata.get(INPUTS_KEY, "").startswith("held")
 
     def at(self, name: str, times_s: ArrayLike, *, max_gap_s: float | None = None) -> FloatArray:
         """Channel at given instants, see :meth:`Series.at`; KeyError if it was not recorded."""
@@ -193,7 +203,7 @@ class Recording:
         """
         times = np.atleast_1d(np.asarray(times_s, dtype=np.float64))
         out = np.full((times.size, len(INPUT_NAMES)), np.nan)
-        held = self.metadata.get(INPUTS_KEY, "").startswith("held")
+        held = self.inputs_are_held
         for column, name in enumerate(INPUT_NAMES):
             series = self.channels.get(name)
             if series is not None and len(series):
@@ -207,11 +217,28 @@ class Recording:
         return self[name].gaps(longer_than_s)
 
     def between(self, start_s: float, end_s: float) -> Recording:
-        """The part with start_s <= time <= end_s; channels left without samples are dropped."""
+        """The part with start_s <= time <= end_s; channels left without samples are dropped.
+
+        What lasts goes along: a tire that burst earlier in the same run keeps its instant, and
+        held inputs have the value that still applies at start_s.
+        """
         cut = {name: series.between(start_s, end_s) for name, series in self.channels.items()}
+        if self.inputs_are_held:
+            cut |= {n: _with_what_holds(cut[n], self.channels[n], start_s)
+                    for n in INPUT_NAMES if n in cut}  # fmt: skip
         kept = {name: series for name, series in cut.items() if len(series)}
-        events = tuple(b for b in self.blowouts if start_s <= b.time_s <= end_s)
-        return replace(self, channels=kept, blowouts=events)
+        return replace(self, channels=kept, blowouts=self._blown_until(start_s, end_s))
+
+    def _blown_until(self, start_s: float, end_s: float) -> tuple[Blowout, ...]:
+        """Blowouts up to end_s, from the last reset before start_s on."""
+        from truck_blowout_sim.recordings.resets import reset_times_s, run_at
+
+        events = tuple(b for b in self.blowouts if b.time_s <= end_s)
+        if not any(b.time_s < start_s for b in events):
+            return events
+        resets_s = reset_times_s(self.channels)
+        run = run_at(start_s, resets_s)
+        return tuple(b for b in events if b.time_s >= start_s or run_at(b.time_s, resets_s) == run)
 
     def shifted(self, by_s: float) -> Recording:
         """The same recording on a clock that reads by_s more."""
@@ -262,10 +289,6 @@ class Recording:
         """A copy with metadata entries added or replaced."""
         return replace(self, metadata={**self.metadata, **entries})
 
-    def _edges(self, index: int) -> list[float]:
-        edges = [float(s.time_s[index]) for s in self.channels.values() if len(s)]
-        return edges + [blowout.time_s for blowout in self.blowouts]
-
 
 def _linear(times_s: FloatArray, series: Series) -> FloatArray:
     return np.interp(times_s, series.time_s, series.value)
@@ -274,6 +297,14 @@ def _linear(times_s: FloatArray, series: Series) -> FloatArray:
 def _held(times_s: FloatArray, series: Series) -> FloatArray:
     last = np.searchsorted(series.time_s, times_s + _SAME_INSTANT_S, side="right") - 1
     return series.value[np.maximum(last, 0)]
+
+
+def _with_what_holds(cut: Series, whole: Series, start_s: float) -> Series:
+    """A part of a held input, led by the value that was given before it and still applies."""
+    before = int(np.searchsorted(whole.time_s, start_s, side="left")) - 1
+    if before < 0 or (len(cut) and cut.time_s[0] <= start_s + _SAME_INSTANT_S):
+        return cut
+    return Series(np.append(start_s, cut.time_s), np.append(whole.value[before], cut.value))
 
 
 def _frozen(values: ArrayLike) -> FloatArray:

@@ -29,6 +29,7 @@ from truck_blowout_sim.simulation.equilibrium import (
     settle_steps,
     unsettled,
 )
+from truck_blowout_sim.simulation.flat import while_settling
 from truck_blowout_sim.simulation.loop_abreast import run_abreast, settle_abreast
 from truck_blowout_sim.vehicle import Packed
 
@@ -103,8 +104,10 @@ def _settled(trucks: Sequence[Packed], drives: Sequence[Drive], given: Sequence[
              for truck, drive in zip(trucks, drives, strict=True)]
     x = side_by_side([state for state, _ in begun])
     held = [held_motion(truck, drive.initial) for truck, drive in zip(trucks, drives, strict=True)]
-    settle_abreast(x, side_by_side([truck.without_events() for truck in trucks]),
-                   trucks[0].topology, side_by_side([inputs for _, inputs in begun]), first.step_s,
+    params = [while_settling(truck, drive.initial.flat)
+              for truck, drive in zip(trucks, drives, strict=True)]
+    settle_abreast(x, side_by_side(params), trucks[0].topology,
+                   side_by_side([inputs for _, inputs in begun]), first.step_s,
                    settle_steps(first.step_s, first.warm), side_by_side(held),
                    room_for_eight(N_WORK))
     states = [x[:, lane].copy() for lane in range(len(trucks))]

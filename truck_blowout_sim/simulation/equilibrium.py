@@ -41,6 +41,7 @@ from truck_blowout_sim.physics.places import (
 from truck_blowout_sim.physics.steering import commanded_rad
 from truck_blowout_sim.physics.step import step
 from truck_blowout_sim.physics.trig import heading
+from truck_blowout_sim.simulation.flat import Flat, deflate, set_clock, while_settling
 from truck_blowout_sim.simulation.inputs import STANDSTILL, Inputs
 from truck_blowout_sim.vehicle import Packed
 
@@ -53,7 +54,10 @@ _DAMPING_PS = 8.0  # rate at which bounce, pitch and roll are taken out while se
 
 @dataclass(frozen=True, kw_only=True)
 class InitialState:
-    """Where and how fast the truck starts. Positions are of the tractor's base_link in map."""
+    """Where and how fast the truck starts. Positions are of the tractor's base_link in map.
+
+    ``flat``: tires that burst before, and how long before [s].
+    """
 
     speed_mps: float = 0.0
     lateral_speed_mps: float = 0.0
@@ -64,6 +68,7 @@ class InitialState:
     articulation_rad: float = 0.0
     time_s: float = 0.0
     inputs: Inputs = STANDSTILL
+    flat: tuple[Flat, ...] = ()
 
 
 def initial_vector(packed: Packed, initial: InitialState, step_s: float,
@@ -76,7 +81,7 @@ def initial_vector(packed: Packed, initial: InitialState, step_s: float,
     shorter.
     """
     x, u = unsettled(packed, initial, warm)
-    settle(x, packed.without_events(), packed.topology, u, step_s, settle_steps(step_s, warm),
+    settle(x, while_settling(packed, initial.flat), packed.topology, u, step_s, settle_steps(step_s, warm),
            held_motion(packed, initial), np.zeros(N_WORK))
     place(x, packed, initial)
     return x
@@ -93,6 +98,7 @@ def unsettled(packed: Packed, initial: InitialState, warm: Floats | None) -> tup
     x[GLOBAL_S.time_s] = 0.0
     u = np.array(initial.inputs, dtype=np.float64)
     _fill_brakes(x, packed.topology, u)
+    deflate(x, packed, initial.flat)
     return x, u
 
 
@@ -211,3 +217,4 @@ def place(x: Floats, packed: Packed, initial: InitialState) -> None:
         x[at + UNIT_S.y_m] = initial.y_m + s * dx + c * dy
         x[at + UNIT_S.yaw_rad] += initial.yaw_rad
     x[GLOBAL_S.time_s] = initial.time_s
+    set_clock(x, packed, initial.flat, initial.time_s)

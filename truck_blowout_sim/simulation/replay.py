@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,6 +21,7 @@ from truck_blowout_sim.simulation.drive import (
     total_mass_kg,
 )
 from truck_blowout_sim.simulation.equilibrium import InitialState
+from truck_blowout_sim.simulation.flat import Flat, flat_at, split_at
 from truck_blowout_sim.simulation.inputs import opening
 from truck_blowout_sim.simulation.plausible import diverged, implausible
 from truck_blowout_sim.simulation.rates import check_delays, check_rates
@@ -60,8 +62,13 @@ def drive_from(recording: Recording, vehicle: Vehicle, *, step_s: float = 0.001,
                          expected=f"inputs over {step_s:g} s or more, one step of the simulation")
     times = start + step_s * np.arange(n_steps, dtype=np.float64)
     speed = _speed(recording, times) if impose else np.zeros(0)
-    steps, tires = _blowouts(recording, vehicle, start, step_s)
-    return Drive(initial or initial_state(recording), step_s, max(round(1.0 / rate_hz / step_s), 1),
+    _check_tires(recording, vehicle)
+    before, timed = split_at(recording.blowouts, start, step_s)
+    begin = initial or initial_state(recording)
+    if before:
+        begin = replace(begin, flat=flat_at(before, start))
+    steps, tires = _blowouts(timed, vehicle, start, step_s)
+    return Drive(begin, step_s, max(round(1.0 / rate_hz / step_s), 1),
                  _inputs(recording, times), speed, steps, tires)
 
 
@@ -102,10 +109,11 @@ def replayed(recording: Recording, packed: Packed, drive: Drive) -> Recording:
     Raises:
         DivergedError: the run left the range of the model.
     """
-    return as_recording(
+    run = as_recording(
         f"{recording.name} (simulated)", packed, drive, execute(packed, drive), recording.blowouts,
         why_imposed=STATED_SPEED_WORDS if speed_is_missing(recording, packed.vehicle)
         else _ASKED_SPEED_WORDS)
+    return replace(run, notes=(*run.notes, *_flat_notes(drive.initial.flat)))
 
 
 def speed_is_missing(recording: Recording, vehicle: Vehicle) -> bool:
@@ -181,15 +189,27 @@ def _speed(recording: Recording, times_s: Floats) -> Floats:
     return np.interp(times_s, series.time_s, series.value)
 
 
-def _blowouts(recording: Recording, vehicle: Vehicle, start_s: float, step_s: float
-              ) -> tuple[Integers, Integers]:
-    """Steps and tire numbers of the recorded blowouts."""
-    steps, tires = [], []
+def _check_tires(recording: Recording, vehicle: Vehicle) -> None:
+    """Refuse a blowout of a tire that the vehicle does not have."""
     for event in recording.blowouts:
         for tire in event.tires:
             if tire not in vehicle.tires:
                 raise InputError(f"blowout of unknown tire {tire!r}", file=recording.name,
                                  expected="one of " + ", ".join(vehicle.tires))
+
+
+def _blowouts(timed: Sequence[Blowout], vehicle: Vehicle, start_s: float, step_s: float
+              ) -> tuple[Integers, Integers]:
+    """Steps and tire numbers of blowouts during the run."""
+    steps, tires = [], []
+    for event in timed:
+        for tire in event.tires:
             steps.append(max(round((event.time_s - start_s) / step_s), 0))
             tires.append(vehicle.tires.index(tire))
     return np.array(steps, dtype=np.int64), np.array(tires, dtype=np.int64)
+
+
+def _flat_notes(flat: Sequence[Flat]) -> tuple[str, ...]:
+    """That a run did not begin on whole tires."""
+    return tuple(f"{tire} burst {since_s:.2f} s before the first input: the model starts settled on"
+                 " it" for tire, since_s in flat)

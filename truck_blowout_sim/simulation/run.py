@@ -17,6 +17,7 @@ from truck_blowout_sim.simulation.drive import Drive, Progress, Ran, execute
 from truck_blowout_sim.simulation.driver import input_table, pilot_of, speed_to_hold
 from truck_blowout_sim.simulation.equilibrium import InitialState
 from truck_blowout_sim.simulation.events import events_of
+from truck_blowout_sim.simulation.flat import flat_at, split_at
 from truck_blowout_sim.simulation.inputs import Inputs
 from truck_blowout_sim.simulation.rates import check_delays, check_rates
 from truck_blowout_sim.simulation.replay import as_recording, drive_from
@@ -99,11 +100,12 @@ def prepare(vehicle: Vehicle | Packed, scenario: Scenario, *, step_s: float = 0.
     recorded = np.pad(base.inputs, ((0, max(n_steps - len(base.inputs), 0)), (0, 0)), "edge"
                       )[:n_steps] if base else None
     inputs = input_table(spec, times, recorded)
-    initial = _initial(scenario, base, inputs)
+    before, timed = split_at(blowouts, spec.start_s, step_s)
+    initial = replace(_initial(scenario, base, inputs), flat=flat_at(before, spec.start_s))
     speed = speed_to_hold(spec, times)
     if base and base.speed.size and spec.hold is None:
         speed = np.pad(base.speed, (0, max(n_steps - base.speed.size, 0)), "edge")[:n_steps]
-    events = events_of(scenario, packed.vehicle, blowouts, step_s)
+    events = events_of(scenario, packed.vehicle, timed, step_s)
     pilot, path = pilot_of(spec, packed, inputs[0], events.reaction)
     drive = Drive(initial, step_s, every, inputs, speed, events.steps, events.tires, pilot, path,
                   watch=events.watch, blow_watch=events.conditions, blow_delays=events.delays)
