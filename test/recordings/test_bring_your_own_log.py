@@ -101,6 +101,20 @@ def test_inspect_says_it_in_a_table_and_in_json(capsys: pytest.CaptureFixture[st
     assert '"unused"' in capsys.readouterr().out
 
 
+@pytest.mark.filterwarnings("error")
+def test_inspect_tells_what_a_mapping_would_refuse(tmp_path: Path) -> None:
+    path = tmp_path / "odd.csv"
+    times = [0.01 * k for k in range(300)]
+    times[100], times[200] = 0.5, times[199]
+    cells = ["1e300" if k == 50 else "abc" if k == 60 else f"{k % 30}" for k in range(300)]
+    path.write_text("time [s],speed [km/h],steering angle [deg]\n" + "".join(
+        f"{t:.2f},80,{cell}\n" for t, cell in zip(times, cells, strict=True)))
+    notes = "\n".join(inspect_log(path).notes)
+    assert "time runs backwards, first from 0.99 s to 0.5 s" in notes
+    assert "1 rows share their time with a later one" in notes
+    assert "column 'steering angle', line 62: 'abc' is not a number" in notes
+
+
 def test_inspect_refuses_a_wrong_mapping_in_one_line(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

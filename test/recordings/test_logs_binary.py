@@ -73,6 +73,12 @@ def test_a_log_without_a_mapping_says_what_it_wants(tmp_path: Path) -> None:
         read_recording(mdf(tmp_path / "log.mf4", "4.10"))
 
 
+def test_a_mat_file_without_vectors_is_refused(tmp_path: Path) -> None:
+    scipy.io.savemat(tmp_path / "log.mat", {"mass": 7.0, "driver": "nobody"})
+    with pytest.raises(InputError, match="no vector of numbers in it"):
+        open_log(tmp_path / "log.mat")
+
+
 def test_structures_of_a_mat_file_are_read_by_path(tmp_path: Path) -> None:
     path = tmp_path / "log.mat"
     scipy.io.savemat(path, {"t": TIME, "log": {"speed": {"data": 72.0 + TIME, "unit": "km/h"}}})

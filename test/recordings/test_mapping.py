@@ -137,11 +137,39 @@ def test_a_column_without_numbers_is_not_said_to_be_missing(
     assert words in refusal(log, channels())
 
 
-def test_a_number_too_large_for_a_computer_is_refused_and_inf_says_nothing(log: Path) -> None:
-    log.write_text(log.read_text().replace("80.5,", "inf,"))
-    assert len(read_recording(log, mapping=rules(log, channels()))["tractor_vx_mps"]) == N - 1
-    log.write_text(log.read_text().replace("inf,", "1e999,"))
-    assert "column 'Speed', line 7: '1e999'" in refusal(log, channels())
+@pytest.mark.parametrize("cell", ["inf", "-Inf", "1e999"])
+def test_what_no_instrument_measures_is_refused_like_text(log: Path, cell: str) -> None:
+    log.write_text(log.read_text().replace("80.5,", f"{cell},"))
+    assert f"column 'Speed', line 7: '{cell}'" in refusal(log, channels())
+
+
+@pytest.mark.parametrize("cell", ["1e300", "9000"])
+def test_one_absurd_cell_is_no_matter_of_units(log: Path, cell: str) -> None:
+    rows = "".join(f"{10 * i},80,{cell if i == 200 else 20 * math.sin(i)},0,1\n"
+                   for i in range(400))  # fmt: skip
+    log.write_text(HEAD + rows)
+    words = refusal(log, channels())
+    assert f"{float(cell):g} deg at 2 s is beyond what a truck can do, unlike the other" in words
+    assert "unit" not in words
+
+
+def test_a_unit_is_suggested_only_where_all_numbers_fit_it() -> None:
+    numbers = np.append(30.0 * np.sin(np.arange(300.0)), np.full(5, 1e300))
+    unit = find_unit("rad")
+    assert unit is not None
+    assert not reads_like(numbers, "angle", "steering_wheel_angle_rad", unit)
+    assert reads_like(numbers[:300], "angle", "steering_wheel_angle_rad", unit) == "deg"
+
+
+def test_another_unit_than_the_log_states_is_told(log: Path) -> None:
+    tree = channels(tractor_vx_mps={"from": "Speed", "unit": "mph"})
+    tree["time"] = {"from": "Time", "unit": "s"}
+    notes = read_recording(log, mapping=rules(log, tree)).notes
+    assert "column 'Speed' is taken in mph, as the mapping says; the log states km/h" in notes
+    assert any("column 'Time' is taken in s, as the mapping says; the log states ms" in note
+               for note in notes)  # fmt: skip
+    assert not any("states" in note for note in read_recording(log, mapping=rules(log, channels())
+                                                               ).notes)  # fmt: skip
 
 
 def test_our_own_csv_is_read_beside_a_mapping_without_a_word_on_its_blowouts(tmp_path: Path

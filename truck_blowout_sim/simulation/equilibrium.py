@@ -81,8 +81,8 @@ def initial_vector(packed: Packed, initial: InitialState, step_s: float,
     shorter.
     """
     x, u = unsettled(packed, initial, warm)
-    settle(x, while_settling(packed, initial.flat), packed.topology, u, step_s, settle_steps(step_s, warm),
-           held_motion(packed, initial), np.zeros(N_WORK))
+    settle(x, while_settling(packed, initial.flat), packed.topology, u, step_s,
+           settle_steps(step_s, warm), held_motion(packed, initial), np.zeros(N_WORK))
     place(x, packed, initial)
     return x
 

@@ -25,6 +25,7 @@ from truck_blowout_sim.simulation.flat import Flat, flat_at, split_at
 from truck_blowout_sim.simulation.inputs import opening
 from truck_blowout_sim.simulation.plausible import diverged, implausible
 from truck_blowout_sim.simulation.rates import check_delays, check_rates
+from truck_blowout_sim.simulation.silences import silences
 from truck_blowout_sim.simulation.start import initial_state, start_time_s
 from truck_blowout_sim.vehicle import Packed, Vehicle, pack
 
@@ -113,7 +114,8 @@ def replayed(recording: Recording, packed: Packed, drive: Drive) -> Recording:
         f"{recording.name} (simulated)", packed, drive, execute(packed, drive), recording.blowouts,
         why_imposed=STATED_SPEED_WORDS if speed_is_missing(recording, packed.vehicle)
         else _ASKED_SPEED_WORDS)
-    return replace(run, notes=(*run.notes, *_flat_notes(drive.initial.flat)))
+    return replace(run, notes=(*run.notes, *_flat_notes(drive.initial.flat),
+                               *silences(recording)))
 
 
 def speed_is_missing(recording: Recording, vehicle: Vehicle) -> bool:

@@ -43,6 +43,7 @@ from truck_blowout_sim.diagnosis.result import (
 )
 from truck_blowout_sim.diagnosis.result.evidence import FAR
 from truck_blowout_sim.diagnosis.sensors import GateResult
+from truck_blowout_sim.simulation.silences import silences
 
 Floats = NDArray[np.float64]
 Key = tuple[str, str]  # of a hypothesis: name and place
@@ -256,7 +257,8 @@ def gather(material: Material, told: Material) -> Evidence:
             r.hypothesis.amount), None)[1] for r in found.named) + law + signs,
         assumptions=words.assumptions(study), missing_channels=words.missing_channels(study),
         notes=(*material.gate.notes, *old,
-               *(note for r in study.runs for note in r.recording.notes)),
+               *(note for r in study.runs
+                 for note in (*r.recording.notes, *silences(r.recording)))),
         facts=(*((f"unnamed wrench on the {w.history.body} buys", f"{w.delta:.0f} with {w.degrees}")
                  for w in told.unnamed),
                *(material.beat.facts if material.beat else ()),

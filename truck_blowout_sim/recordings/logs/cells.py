@@ -15,8 +15,8 @@ from truck_blowout_sim.recordings.units import find_unit
 
 FloatArray = NDArray[np.float64]
 
-_NOTHING = frozenset({"", "-", "--", "nan", "na", "n/a", "null", "none", "inf", "-inf", "+inf",
-                      "infinity", "-infinity", "#n/a", "1.#qnan", "-1.#ind", "---"})  # fmt: skip
+_NOTHING = frozenset({"", "-", "--", "nan", "na", "n/a", "null", "none", "#n/a",
+                      "1.#qnan", "-1.#ind", "---"})  # fmt: skip
 _CLOCK = re.compile(r"(?:(\d+):)?(\d{1,2}):(\d{1,2}(?:[.,:]\d+)?)\s*(am|pm)?", re.IGNORECASE)
 _DURATION = re.compile(r"([-+]?\d+(?:[.,]\d+)?) ?(s|sec|min|hr)")  # as MATLAB writes them
 _DATE = re.compile(r"(\d{1,4}[-/. ](?:\d{1,2}|[a-z]{3})[-/. ]\d{1,4})(?: +|t)"
@@ -97,7 +97,7 @@ def column_of(cells: Sequence[str], decimal: str) -> tuple[FloatArray, str, int 
         plain = cells if decimal == "." else [cell.replace(",", ".") for cell in cells]
         values = np.fromiter(map(float, plain), dtype=np.float64, count=len(cells))
         if not any("_" in cell for cell in cells[:1]):
-            return np.where(np.isfinite(values), values, np.nan), "", _too_large(values, cells)
+            return np.where(np.isfinite(values), values, np.nan), "", _infinite(values)
     except ValueError:
         pass
     values = np.array([number(cell, decimal) for cell in cells])
@@ -121,10 +121,9 @@ def past_midnight(times: FloatArray) -> FloatArray:
     return out
 
 
-def _too_large(values: FloatArray, cells: Sequence[str]) -> int | None:
-    """The row of the first number that no float holds, such as 1e999; `inf` says nothing."""
-    infinite = np.flatnonzero(np.isinf(values)).tolist()
-    return next((i for i in infinite if not is_nothing(cells[i])), None)
+def _infinite(values: FloatArray) -> int | None:
+    """The row of the first number that is not finite: `inf`, or one that no float holds."""
+    return _first(np.isinf(values))
 
 
 def _first(wrong: NDArray[np.bool_]) -> int | None:

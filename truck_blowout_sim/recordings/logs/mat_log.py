@@ -88,11 +88,14 @@ def _way_out(variable: Variable) -> str:
 
 
 def _checked(path: Path, table: Table) -> Table:
-    """Refuse a file in which everything is an object, with the way out."""
+    """Refuse a file without numbers; where everything is an object, with the way out."""
     objects = [note for note in table.notes if " is an object" in note]
     if objects and not table.columns:
         problem, _, way = objects[0].partition(": not read; ")
         raise InputError(problem, file=path, expected=f"vectors or a structure; {way}")
+    if not table.columns:
+        raise InputError("no vector of numbers in it", file=path,
+                         expected="vectors of two or more numbers, one of them the time")
     return table
 
 

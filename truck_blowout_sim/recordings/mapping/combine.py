@@ -20,8 +20,8 @@ from truck_blowout_sim.recordings.channels import DEFAULT_HUBS, DEFAULT_TIRES, C
 from truck_blowout_sim.recordings.checks import check_values
 from truck_blowout_sim.recordings.logs.bag_log import BagLog
 from truck_blowout_sim.recordings.logs.log import Column, no_column
-from truck_blowout_sim.recordings.mapping.opened import Opened
-from truck_blowout_sim.recordings.mapping.plausible import beyond, hydraulic, reads_like
+from truck_blowout_sim.recordings.mapping.opened import Opened, other_unit
+from truck_blowout_sim.recordings.mapping.plausible import beyond, hydraulic, lone, reads_like
 from truck_blowout_sim.recordings.mapping.rules import Rules, Source
 from truck_blowout_sim.recordings.mapping.stamps import times_on_one_clock
 from truck_blowout_sim.recordings.mapping.stand_ins import StandInError, resolved, stand_ins
@@ -141,6 +141,8 @@ def _mapped(
         raise InputError(f"column {quoted(name)}, {column.bad}", file=opened.path,
                          where=source.key, expected="a number, or nothing")  # fmt: skip
     unit = _unit(rules, source, column, channel, name)
+    if note := other_unit(name, column.unit, unit if source.unit else None):
+        made.notes.append(note)
     values = source.sign * ((column.values + source.offset) * unit.factor + unit.offset)
     times = times_on_one_clock(opened, rules, name, column, made.notes)
     there = np.isfinite(values) & np.isfinite(times)
@@ -211,11 +213,13 @@ def _check_size(
     if at is None:
         return
     numbers, unit = taken
+    problem = f"{numbers[at]:g} {unit.name} at {times[at]:g} s is beyond what a truck can do"
+    if lone(channel, values):
+        raise InputError(f"{problem}, unlike the other values", file=file, where=where,
+                         expected="nothing in a cell where nothing was measured")  # fmt: skip
     like = reads_like(numbers, unit.quantity, channel.name, unit)
     raise InputError(
-        f"{numbers[at]:g} {unit.name} at {times[at]:g} s is beyond what a truck can do"
-        + (f": reads like {like}" if like else ""),
-        file=file, where=where,
+        problem + (f": reads like {like}" if like else ""), file=file, where=where,
         expected=f"unit: {like}" if like else f"{channel.quantity} of a truck",
     )  # fmt: skip
 

@@ -18,6 +18,7 @@ from truck_blowout_sim.recordings.logs import open_log
 from truck_blowout_sim.recordings.logs.bag_log import BagLog, lateness_s
 from truck_blowout_sim.recordings.logs.log import Column
 from truck_blowout_sim.recordings.mapping.mapping_file import load_mapping
+from truck_blowout_sim.recordings.mapping.oddities import oddities
 from truck_blowout_sim.recordings.mapping.opened import Opened, open_test
 from truck_blowout_sim.recordings.mapping.proposing import (
     Proposal,
@@ -121,17 +122,20 @@ def inspect_log(
             raise
         # a log is shown also where its time is not understood yet
         files = [_without_time(Path(path), error), *(_without_time(Path(p)) for p in also)]
-    guesses = [[] for _ in files] if mapping else _proposals(files, wheels)
+    # absurd numbers overflow in sums of squares: they are shown, and no guess rests on them
+    with np.errstate(over="ignore", invalid="ignore"):
+        guesses = [[] for _ in files] if mapping else _proposals(files, wheels)
     proposals = tuple(one for some in guesses for one in some)
     lines = [line for opened, some in zip(files, guesses, strict=True)
              for line in _lines(opened, rules, some)]  # fmt: skip
+    notes = [n for f in files for n in (*f.notes, *(() if mapping else oddities(f)))]
     main = files[0]
     span = _span(main)
     rows = main.rows
     blowouts = main.native.blowouts if main.native else ()
     return Inventory(
         str(path), main.log.kind, rows.column if rows else "", rows.unit if rows else "",
-        *span, tuple(lines), proposals, tuple(n for f in files for n in f.notes), main.metadata,
+        *span, tuple(lines), proposals, tuple(notes), main.metadata,
         tuple((b.time_s, "+".join(b.tires)) for b in (*blowouts, *rules.blowouts)),
         _time_guess(main) if rows is None else None,
         any(gravity_is_removed(f.log, some) for f, some in zip(files, guesses, strict=True)),

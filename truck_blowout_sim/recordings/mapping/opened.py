@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 
-from truck_blowout_sim.errors import InputError
+from truck_blowout_sim.errors import InputError, quoted
 from truck_blowout_sim.recordings.bag_reader import read_bag
 from truck_blowout_sim.recordings.channels import BLOWOUT_EVENT
 from truck_blowout_sim.recordings.csv_reader import names_channels, read_csv
@@ -27,6 +27,7 @@ from truck_blowout_sim.recordings.mat_thesis import SOURCES, has_thesis_variable
 from truck_blowout_sim.recordings.names import parts_of
 from truck_blowout_sim.recordings.recording import Recording
 from truck_blowout_sim.recordings.topic_names import relative_names
+from truck_blowout_sim.recordings.units import Unit, find_unit
 
 _OTHER_CLOCK_S = 0.5
 
@@ -146,6 +147,9 @@ def _open(path: Path, stated: str, time: TimeRule, rules: Rules, namespace: str 
         if not thesis_without_time:
             raise
     else:
+        told = other_unit(opened.rows.column, opened.log.column(opened.rows.column).unit,
+                          find_unit(time.unit))  # fmt: skip
+        opened.notes += [f"{path.name}: {told}"] if told else []
         if not opened.rows.named:
             opened.notes.append(f"{path.name}: no column is called time; {opened.rows.column!r} is"
                                 " taken for it, because it increases in every row")
@@ -153,6 +157,17 @@ def _open(path: Path, stated: str, time: TimeRule, rules: Rules, namespace: str 
             opened.notes.append(f"{path.name}: time column {opened.rows.column!r} is taken to be in"
                                 f" {opened.rows.unit}, by its numbers")  # fmt: skip
     return opened
+
+
+def other_unit(column: str, stated: str, taken: Unit | None) -> str:
+    """A note where a mapping takes a column in another unit than the log states; else empty."""
+    theirs = find_unit(stated)
+    if theirs is None or taken is None or theirs.quantity != taken.quantity:
+        return ""
+    if (theirs.factor, theirs.offset) == (taken.factor, taken.offset):
+        return ""
+    return (f"column {quoted(column)} is taken in {taken.name}, as the mapping says; the log states"
+            f" {theirs.name}")
 
 
 def _check_exists(path: Path, rules: Rules, stated: str) -> None:

@@ -42,6 +42,7 @@ _MOST = {
     "articulation_rad": 3.5,
 }
 AIR_BRAKES_PA = 1.5e6
+_FEW, _FEW_SHARE = 3, 0.01  # glitches of a logger
 _FAST_MPS = 38.0  # 85 mph, the highest speed limit for trucks: larger numbers are hardly in m/s
 # What most of an ordinary drive stays below: a unit that brings the numbers there is likely meant.
 _USUAL: Mapping[str, tuple[float, float]] = {
@@ -58,6 +59,15 @@ def beyond(channel: Channel, values: FloatArray) -> int | None:
         return None
     wrong = np.flatnonzero(np.abs(values) > most)
     return int(wrong[0]) if wrong.size else None
+
+
+def lone(channel: Channel, values: FloatArray) -> bool:
+    """Whether the few values that no truck has stand alone among others: not a matter of units."""
+    most = most_of(channel.name)
+    if most is None:
+        return False
+    wrong = int(np.count_nonzero(np.abs(values) > most))
+    return 0 < wrong <= _FEW and wrong < _FEW_SHARE * values.size
 
 
 def hydraulic(channel: Channel, values: FloatArray) -> str:
@@ -124,6 +134,7 @@ def reads_like(numbers: FloatArray, quantity: str, channel: str, stated: Unit) -
     if quantity == "angle" and ("roll" in channel or "pitch" in channel):
         high = 1.0
     largest = float(np.percentile(np.abs(numbers), 99.0)) if numbers.size else 0.0
+    all_of, most = float(np.max(np.abs(numbers), initial=0.0)), most_of(channel) or math.inf
     # of pressures most units fit somehow: the usual one of numbers of this size first
     first = [unit_by_size(numbers, channel, quantity)] if quantity == "pressure" else []
     for name in (*first, *units_of(quantity)):
@@ -131,6 +142,7 @@ def reads_like(numbers: FloatArray, quantity: str, channel: str, stated: Unit) -
         if unit is None or unit.name == stated.name or "absolute" in name:
             continue
         size = largest * unit.factor
-        if low <= size <= high and size < abs(largest * stated.factor):
+        fits = low <= size <= high and all_of * unit.factor <= most
+        if fits and size < abs(largest * stated.factor):
             return name
     return ""
