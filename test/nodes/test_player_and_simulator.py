@@ -13,7 +13,7 @@ from nav_msgs.msg import Odometry
 from rcl_interfaces.msg import Parameter, ParameterType, ParameterValue
 from rcl_interfaces.srv import SetParameters
 from std_msgs.msg import String
-from std_srvs.srv import Trigger
+from std_srvs.srv import SetBool, Trigger
 
 from truck_blowout_sim import Blowout, Recording, Series, read_recording, write_recording
 
@@ -108,7 +108,8 @@ def test_a_replay_from_behind_the_blowout_has_the_flat_tire_and_the_held_pedal(
     (blown,) = replayed.blowouts
     assert blown.tires == ("steer_left",)
     assert blown.time_s == pytest.approx(replayed["tractor_vx_mps"].time_s[0], abs=1e-6)
-    assert replayed["tire_pressure_steer_left_pa"].value[-1] < 1e5
+    assert not replayed["tire_pressure_steer_left_pa"].value.any()  # flat from the first sample on
+    assert "steer_left burst 1.500 s before the start" in player.output
     assert replayed["throttle"].value.max() == pytest.approx(0.6)  # until its timeout
     assert runs(client)
 
@@ -160,6 +161,19 @@ def test_a_simulator_at_another_speed_than_the_recording_is_told(
     assert by_clock.wait() == 0, by_clock.output
     assert "wrong instants" not in by_clock.output
     run_at(1.0)
+
+
+def test_a_player_that_cannot_record_does_not_reset_the_simulator(
+    simulator: Any, start: Any, client: Any, bags: Path
+) -> None:
+    client.call(SetBool, "/truck/record", SetBool.Request(data=True))
+    try:
+        player = start("player", log(bags / "busy.csv"), "--record-path", bags / "second")
+        assert player.wait() == 2
+        assert "the simulator is already recording" in player.output
+        assert "simulator at" not in player.output
+    finally:
+        client.call(SetBool, "/truck/record", SetBool.Request(data=False))
 
 
 def test_a_bag_elsewhere_is_refused_and_the_simulator_left_running(

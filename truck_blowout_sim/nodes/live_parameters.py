@@ -14,7 +14,13 @@ from truck_blowout_sim.nodes import blow_schedule
 from truck_blowout_sim.nodes.clock import WallPace
 from truck_blowout_sim.nodes.parameters import check_changes
 from truck_blowout_sim.nodes.recorder import check_inside
-from truck_blowout_sim.nodes.simulator_parameters import SPECS, check_safe_value, timeout_of
+from truck_blowout_sim.nodes.simulator_parameters import (
+    SPECS,
+    check_safe_value,
+    flat_of,
+    timeout_of,
+)
+from truck_blowout_sim.simulation.flat import check_tires
 
 if TYPE_CHECKING:
     from truck_blowout_sim.nodes.simulator_node import Simulator
@@ -56,6 +62,8 @@ class LiveParameters:
         for change in changes:
             if change.name == "blow":
                 plans["blow"] = blow_schedule.parse(change.value, self._simulator.plant.parts)
+            elif change.name == "initial_flat":
+                check_tires(self._simulator.plant.vehicle, flat_of(change.value))
             elif change.name == "step_awaits":
                 self._simulator.lockstep.inputs_named(change.value)
             elif change.name == "record_path":

@@ -11,6 +11,7 @@ from truck_blowout_sim.nodes.clock import NS, StepClock
 from truck_blowout_sim.nodes.inputs import InputBank
 from truck_blowout_sim.physics.observe import output_names
 from truck_blowout_sim.simulation import InitialState, Inputs, Truck
+from truck_blowout_sim.simulation.flat import check_tires
 from truck_blowout_sim.vehicle import Vehicle
 
 
@@ -32,10 +33,11 @@ class Plant:
         self.clock = StepClock(round(step_s * NS))
         self._step_s = step_s
         self._initial = initial
+        check_tires(vehicle, initial.flat)
         self._truck: Truck | None = None
         self.output_names = output_names(vehicle.units, vehicle.hubs, vehicle.tires)
         self.began_ns = 0
-        self.blown_ns: dict[str, int] = {}
+        self.blown_ns = self._flat_ns()
         self.applied: tuple[float, ...] = bank.applied(0)
 
     def build(self) -> None:
@@ -101,7 +103,7 @@ class Plant:
         return all(tire in self.blown_ns for tire in self.parts[part])
 
     def reset(self, initial: InitialState, pause_steps: int) -> None:
-        """Return to an initial state, all tires whole; time goes on.
+        """Return to an initial state, all tires whole that do not begin flat; time goes on.
 
         Args:
             initial: where and how fast it begins again.
@@ -115,7 +117,7 @@ class Plant:
             self._initial = initial
         self.clock.move_to(now_ns)
         self.began_ns = now_ns
-        self.blown_ns.clear()
+        self.blown_ns = self._flat_ns()
         self.bank.clear()
         self.applied = self.bank.applied(now_ns)
 
@@ -128,6 +130,10 @@ class Plant:
     def outputs(self) -> NDArray[np.float64]:
         """Output vector of the model, in the order of `truck.output_names`."""
         return self.truck.output_vector()
+
+    def _flat_ns(self) -> dict[str, int]:
+        """When the tires burst that are flat from the start of this run on."""
+        return {tire: self.began_ns - round(since_s * NS) for tire, since_s in self._initial.flat}
 
     def _blown_s(self, tire: str) -> float:
         return self.blown_ns.get(tire, 0) / NS

@@ -150,6 +150,8 @@ class Player:
         self.time.hold()
         self.time.move_to(self.start_s)
         prepare = present and self.values["prepare_simulator"]
+        if present:
+            self.stage.check(executor)
         if prepare:
             self._await_readers(executor)
             recording = self.playlist.recording
@@ -197,10 +199,19 @@ class Player:
         """Commands given before the start, and on a truck that was put there the blown tires."""
         if self.stage.waiting:
             for due in self.playlist.blown_before(self.start_s):
-                self._blow(due)
+                self._tell_flat(due)
         for topic, data in self.playlist.held(self.time.position_s).items():
             if topic in COMMANDS:
                 self._publish(topic, data)
+
+    def _tell_flat(self, due: Due) -> None:
+        """Name the tires on which the simulator was put at the start."""
+        for tire in due.tires:
+            self.publishers[BLOWOUT_EVENT.topic].publish(template(STRING, data=tire))
+            self.blown.append(tire)
+            self.log.warning(
+                f"{tire} burst {self.start_s - due.time_s:.3f} s before the start: the simulator"
+                " begins settled on it, so the replay cannot equal the recording")
 
     def _publish_until(self, time_s: float) -> None:
         for due in self.playlist.due(time_s):

@@ -68,6 +68,11 @@ class Recorder:
         """What went wrong with the present bag, or with the last one; empty if nothing."""
         return (self._bag.state.error if self._bag else "") or self._failed
 
+    @property
+    def wanted(self) -> str:
+        """The path that was asked for the open bag; empty without one, or for a name by date."""
+        return self._wanted if self._bag is not None else ""
+
     def start(self, wanted: str) -> tuple[bool, str]:
         """Open a bag.
 

@@ -35,6 +35,9 @@ class Served(Protocol):
     def record(self, wanted: bool) -> Reply:
         """Start or stop a bag."""
 
+    def is_recording(self) -> Reply:
+        """Whether a bag is open, and the path that was asked for it."""
+
 
 def serve(node: Node, served: Served, parts: Iterable[str]) -> None:
     """Create all services, relative names."""
@@ -45,6 +48,7 @@ def serve(node: Node, served: Served, parts: Iterable[str]) -> None:
     _trigger(node, "resume", once_ready(served, served.resume))
     _trigger(node, "step", once_ready(served, served.step))
     _trigger(node, "reset", once_ready(served, served.reset))
+    _trigger(node, "is_recording", served.is_recording)
 
     def record(request: SetBool.Request, response: SetBool.Response) -> SetBool.Response:
         act = once_ready(served, lambda: served.record(request.data))

@@ -232,6 +232,11 @@ class Simulator:
             self._record_inputs()
         return reply
 
+    def is_recording(self) -> Reply:
+        """Whether a bag is open, and the path that was asked for it."""
+        # a trigger has one flag: here it is the answer
+        return self.recorder.active, self.recorder.wanted
+
     def quit(self) -> Reply:
         """End the node, as SIGINT does."""
         if self._stop is not None:

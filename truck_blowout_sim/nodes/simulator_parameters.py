@@ -10,7 +10,10 @@ from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.nodes.inputs import Input
 from truck_blowout_sim.nodes.outputs import GROUPS
 from truck_blowout_sim.nodes.parameters import Spec
+from truck_blowout_sim.recordings import Blowout
+from truck_blowout_sim.recordings.blowout_words import parse_blowouts
 from truck_blowout_sim.simulation import InitialState
+from truck_blowout_sim.simulation.flat import Flat, flat_at
 from truck_blowout_sim.simulation.plausible import MOST_BRAKE_PA
 
 DEFAULT_VEHICLE = "international_9400i_trailmobile"
@@ -40,6 +43,8 @@ _GENERAL = (
     Spec("initial_yaw_rad", 0.0, "Heading then, counter-clockwise from x.", "rad", -7, 7, True),
     Spec("initial_articulation_rad", 0.0, "Trailer yaw minus tractor yaw then.", "rad", -1.5, 1.5,
          True),
+    Spec("initial_flat", "", "Tires flat then, and seconds since they burst: `TIRE@SECONDS`.",
+         live=True),
     Spec("step_s", 0.001, "Integration step.", "s", 1e-5, 0.005),
     Spec("publish_rate_hz", 100.0, "Outputs per simulated second.", "Hz", 1, 1000),
     Spec("clock_rate_hz", 100.0, "`/clock` messages per simulated second.", "Hz", 1, 1000),
@@ -123,7 +128,21 @@ def initial_state(values: Values) -> InitialState:
         y_m=values["initial_y_m"],
         yaw_rad=values["initial_yaw_rad"],
         articulation_rad=values["initial_articulation_rad"],
+        flat=flat_of(values["initial_flat"]),
     )
+
+
+def flat_of(text: str) -> tuple[Flat, ...]:
+    """Tires that burst before the start, and how long before, of the words of `initial_flat`.
+
+    Raises:
+        InputError: a word of another form.
+    """
+    before = [Blowout(-b.time_s, b.tires) for b in parse_blowouts(text.split(",") if text else [])]
+    if any(b.time_s > 0.0 for b in before):
+        raise InputError("a tire that bursts later", file="parameter", where="initial_flat",
+                         expected="TIRE@SECONDS before the start")  # fmt: skip
+    return flat_at(sorted(before, key=lambda b: b.time_s), 0.0)
 
 
 def inputs_of(values: Values, brakes: str = "air") -> list[Input]:

@@ -10,6 +10,7 @@ from rclpy.executors import Executor
 from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.nodes.simulator_client import SimulatorClient
 from truck_blowout_sim.recordings.recording import Recording
+from truck_blowout_sim.simulation.flat import Flat, flat_at
 from truck_blowout_sim.simulation.start import initial_state
 
 _INITIAL = (
@@ -21,6 +22,12 @@ _INITIAL = (
     "yaw_rad",
     "articulation_rad",
 )
+
+
+def blown_earlier(recording: Recording) -> tuple[Flat, ...]:
+    """Tires that are flat where a recording begins, and how long before they burst."""
+    start_s = recording.start_s
+    return flat_at((b for b in recording.blowouts if b.time_s < start_s), start_s)
 
 
 class Stage:
@@ -47,6 +54,17 @@ class Stage:
         """Whether the simulator stands paused where the recording begins."""
         return self._paused
 
+    def check(self, executor: Executor) -> None:
+        """See that the bag that is wanted can be begun, before anything is changed.
+
+        Raises:
+            InputError: the simulator writes another one.
+        """
+        there = self._simulator.recording_to(executor) if self._bag else None
+        if there is not None and there != self._bag:
+            raise InputError(f"the simulator is already recording{f' to {there}' if there else ''}",
+                             expected="its bag to be ended first: service record, false")
+
     def set(self, executor: Executor, recording: Recording) -> None:
         """Pause the simulator and put it where the recording begins.
 
@@ -57,8 +75,11 @@ class Stage:
         self._paused = True
         state = initial_state(recording)
         initial = {f"initial_{name}": float(getattr(state, name)) for name in _INITIAL}
-        self._simulator.set_parameters(executor, initial)
+        flat = ",".join(f"{tire}@{since_s:.6f}" for tire, since_s in blown_earlier(recording))
+        self._simulator.set_parameters(executor, {**initial, "initial_flat": flat})
         words = self._simulator.call(executor, "reset", timeout_s=60.0)
+        if flat:  # for this run alone: the next reset has whole tires
+            self._simulator.set_parameters(executor, {"initial_flat": ""})
         self._say(f"simulator at {state.speed_mps:.2f} m/s: {words}")
 
     def record(self, executor: Executor) -> None:

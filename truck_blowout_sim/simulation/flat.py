@@ -12,12 +12,13 @@ from collections.abc import Iterable
 import numpy as np
 from numpy.typing import NDArray
 
+from truck_blowout_sim.errors import InputError, quoted
 from truck_blowout_sim.physics.jit import core
 from truck_blowout_sim.physics.layout import TIRE, TIRE_S
 from truck_blowout_sim.physics.places import tire_params, tire_state
 from truck_blowout_sim.physics.tires.gas import advance_pressure
 from truck_blowout_sim.recordings import Blowout
-from truck_blowout_sim.vehicle import Packed
+from truck_blowout_sim.vehicle import Packed, Vehicle
 
 Floats = NDArray[np.float64]
 Flat = tuple[str, float]
@@ -38,6 +39,18 @@ def flat_at(before: Iterable[Blowout], start_s: float) -> tuple[Flat, ...]:
     """The tires of blowouts before ``start_s``, each once, with the time since they burst."""
     since = {tire: start_s - b.time_s for b in reversed(tuple(before)) for tire in b.tires}
     return tuple(sorted(since.items()))
+
+
+def check_tires(vehicle: Vehicle, flat: Iterable[Flat]) -> None:
+    """Refuse a flat tire that the vehicle does not have.
+
+    Raises:
+        InputError: its name.
+    """
+    for tire, _ in flat:
+        if tire not in vehicle.tires:
+            raise InputError(f"unknown tire {quoted(tire)}", file=vehicle.name,
+                             expected="one of " + ", ".join(vehicle.tires))
 
 
 def deflate(x: Floats, packed: Packed, flat: Iterable[Flat]) -> None:
