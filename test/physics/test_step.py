@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from truck_blowout_sim.physics.layout import N_WORK
 from truck_blowout_sim.physics.step import advance, step
 from truck_blowout_sim.simulation import InitialState, Inputs, Truck, simulate
 from truck_blowout_sim.simulation.validation.soundness import symmetry_error
@@ -122,7 +123,8 @@ def test_nothing_settles_at_the_start(truck: Packed) -> None:
 
 def test_a_motion_that_is_not_finite_is_caught(truck: Packed) -> None:
     run = Truck(truck, initial=InitialState(speed_mps=15.0))
-    run.advance(Inputs(throttle=float("nan")), 5)
+    poisoned = np.array(Inputs(throttle=float("nan")))
+    advance(run.state, truck.params, truck.topology, poisoned, 0.001, 5, np.zeros(N_WORK))
     assert not run.finite
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 import pytest
 
@@ -157,3 +159,39 @@ def test_time_does_not_run_backward(truck: Packed) -> None:
         run.advance(Inputs(), -5)
     run.advance(Inputs(), 0)
     assert run.time_s == 0.0
+    with pytest.raises(InputError, match=r"n_steps is 1\.5; expected a whole number"):
+        run.advance(Inputs(), 1.5)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize(("field", "value"), [
+    ("steering_wheel_angle_rad", math.nan), ("steering_wheel_angle_rad", math.inf),
+    ("throttle", math.nan), ("brake_pressure_steer_pa", math.nan),
+    ("brake_pressure_drive_pa", -1e6), ("brake_pressure_trailer_pa", 1e9),
+])
+def test_inputs_that_are_none_are_refused(truck: Packed, field: str, value: float) -> None:
+    run, bad = Truck(truck), Inputs(**{field: value})
+    with pytest.raises(InputError, match=f"^{field} is {value:g}".replace("+", r"\+")
+                       + "; expected .* to .*"):
+        run.advance(bad)
+    assert run.time_s == 0.0
+    with pytest.raises(InputError, match=field):
+        Truck(truck, initial=InitialState(inputs=bad))
+
+
+@pytest.mark.parametrize(("field", "value"), [
+    ("speed_mps", math.nan), ("speed_mps", 500.0), ("speed_mps", 70.0), ("yaw_rad", math.inf),
+    ("lateral_speed_mps", math.nan), ("x_m", math.nan), ("articulation_rad", 90.0),
+    ("time_s", math.nan),
+])
+def test_a_start_that_is_none_is_refused(truck: Packed, field: str, value: float) -> None:
+    with pytest.raises(InputError, match=f"^{field} is {value:g}; expected "):
+        Truck(truck, initial=InitialState(**{field: value}))
+
+
+def test_a_vehicle_may_be_given_by_its_name(truck: Packed) -> None:
+    name = truck.vehicle.name
+    assert Truck(name).outputs() == Truck(truck).outputs()
+    by_name, packed = simulate(name, "brake_stop"), simulate(truck, "brake_stop")
+    assert np.array_equal(by_name["tractor_x_m"].value, packed["tractor_x_m"].value)
+    with pytest.raises(InputError, match="no_such_truck"):
+        Truck("no_such_truck")

@@ -25,7 +25,8 @@ from truck_blowout_sim.comparison.words import labels_for
 from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.recordings import INPUT_NAMES, Recording, read_recording
 from truck_blowout_sim.recordings.shipped import find_recording
-from truck_blowout_sim.vehicle import Packed, Vehicle, load_vehicle, pack
+from truck_blowout_sim.vehicle import Vehicle, load_vehicle
+from truck_blowout_sim.vehicle.given import AnyVehicle, packed_of
 
 # Instruments on one clock begin, and mark a blowout, within a few of their samples.
 _SAME_START_S = 0.1
@@ -95,8 +96,8 @@ class Comparison:
 
 
 def compare(recording: Recording | str | os.PathLike[str],
-            vehicle: Vehicle | Packed | str | os.PathLike[str] = DEFAULT_VEHICLE, *,
-            step_s: float = STEP_S, impose_speed: bool | None = None, contrasted: bool = False,
+            vehicle: AnyVehicle = DEFAULT_VEHICLE, *, step_s: float = STEP_S,
+            impose_speed: bool | None = None, contrasted: bool = False,
             ask: Callable[[Sequence[str]], None] | None = None,
             progress: Progress | None = None) -> Comparison:  # fmt: skip
     """Drive a vehicle's model with a recording's inputs and report the differences.
@@ -115,7 +116,7 @@ def compare(recording: Recording | str | os.PathLike[str],
         InputError: unreadable files, no steering in the recording, no channel in common.
     """
     tell = progress or _silent
-    packed = _packed(vehicle)
+    packed = packed_of(vehicle)
     tell("reading", 0.0)
     recording, marks = _recording(recording, packed.vehicle)
     tell("simulating", 0.1)
@@ -180,12 +181,6 @@ def _errors(recording: Recording, vehicle: Vehicle, pairs: Mapping[str, Pair],
         found.append(channel_error(pairs[name], labels.get(name, name),
                                    sigmas.get(name), imposed=name in imposed))  # fmt: skip
     return tuple(found)
-
-
-def _packed(vehicle: Vehicle | Packed | str | os.PathLike[str]) -> Packed:
-    if isinstance(vehicle, Packed):
-        return vehicle
-    return pack(vehicle if isinstance(vehicle, Vehicle) else load_vehicle(vehicle))
 
 
 def _recording(recording: Recording | str | os.PathLike[str], vehicle: Vehicle

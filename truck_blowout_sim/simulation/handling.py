@@ -15,7 +15,8 @@ import numpy as np
 from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.simulation.drive import Drive, names_of, run_drive
 from truck_blowout_sim.simulation.equilibrium import InitialState
-from truck_blowout_sim.vehicle import Packed, Vehicle, pack
+from truck_blowout_sim.vehicle import Packed
+from truck_blowout_sim.vehicle.given import AnyVehicle, packed_of
 from truck_blowout_sim.vehicle.statics import axle_groups
 
 STEP_S = 0.002
@@ -46,7 +47,7 @@ class Handling:
     critical_speed_mps: float | None
 
 
-def handling(vehicle: Vehicle | Packed, speed_mps: float = 20.0) -> Handling:
+def handling(vehicle: AnyVehicle, speed_mps: float = 20.0) -> Handling:
     """Drive two gentle left turns at one speed and take the differences.
 
     Args:
@@ -56,7 +57,7 @@ def handling(vehicle: Vehicle | Packed, speed_mps: float = 20.0) -> Handling:
     Raises:
         InputError: nothing is steered, or the truck does not settle in a turn.
     """
-    packed = vehicle if isinstance(vehicle, Packed) else pack(vehicle)
+    packed = packed_of(vehicle)
     spec = packed.vehicle.spec
     if spec.steering is None or not any(axle.steered for axle in spec.axles.values()):
         raise InputError("no axle is steered", file=packed.vehicle.path, expected="a steered axle")

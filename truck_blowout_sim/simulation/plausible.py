@@ -20,7 +20,7 @@ from truck_blowout_sim.simulation.ending import Ending
 from truck_blowout_sim.simulation.pilot import PILOT
 from truck_blowout_sim.vehicle import Packed, Vehicle, pack
 
-_MOST_SPEED_MPS = {"air": 60.0, "hydraulic": 100.0}  # trucks; cars reach 100 m/s on circuits
+MOST_SPEED_MPS = {"air": 60.0, "hydraulic": 100.0}  # trucks; cars reach 100 m/s on circuits
 _MOST_ROAD_WHEEL_RAD = math.radians(60.0)
 MOST_BRAKE_PA = {"air": 1.2e6, "hydraulic": 2.5e7}
 _MOST_CHANGE = 5.0  # times, of a parameter against the vehicle's file
@@ -30,7 +30,7 @@ _MOST_PHASE_RAD = 0.5
 
 def implausible(packed: Packed, drive: Drive) -> tuple[str, ...]:
     """What in a prepared run no truck does: one clause each, empty where all is plausible."""
-    found = _speeds(drive, _MOST_SPEED_MPS[packed.vehicle.spec.brakes])
+    found = _speeds(drive, MOST_SPEED_MPS[packed.vehicle.spec.brakes])
     wheel = float(np.abs(drive.inputs[:, INPUT.steering_wheel_angle_rad]).max(initial=0.0))
     if wheel / packed["steering.ratio"] > _MOST_ROAD_WHEEL_RAD:
         found.append(f"a hand wheel of {math.degrees(wheel):.0f} deg turns the road wheels by "

@@ -28,6 +28,7 @@ from truck_blowout_sim.simulation.rates import check_delays, check_rates
 from truck_blowout_sim.simulation.silences import silences
 from truck_blowout_sim.simulation.start import initial_state, start_time_s
 from truck_blowout_sim.vehicle import Packed, Vehicle, pack
+from truck_blowout_sim.vehicle.given import AnyVehicle, packed_of
 
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
@@ -87,7 +88,7 @@ def implausible_inputs(recordings: Sequence[Recording], vehicle: Vehicle, *,
                  for clause in implausible(packed, drive))
 
 
-def simulate_inputs(vehicle: Vehicle | Packed, recording: Recording, *, step_s: float = 0.001,
+def simulate_inputs(vehicle: AnyVehicle, recording: Recording, *, step_s: float = 0.001,
                     rate_hz: float = 100.0, initial: InitialState | None = None,
                     impose_speed: bool | None = None) -> Recording:
     """The model driven by a recording: a recording with the same clock.
@@ -97,7 +98,7 @@ def simulate_inputs(vehicle: Vehicle | Packed, recording: Recording, *, step_s: 
         DivergedError: the run left the range of the model.
     """
     check_rates(step_s, rate_hz)
-    packed = vehicle if isinstance(vehicle, Packed) else pack(vehicle)
+    packed = packed_of(vehicle)
     check_delays(packed, step_s)
     drive = drive_from(recording, packed.vehicle, step_s=step_s, rate_hz=rate_hz, initial=initial,
                        impose_speed=impose_speed)

@@ -22,16 +22,17 @@ from truck_blowout_sim.simulation.inputs import Inputs
 from truck_blowout_sim.simulation.rates import check_delays, check_rates
 from truck_blowout_sim.simulation.replay import as_recording, drive_from
 from truck_blowout_sim.simulation.scenario import Scenario, load_scenario
-from truck_blowout_sim.vehicle import Packed, Vehicle, load_road, pack, road_values
+from truck_blowout_sim.vehicle import Packed, load_road, road_values
+from truck_blowout_sim.vehicle.given import AnyVehicle, packed_of
 
 
-def simulate(vehicle: Vehicle | Packed, scenario: Scenario | str | PathLike[str], *,
+def simulate(vehicle: AnyVehicle, scenario: Scenario | str | PathLike[str], *,
              step_s: float = 0.001, rate_hz: float = 100.0, progress: Progress | None = None
              ) -> Recording:
     """Run a scenario.
 
     Args:
-        vehicle: a vehicle, or one packed with parameters of its own.
+        vehicle: a vehicle, one packed with parameters of its own, a path, or a shipped name.
         scenario: a loaded scenario, the name of a shipped one, or a path.
         step_s: fixed step [s].
         rate_hz: rate of the recording.
@@ -72,7 +73,7 @@ def burst(packed: Packed, drive: Drive, ran: Ran, timed: tuple[Blowout, ...]
     return tuple(sorted((e for e in (*timed, *met) if e.time_s <= last), key=lambda e: e.time_s))
 
 
-def prepare(vehicle: Vehicle | Packed, scenario: Scenario, *, step_s: float = 0.001,
+def prepare(vehicle: AnyVehicle, scenario: Scenario, *, step_s: float = 0.001,
             rate_hz: float = 100.0) -> tuple[Packed, Drive, tuple[Blowout, ...]]:
     """The truck on the scenario's road, what drives it, and what bursts at which instant.
 
@@ -82,7 +83,7 @@ def prepare(vehicle: Vehicle | Packed, scenario: Scenario, *, step_s: float = 0.
         InputError: see :func:`simulate`.
     """
     check_rates(step_s, rate_hz)
-    packed = _on_the_road(vehicle if isinstance(vehicle, Packed) else pack(vehicle), scenario)
+    packed = _on_the_road(packed_of(vehicle), scenario)
     check_delays(packed, step_s)
     spec = scenario.spec
     n_steps = round((spec.end_s - spec.start_s) / step_s)

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -14,8 +12,9 @@ from truck_blowout_sim.physics.step import advance
 from truck_blowout_sim.simulation.ending import Ending, ending_of, rolled_over_rad
 from truck_blowout_sim.simulation.equilibrium import InitialState, initial_vector
 from truck_blowout_sim.simulation.inputs import Inputs, opening
+from truck_blowout_sim.simulation.limits import check_inputs, check_steps, checked_start
 from truck_blowout_sim.simulation.rates import check_delays, check_step
-from truck_blowout_sim.vehicle import Packed, Vehicle, pack
+from truck_blowout_sim.vehicle.given import AnyVehicle, packed_of
 
 Floats = NDArray[np.float64]
 
@@ -24,25 +23,24 @@ class Truck:
     """One truck in time.
 
     Args:
-        vehicle: a vehicle, or a vehicle already packed into parameters.
+        vehicle: a vehicle, a vehicle already packed into parameters, a path, or the name of a
+            shipped one.
         step_s: fixed step [s].
         initial: where and how fast it starts; settled there before time begins.
 
     Raises:
         InputError: a step that is none or too long, or too short for the delay of the brakes; a
-            throttle that is none.
+            start that no truck makes.
     """
 
-    def __init__(self, vehicle: Vehicle | Packed, *, step_s: float = 0.001,
+    def __init__(self, vehicle: AnyVehicle, *, step_s: float = 0.001,
                  initial: InitialState | None = None) -> None:
         check_step(step_s)
-        self.packed = vehicle if isinstance(vehicle, Packed) else pack(vehicle)
+        self.packed = packed_of(vehicle)
         check_delays(self.packed, step_s)
         self.vehicle = self.packed.vehicle
         self.step_s = step_s
-        begin = initial or InitialState()
-        inputs = begin.inputs._replace(throttle=opening(begin.inputs.throttle))
-        self.initial = replace(begin, inputs=inputs)
+        self.initial = checked_start(initial or InitialState(), self.packed)
         self.output_names = output_names(self.vehicle.units, self.vehicle.hubs, self.vehicle.tires)
         self._params = self.packed.params
         self._topology = self.packed.topology
@@ -74,10 +72,10 @@ class Truck:
         """Advance ``n_steps`` steps with ``inputs`` held.
 
         Raises:
-            InputError: a throttle that is none, or steps back in time.
+            InputError: inputs that are none, or steps back in time.
         """
-        if n_steps < 0:
-            raise InputError(f"n_steps is {n_steps}", expected="0 steps or more")
+        check_steps(n_steps)
+        check_inputs(inputs)
         self._inputs[:] = inputs
         self._inputs[INPUT.throttle] = opening(inputs.throttle)
         # the counter rules time, so that it never drifts from the step grid

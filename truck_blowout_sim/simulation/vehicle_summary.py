@@ -8,7 +8,8 @@ from math import degrees
 
 from truck_blowout_sim.errors import InputError, nearest, quoted
 from truck_blowout_sim.simulation.handling import Handling, handling
-from truck_blowout_sim.vehicle import Packed, Vehicle, pack
+from truck_blowout_sim.vehicle import Vehicle
+from truck_blowout_sim.vehicle.given import AnyVehicle, packed_of
 from truck_blowout_sim.vehicle.masses import unit_mass
 from truck_blowout_sim.vehicle.single_track import RULE
 from truck_blowout_sim.vehicle.statics import static_loads
@@ -79,7 +80,7 @@ class VehicleSummary:
                 yield f"  {one.key} = {one.value:.4g} +- {one.spread:.2g}  ({one.source})"
 
 
-def summarize_vehicle(vehicle: Vehicle | Packed, *, speed_mps: float = 20.0) -> VehicleSummary:
+def summarize_vehicle(vehicle: AnyVehicle, *, speed_mps: float = 20.0) -> VehicleSummary:
     """Weigh a vehicle and drive it through two gentle turns.
 
     Args:
@@ -89,7 +90,7 @@ def summarize_vehicle(vehicle: Vehicle | Packed, *, speed_mps: float = 20.0) -> 
     Raises:
         InputError: the vehicle does not settle in a gentle turn.
     """
-    packed = vehicle if isinstance(vehicle, Packed) else pack(vehicle)
+    packed = packed_of(vehicle)
     truck = packed.vehicle
     gravity = truck.road.gravity_mps2
     loads = static_loads(truck, gravity)
