@@ -250,3 +250,31 @@ def test_runs_are_not_held_in_memory(short: Path, monkeypatch: pytest.MonkeyPatc
     next(rows)
     assert len(begun) < 40
     rows.close()  # type: ignore[attr-defined]
+
+
+def test_what_varies_may_put_the_scenario_right(tmp_path: Path, short: Path) -> None:
+    """The scenario bursts a tire that this car has not; each run bursts one it has, or none."""
+    batch = simulate_batch("bmw_320i", short, [{"blowouts.failure.tires": tires}
+                                               for tires in ("front_left", "none", "steer_left")])
+    assert batch.column("status") == ["ok", "ok", "failed"]
+    assert "steer_left" in batch.column("reason")[2]
+    with pytest.raises(InputError, match="steer_left"):
+        Study("bmw_320i", short, ["vehicle.steering.ratio"])
+
+
+def test_a_star_stands_for_the_names_of_the_vehicle_that_runs(short: Path) -> None:
+    study = Study(TRUCK, short, ["tires.*.friction_scale", "vehicle", "blowouts.failure.tires"])
+    values = {"tires.*.friction_scale": "0.5x", "blowouts.failure.tires": "none"}
+    for vehicle in ("rigid_truck", "bmw_320i", TRUCK):
+        packed, _, _ = study.prepared({**values, "vehicle": vehicle})
+        plain = pack(load_vehicle(vehicle))
+        for tire in plain.names.tires:
+            name = f"tire.{tire}.friction_scale"
+            assert packed[name] == pytest.approx(0.5 * plain[name])
+
+
+def test_a_star_that_stands_for_nothing_fails_the_run(short: Path) -> None:
+    batch = simulate_batch(TRUCK, short, [{"units.trailer.payload.*.mass_kg": "0.5x",
+                                           "vehicle": "rigid_truck"}])
+    assert batch.column("status") == ["failed"]
+    assert "this vehicle has no such key" in batch.column("reason")[0]

@@ -86,12 +86,9 @@ def prepare(vehicle: AnyVehicle, scenario: Scenario, *, step_s: float = 0.001,
     packed = _on_the_road(packed_of(vehicle), scenario)
     check_delays(packed, step_s)
     spec = scenario.spec
-    n_steps = round((spec.end_s - spec.start_s) / step_s)
-    if n_steps < 1:
-        raise InputError(f"end_s: lasts {spec.end_s - spec.start_s:g} s", file=scenario.path,
-                         expected=f"{step_s:g} s or more, one step of the simulation")
+    n_steps = _count_steps(scenario, step_s)
     times = spec.start_s + step_s * np.arange(n_steps, dtype=np.float64)
-    every = max(round(1.0 / rate_hz / step_s), 1)
+    every = _steps_a_row(step_s, rate_hz)
     blowouts = scenario.blowouts_of(packed.vehicle)
     base = None
     if spec.recording:
@@ -111,6 +108,32 @@ def prepare(vehicle: AnyVehicle, scenario: Scenario, *, step_s: float = 0.001,
     drive = Drive(initial, step_s, every, inputs, speed, events.steps, events.tires, pilot, path,
                   watch=events.watch, blow_watch=events.conditions, blow_delays=events.delays)
     return packed, drive, blowouts
+
+
+def row_times(scenario: Scenario, step_s: float, rate_hz: float) -> NDArray[np.float64]:
+    """Times of the rows that a run of a scenario has, as far as it comes.
+
+    Raises:
+        InputError: an impossible step or rate.
+    """
+    check_rates(step_s, rate_hz)
+    every = _steps_a_row(step_s, rate_hz)
+    rows = _count_steps(scenario, step_s) // every + 1
+    return scenario.spec.start_s + every * step_s * np.arange(rows, dtype=np.float64)
+
+
+def _count_steps(scenario: Scenario, step_s: float) -> int:
+    """Steps from its start to its end; at least one."""
+    spec = scenario.spec
+    n_steps = round((spec.end_s - spec.start_s) / step_s)
+    if n_steps < 1:
+        raise InputError(f"end_s: lasts {spec.end_s - spec.start_s:g} s", file=scenario.path,
+                         expected=f"{step_s:g} s or more, one step of the simulation")
+    return n_steps
+
+
+def _steps_a_row(step_s: float, rate_hz: float) -> int:
+    return max(round(1.0 / rate_hz / step_s), 1)
 
 
 def _on_the_road(packed: Packed, scenario: Scenario) -> Packed:

@@ -20,7 +20,7 @@ from truck_blowout_sim.simulation.abreast import execute_abreast, settle_all
 from truck_blowout_sim.simulation.drive import Drive, Ran, names_of
 from truck_blowout_sim.simulation.measures import Measures, measure
 from truck_blowout_sim.simulation.plausible import diverged, implausible
-from truck_blowout_sim.simulation.run import prepare
+from truck_blowout_sim.simulation.run import prepare, row_times
 from truck_blowout_sim.simulation.scenario import Scenario, scenario_of
 from truck_blowout_sim.simulation.studies.design import Value
 from truck_blowout_sim.simulation.studies.keys import (
@@ -98,8 +98,13 @@ class Study:
         self.found: dict[str, Key] = {
             key: find_key(key, self._scenario_tree, tree, packed) for key in self.keys}
         scenario = scenario_of(self._scenario_tree, self._scenario_path)
-        _, drive, _ = prepare(packed, scenario, step_s=self.step_s, rate_hz=self.rate_hz)
-        self.times_s = drive.times_s
+        self.times_s = row_times(scenario, self.step_s, self.rate_hz)
+        try:
+            prepare(packed, scenario, step_s=self.step_s, rate_hz=self.rate_hz)
+        except InputError:
+            # what varies may put it right: then each run says for itself whether it can be
+            if not any(key.where in (SCENARIO, FILE) for key in self.found.values()):
+                raise
         known = (*INPUT_NAMES, *names_of(packed.vehicle))
         for channel in self.channels:
             if channel not in known:
@@ -189,7 +194,7 @@ class Study:
         tree = read_document(path, "vehicles")
         for key, value in own:
             if self.found[key].where == VEHICLE:
-                tree = self.found[key].put(tree, value)
+                tree = self.found[key].within(tree).put(tree, value)
         packed = pack(vehicle_of(tree, path))
         self._keep(self._trucks, own, packed, _KEPT_TRUCKS)
         return packed

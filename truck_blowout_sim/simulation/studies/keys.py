@@ -52,6 +52,20 @@ class Key:
     factor: float = 1.0
     numeric: bool = True
 
+    def within(self, tree: Branch) -> Key:
+        """The same key in another vehicle's file, in which its ``*`` may stand for other names.
+
+        Raises:
+            InputError: the ``*`` stands for nothing there.
+        """
+        if not set(self.text) & set("*?["):
+            return self
+        match = _match(tree, VehicleSpec, tuple(self.text.removeprefix("vehicle.").split(".")))
+        if match is None:
+            raise InputError(f"--vary {quoted(self.text)}: this vehicle has no such key",
+                             file=tree.place.file, expected="names that all its vehicles have")
+        return Key(self.text, self.where, *match)
+
     def put(self, tree: Branch, value: float | str) -> Branch:
         """A copy of its document with a value in its places; ``"1.5x"`` scales what is there.
 
