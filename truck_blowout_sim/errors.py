@@ -54,20 +54,23 @@ class StorageError(OSError):
     """A file could not be written (disk full, no permission); what was written stays readable.
 
     Args:
-        problem: the operating system's words, and what was saved.
+        problem: the operating system's words.
         file: the file being written.
         number: the ``errno`` behind it.
+        saved: what of the file is kept; empty where that is not said, or nothing is.
     """
 
-    def __init__(self, problem: str, *, file: str | Path, number: int = errno.EIO) -> None:
+    def __init__(self, problem: str, *, file: str | Path, number: int = errno.EIO,
+                 saved: str = "") -> None:
         self.problem = _one_line(problem)
+        self.saved = _one_line(saved)
         super().__init__(number, self.problem, _one_line(str(file)))
 
     def __str__(self) -> str:
-        return f"{self.filename}: {self.problem}"
+        return f"{self.filename}: {'; '.join(filter(None, (self.problem, self.saved)))}"
 
     def __reduce__(self) -> tuple[object, ...]:
-        return _rebuild_storage_error, (self.problem, self.filename, self.errno)
+        return _rebuild_storage_error, (self.problem, self.filename, self.errno, self.saved)
 
 
 def quoted(value: object) -> str:
@@ -123,8 +126,8 @@ def _rebuild_input_error(problem: str, file: str, where: str, expected: str) -> 
     return InputError(problem, file=file or None, where=where, expected=expected)
 
 
-def _rebuild_storage_error(problem: str, file: str, number: int) -> StorageError:
-    return StorageError(problem, file=file, number=number)
+def _rebuild_storage_error(problem: str, file: str, number: int, saved: str) -> StorageError:
+    return StorageError(problem, file=file, number=number, saved=saved)
 
 
 def _one_line(text: str) -> str:

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import errno
 import os
+import pickle
 import signal
 import subprocess
 import sys
@@ -18,6 +20,8 @@ from rosbags.rosbag2 import Reader
 
 from truck_blowout_sim.errors import InputError, StorageError
 from truck_blowout_sim.recordings import BagWriter, channels_for, read_recording
+from truck_blowout_sim.recordings.atomic import replacing
+from truck_blowout_sim.recordings.mcap_file import storage_error
 from truck_blowout_sim.recordings.mcap_scan import scan
 from truck_blowout_sim.recordings.recover import recover
 
@@ -268,3 +272,11 @@ def test_five_seconds_of_all_topics_at_100_hz_are_all_written(tmp_path: Path) ->
             stream.write(0.01 * i, values)
         writer.flush()
         assert writer.state.messages == 500 * len(stream.topics)
+
+
+def test_a_bag_that_goes_with_its_error_claims_no_messages(tmp_path: Path) -> None:
+    with pytest.raises(StorageError) as caught, replacing(tmp_path / "bag") as temporary:
+        raise storage_error(temporary, OSError(errno.ENOSPC, "No space left"), "9 messages saved")
+    assert str(caught.value) == f"{tmp_path / 'bag'}: cannot write: No space left"
+    kept = storage_error(tmp_path / "bag", OSError(errno.ENOSPC, "No space left"), "9 messages")
+    assert str(pickle.loads(pickle.dumps(kept))).endswith("cannot write: No space left; 9 messages")

@@ -1,6 +1,8 @@
 from __future__ import annotations
 
+import errno
 import json
+import os
 from dataclasses import replace
 from pathlib import Path
 
@@ -8,6 +10,7 @@ import numpy as np
 import pytest
 
 from truck_blowout_sim.comparison import Comparison, compare, compare_recordings, verdict
+from truck_blowout_sim.errors import StorageError
 from truck_blowout_sim.recordings import INPUT_NAMES, Recording, Series
 from truck_blowout_sim.report.comparison_figures import comparison_pictures
 from truck_blowout_sim.report.comparison_page import comparison_page, write_comparison_report
@@ -139,3 +142,19 @@ def test_the_page_says_why_the_speed_is_imposed(compared: Comparison) -> None:
                       for one in (bare, whole))
     assert "because throttle or brake pressures were not recorded" in missing
     assert "the recorded speed is imposed, as asked" in asked
+
+
+def test_a_report_that_does_not_fit_on_the_disk_leaves_nothing(
+    compared: Comparison, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def full(path: Path, *_: object, **__: object) -> int:
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC), str(path))
+
+    (tmp_path / "old").mkdir()
+    (tmp_path / "old" / "report.html").write_text("before", encoding="utf-8")
+    monkeypatch.setattr(Path, "write_text", full)
+    for name in ("new", "old"):
+        with pytest.raises(StorageError, match=f"{name}: cannot write: No space left"):
+            write_comparison_report(compared, tmp_path / name)
+    assert [path.relative_to(tmp_path).as_posix() for path in sorted(tmp_path.rglob("*"))] == [
+        "old", "old/report.html"]

@@ -27,12 +27,43 @@ def replacing(path: Path) -> Iterator[Path]:
         yield temporary
         _swap(temporary, path)
     except StorageError as error:
+        # what the error says is saved goes with the temporary
         raise StorageError(error.problem, file=path, number=error.errno or 5) from error
     except OSError as error:
         words = f"cannot write: {error.strerror or error}"
         raise StorageError(words, file=path, number=error.errno or 5) from error
     finally:
         _remove(temporary)
+
+
+@contextlib.contextmanager
+def replacing_all(folder: Path) -> Iterator[Path]:
+    """Give a temporary folder; move its files into the wanted one if the body succeeds.
+
+    Files replace older ones of their names; others in the folder stay. If the body fails, nothing
+    has changed.
+
+    Raises:
+        StorageError: the operating system refuses.
+    """
+    there, temporary = folder.exists(), folder / f".{os.getpid()}.part"
+    try:
+        temporary.mkdir(parents=True, exist_ok=True)
+        yield temporary
+        for path in sorted(p for p in temporary.rglob("*") if p.is_file()):
+            wanted = folder / path.relative_to(temporary)
+            wanted.parent.mkdir(parents=True, exist_ok=True)
+            os.replace(path, wanted)
+    except StorageError as error:
+        raise StorageError(error.problem, file=folder, number=error.errno or 5) from error
+    except OSError as error:
+        words = f"cannot write: {error.strerror or error}"
+        raise StorageError(words, file=folder, number=error.errno or 5) from error
+    finally:
+        _remove(temporary)
+        if not there:
+            with contextlib.suppress(OSError):  # not empty: the files are in place
+                folder.rmdir()
 
 
 def _swap(temporary: Path, path: Path) -> None:

@@ -226,4 +226,4 @@ def storage_error(path: Path, error: OSError, saved: str) -> StorageError:
     if isinstance(error, StorageError):
         return error
     words = error.strerror or str(error)
-    return StorageError(f"cannot write: {words}; {saved}", file=path, number=error.errno or 5)
+    return StorageError(f"cannot write: {words}", file=path, number=error.errno or 5, saved=saved)

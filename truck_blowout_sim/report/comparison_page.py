@@ -16,6 +16,7 @@ from truck_blowout_sim.comparison import (
     write_comparison,
 )
 from truck_blowout_sim.comparison.provenance import MARKS, Marks
+from truck_blowout_sim.recordings.atomic import replacing_all
 from truck_blowout_sim.report.comparison_figures import comparison_pictures
 from truck_blowout_sim.report.page import render, write_pictures, write_text
 from truck_blowout_sim.report.style import Picture
@@ -33,12 +34,13 @@ def write_comparison_report(comparison: Comparison, folder: Path) -> Path:
         The page, ``report.html``; beside it ``comparison.json`` and ``figures/``.
 
     Raises:
-        StorageError: a file cannot be written.
+        StorageError: a file cannot be written; then none is.
     """
     pictures = comparison_pictures(comparison)
-    write_pictures(pictures, folder / FIGURES)
-    write_comparison(comparison, folder / DATA)
-    write_text(comparison_page(comparison, pictures), folder / PAGE)
+    with replacing_all(folder) as temporary:
+        write_pictures(pictures, temporary / FIGURES)
+        write_comparison(comparison, temporary / DATA)
+        write_text(comparison_page(comparison, pictures), temporary / PAGE)
     return folder / PAGE
 
 

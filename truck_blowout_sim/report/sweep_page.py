@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from truck_blowout_sim.recordings.atomic import replacing_all
 from truck_blowout_sim.report.page import render, write_pictures, write_text
 from truck_blowout_sim.report.style import Picture
 from truck_blowout_sim.report.sweep_figures import outcome_picture, pair_picture, share_picture
@@ -145,17 +146,19 @@ def write_sweep_report(batch: Batch, keys: Sequence[str], title: str, command: s
         title: of the scenario; ``command``: that repeats the sweep.
 
     Raises:
-        StorageError: a file cannot be written.
+        StorageError: a file cannot be written; then none is.
     """
     found = findings(batch, keys)
     drawn = pictures(found)
-    write_pictures(drawn, folder / FIGURES)
-    write_text(render("sweep.html", {
+    page = render("sweep.html", {
         "title": title, "headline": headline(found), "sentences": sentences(found),
         "command": command, "pictures": drawn, "keys": keys, "worst": _worst(batch, keys),
         "reasons": found.reasons,
         "columns": [f"{o.title} ({o.unit})" for o in OUTCOMES if not o.rate],
-    }), folder / PAGE)
+    })
+    with replacing_all(folder) as temporary:
+        write_pictures(drawn, temporary / FIGURES)
+        write_text(page, temporary / PAGE)
     return folder / PAGE, found
 
 
