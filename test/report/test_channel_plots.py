@@ -115,3 +115,16 @@ def test_names_of_runs_stand_in_the_legend_as_they_are() -> None:
     assert [one.get_text().strip() for one in words] == list(names)
     assert not any(one.get_parse_math() for one in words)
     assert picture.png()[:4] == b"\x89PNG"
+
+
+@pytest.mark.parametrize(("span", "said"), [
+    (["--start", "100"], "--start 100"), (["--end", "-5"], "--end -5"),
+])
+def test_a_time_outside_of_every_run_is_refused_with_the_times(
+    span: list[str], said: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    write_recording(RUN, tmp_path / "run.csv")
+    assert main(["plot", str(tmp_path / "run.csv"), *span, "-o", str(tmp_path / "out")]) == 2
+    line = capsys.readouterr().err.splitlines()[-1]
+    assert f"{said}: no run has anything there; expected times in 0 to 4 s" in line
+    assert not (tmp_path / "out").exists()

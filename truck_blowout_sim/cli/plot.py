@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import fnmatch
 from collections.abc import Sequence
+from math import inf
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -81,6 +82,7 @@ def command(
         return
     from truck_blowout_sim.report.channel_plots import PlotRequest, channel_plot
 
+    _check_overlap(recordings, start_s, end_s)
     panels = _panels(channels, recordings)
     if over != "time_s":
         _known(over, recordings)
@@ -111,6 +113,17 @@ def save_pictures(pictures: Sequence[Picture], folder: Path, forms: Sequence[str
                     temporary.write_bytes(picture.saved(form, dark=dark))
                 paths.append(path)
     return paths
+
+
+def _check_overlap(runs: Sequence[Recording], start_s: float | None, end_s: float | None) -> None:
+    """Refuse a part of the time in which no run has anything to show."""
+    start, end = -inf if start_s is None else start_s, inf if end_s is None else end_s
+    if any(run.start_s <= end and run.end_s >= start for run in runs):
+        return
+    asked = [f"{option} {value:g}" for option, value in (("--start", start_s), ("--end", end_s))
+             if value is not None]
+    times = ", ".join(f"{run.start_s:g} to {run.end_s:g} s ({run.name})" for run in runs)
+    raise InputError(f"{' '.join(asked)}: no run has anything there", expected=f"times in {times}")
 
 
 def _panels(words: Sequence[str], runs: Sequence[Recording]) -> tuple[tuple[str, ...], ...]:
