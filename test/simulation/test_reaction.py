@@ -158,3 +158,15 @@ def test_a_wrong_event_or_reaction_is_one_line(
     refusal: Callable[[str], str], text: str, line: str
 ) -> None:
     assert line in refusal(LANE + text)
+
+
+@pytest.mark.parametrize(("speed_mph", "said"), [(200, True), (10, False)])
+def test_a_blowout_whose_condition_was_never_met_is_told(
+    tmp_path: Path, truck: Packed, speed_mph: int, said: bool
+) -> None:
+    path = tmp_path / "waits.yaml"
+    path.write_text("title: a burst that waits\nend_s: 1\nstart: {speed_mph: 40}\nhold: {}\n"
+                    f"blowouts: {{failure: {{when: {{speed_above_mph: {speed_mph}}}, "
+                    "tires: steer_left}}\n", encoding="utf-8")
+    notes = simulate(truck, load_scenario(path)).notes
+    assert ("blowout failure did not occur: its condition was not met in time" in notes) is said

@@ -195,3 +195,12 @@ def test_a_vehicle_may_be_given_by_its_name(truck: Packed) -> None:
     assert np.array_equal(by_name["tractor_x_m"].value, packed["tractor_x_m"].value)
     with pytest.raises(InputError, match="no_such_truck"):
         Truck("no_such_truck")
+
+
+def test_a_truck_that_stands_has_no_negative_speed() -> None:
+    time_s = np.linspace(0.0, 1.0, 11)
+    names = ("tractor_vx_mps", "tractor_vy_mps", "tractor_x_m", "tractor_y_m", "tractor_yaw_rad",
+             "tractor_yaw_rate_radps")
+    values = dict.fromkeys(names, 0.0) | {"tractor_vx_mps": -0.001}
+    run = Recording("stands", {n: Series(time_s, v + 0.0 * time_s) for n, v in values.items()})
+    assert summarize(run).startswith("0.0 to 0.0 mph")

@@ -55,8 +55,11 @@ def recorded(packed: Packed, drive: Drive, ran: Ran, blowouts: tuple[Blowout, ..
              scenario: Scenario) -> Recording:
     """The recording of what `prepare` gave for a scenario and `execute` ran; see `simulate`."""
     metadata = {"scenario": scenario.name, "title": scenario.title}
-    return as_recording(scenario.name, packed, drive, ran, burst(packed, drive, ran, blowouts),
+    made = as_recording(scenario.name, packed, drive, ran, burst(packed, drive, ran, blowouts),
                         metadata)
+    absent = tuple(f"blowout {name} did not occur: its condition was not met in time"
+                   for name in _never_met(packed, drive, ran, scenario))
+    return replace(made, notes=made.notes + absent)
 
 
 def burst(packed: Packed, drive: Drive, ran: Ran, timed: tuple[Blowout, ...]
@@ -71,6 +74,19 @@ def burst(packed: Packed, drive: Drive, ran: Ran, timed: tuple[Blowout, ...]
            for step, tires in waited.items() if step < n]
     last = ran.ending.time_s if ran.ending else math.inf
     return tuple(sorted((e for e in (*timed, *met) if e.time_s <= last), key=lambda e: e.time_s))
+
+
+def _never_met(packed: Packed, drive: Drive, ran: Ran, scenario: Scenario) -> list[str]:
+    """Blowouts that waited for a condition until the run was over."""
+    waiting = [name for name, event in scenario.spec.blowouts.items() if event.when is not None]
+    if not waiting or drive.blow_watch is None:
+        return []
+    last_s = ran.ending.time_s if ran.ending else math.inf
+    in_time = (ran.blow_steps >= 0) & (ran.blow_steps < len(drive.inputs)) & (
+        drive.initial.time_s + ran.blow_steps * drive.step_s <= last_s)
+    came = set(drive.blow_watch[(drive.blow_steps < 0) & in_time].tolist())
+    return [name for number, name in enumerate(waiting)
+            if number not in came and scenario.tires_of(name, packed.vehicle)]
 
 
 def prepare(vehicle: AnyVehicle, scenario: Scenario, *, step_s: float = 0.001,

@@ -46,7 +46,7 @@ def _speed(recording: Recording, units: _Units) -> str:
     forward, lateral = recording["tractor_vx_mps"], recording["tractor_vy_mps"]
     speed = whole_speed(forward.value, lateral.value)
     first, last = speed[0], speed[-1]
-    start = f"{first / units.speed_mps:.1f}"
+    start = _tenths(first / units.speed_mps)
     standing = np.flatnonzero(np.abs(speed) < STANDING_MPS)
     if first > _MOVING_MPS and standing.size:
         stop = int(standing[0])
@@ -54,8 +54,12 @@ def _speed(recording: Recording, units: _Units) -> str:
         return (f"{start} {units.speed} to standstill in {way:.0f} {units.length}"
                 f" at {forward.time_s[stop]:.1f} s")
     way = _travelled(recording)[-1] / units.length_m
-    return (f"{start} to {last / units.speed_mps:.1f} {units.speed}"
+    return (f"{start} to {_tenths(last / units.speed_mps)} {units.speed}"
             f" over {way:.0f} {units.length}")
+
+
+def _tenths(value: float) -> str:
+    return f"{round(float(value), 1) + 0.0:.1f}"  # no "-0.0" of a truck that stands
 
 
 def _travelled(recording: Recording) -> NDArray[np.float64]:
