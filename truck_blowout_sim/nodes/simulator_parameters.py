@@ -12,6 +12,7 @@ from truck_blowout_sim.nodes.outputs import GROUPS
 from truck_blowout_sim.nodes.parameters import Spec
 from truck_blowout_sim.recordings import Blowout
 from truck_blowout_sim.recordings.blowout_words import parse_blowouts
+from truck_blowout_sim.recordings.channels import by_name, channels_for
 from truck_blowout_sim.simulation import InitialState
 from truck_blowout_sim.simulation.flat import Flat, flat_at
 from truck_blowout_sim.simulation.plausible import MOST_BRAKE_PA
@@ -28,6 +29,7 @@ _COMMANDS = {
     "brake_pressure_drive_pa": ("brake_pressure/drive", "Pa", 0.0, 0.0),
     "brake_pressure_trailer_pa": ("brake_pressure/trailer", "Pa", 0.0, 0.0),
 }
+_ROWS = by_name(channels_for())
 # What is taken as control pressure where `max` is left at 0.
 _MOST_PA = {"air": 1.0e6, "hydraulic": MOST_BRAKE_PA["hydraulic"]}
 
@@ -86,11 +88,12 @@ _RATES = tuple(
 
 def _input_specs(name: str) -> tuple[Spec, ...]:
     topic, unit, low, high = _COMMANDS[name]
+    ends = _ROWS[name].lowest, _ROWS[name].highest  # beyond these the truck takes no input
     by_brakes = "" if high else "; 0: by the vehicle's brakes"
     return (
-        Spec(f"inputs.{name}.min", low, f"Smallest value taken on `{topic}`.", unit, live=False),
+        Spec(f"inputs.{name}.min", low, f"Smallest value taken on `{topic}`.", unit, *ends),
         Spec(f"inputs.{name}.max", high, f"Largest value taken on `{topic}`{by_brakes}.", unit,
-             live=False),
+             *ends),
         Spec(f"inputs.{name}.safe_value", 0.0, f"What applies before the first message on `{topic}`"
              " and after its timeout.", unit, low, high or _MOST_PA["hydraulic"], True),
         Spec(f"inputs.{name}.timeout_s", -1.0, "Timeout of this input alone; -1: as"
