@@ -303,9 +303,9 @@ def _notes(sheet: Sequence[Nuisance], amounts: Floats, share: float) -> tuple[st
     """What a user must know of the result."""
     notes = []
     if share == 0.0:
-        notes.append("nothing was calibrated, the sheet was kept: moved to where linear "
-                     f"sensitivities point, or {_SHARES[-1]:.0%} of the way, its numbers predict "
-                     "these runs worse")
+        tried = " or ".join(f"{one:.0%}" for one in _SHARES)
+        notes.append(f"nothing was calibrated, the sheet was kept: moved {tried} of the way to "
+                     "where linear sensitivities point, its numbers predict these runs worse")
     elif share < 1.0:
         notes.append(f"the numbers were moved {share:.0%} of the way to where linear sensitivities "
                      "point: further on, these runs are predicted worse")
