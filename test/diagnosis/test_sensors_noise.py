@@ -132,3 +132,12 @@ def test_errors_of_computed_channels_are_told_in_a_good_instruments_noise() -> N
     assert told["brake_chamber_steer_left_pa"].sigma == 500.0
     assert told["tire_fz_steer_left_n"].sigma == 24.0
     assert told["hub_speed_steer_left_radps"] == noise["hub_speed_steer_left_radps"]
+
+
+def test_a_measured_record_keeps_the_noise_of_a_channel_at_rest() -> None:
+    time_s = np.arange(500) / 100.0
+    noisy = np.random.default_rng(3).normal(20.0, 0.01, time_s.size)
+    recording = Recording("measured", {"tractor_vx_mps": Series(time_s, noisy),
+                                       "brake_chamber_steer_left_pa": Series(time_s, 0.0 * time_s)})
+    noise = channel_noise(recording)
+    assert told_noise(recording, noise) == noise

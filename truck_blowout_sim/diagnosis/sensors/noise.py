@@ -118,10 +118,14 @@ def believable(noise: Mapping[str, Noise]) -> Mapping[str, Noise]:
 
 
 def told_noise(recording: Recording, noise: Mapping[str, Noise]) -> Mapping[str, Noise]:
-    """The same noise to tell errors in, that of any computed channel as a good instrument's.
+    """The noise to tell errors in: :func:`believable`, in a computed record that of all channels.
 
-    Unlike :func:`believable` also of forces, pressures and wheels, which no identity is made of.
+    Forces, pressures and wheels are in no identity. A record is computed if most motions are.
     """
+    motions = {name: body_sigma(name) for name in noise if body_sigma(name) > 0.0}
+    real = sum(noise[name].sigma > _COMPUTED * usual for name, usual in motions.items())
+    if 2 * real > len(motions):
+        return believable(noise)
     return {name: _believed(one, good_sigma(name, recording[name].value))
             for name, one in noise.items()}
 
