@@ -50,12 +50,16 @@ class BlowoutAnnouncer:
         self._recorder.write(self.topic, STRING, self._now_ns(), data)
         self._tell(blown)
 
-    def restart(self) -> None:
-        """All tires are whole again."""
+    def restart(self, blown: Sequence[str]) -> None:
+        """All tires are whole again but those that begin flat."""
         if self._spare is not None:
             self._node.destroy_publisher(self._events)
             self._events, self._spare = self._spare, None
-        self._tell(())
+        self._tell(blown)
+
+    def record_earlier(self, tire: str, blown_ns: int) -> None:
+        """Write an event from before a bag began, at its instant: stamps begin at zero."""
+        self._recorder.write(self.topic, STRING, max(blown_ns, 0), template(STRING, data=tire))
 
     def record(self, blown: Sequence[str]) -> None:
         """Write the state to a bag that has just begun."""

@@ -128,6 +128,8 @@ class OutputTopics:
         self._write(CLOCK, now_ns, clock_bytes(now_ns))
         self._write(TF, now_ns, self._scene.frames(now_ns, outputs, display))
         self._write(TIRE_FORCES, now_ns, self._arrows(now_ns, outputs))
+        for tire, blown_ns in self._plant.blown_ns.items():
+            self._blowouts.record_earlier(tire, blown_ns)
         self._blowouts.record(tuple(self._plant.blown_ns))
 
     def announce_blowout(self, tire: str) -> None:
@@ -137,7 +139,7 @@ class OutputTopics:
     def restart(self) -> None:
         """The truck was put back: no rates across that gap, and no tire is blown."""
         self._last_ns = None
-        self._blowouts.restart()
+        self._blowouts.restart(tuple(self._plant.blown_ns))
 
     def _display(self, now_ns: int, outputs: FloatArray) -> FloatArray:
         elapsed_s = (now_ns - self._last_ns) / NS if self._last_ns is not None else 0.0
