@@ -23,15 +23,10 @@ def replacing(path: Path) -> Iterator[Path]:
     """
     temporary = path.with_name(f".{path.stem}.{os.getpid()}.part{path.suffix}")
     try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        yield temporary
-        _swap(temporary, path)
-    except StorageError as error:
-        # what the error says is saved goes with the temporary
-        raise StorageError(error.problem, file=path, number=error.errno or 5) from error
-    except OSError as error:
-        words = f"cannot write: {error.strerror or error}"
-        raise StorageError(words, file=path, number=error.errno or 5) from error
+        with _told_of(path):
+            path.parent.mkdir(parents=True, exist_ok=True)
+            yield temporary
+            _swap(temporary, path)
     finally:
         _remove(temporary)
 
@@ -48,22 +43,31 @@ def replacing_all(folder: Path) -> Iterator[Path]:
     """
     there, temporary = folder.exists(), folder / f".{os.getpid()}.part"
     try:
-        temporary.mkdir(parents=True, exist_ok=True)
-        yield temporary
-        for path in sorted(p for p in temporary.rglob("*") if p.is_file()):
-            wanted = folder / path.relative_to(temporary)
-            wanted.parent.mkdir(parents=True, exist_ok=True)
-            os.replace(path, wanted)
-    except StorageError as error:
-        raise StorageError(error.problem, file=folder, number=error.errno or 5) from error
-    except OSError as error:
-        words = f"cannot write: {error.strerror or error}"
-        raise StorageError(words, file=folder, number=error.errno or 5) from error
+        with _told_of(folder):
+            temporary.mkdir(parents=True, exist_ok=True)
+            yield temporary
+            for path in sorted(p for p in temporary.rglob("*") if p.is_file()):
+                wanted = folder / path.relative_to(temporary)
+                wanted.parent.mkdir(parents=True, exist_ok=True)
+                os.replace(path, wanted)
     finally:
         _remove(temporary)
         if not there:
             with contextlib.suppress(OSError):  # not empty: the files are in place
                 folder.rmdir()
+
+
+@contextlib.contextmanager
+def _told_of(path: Path) -> Iterator[None]:
+    """Name the wanted path where the operating system refuses."""
+    try:
+        yield
+    except StorageError as error:
+        # what the error says is saved goes with the temporary
+        raise StorageError(error.problem, file=path, number=error.errno or 5) from error
+    except OSError as error:
+        words = f"cannot write: {error.strerror or error}"
+        raise StorageError(words, file=path, number=error.errno or 5) from error
 
 
 def _swap(temporary: Path, path: Path) -> None:

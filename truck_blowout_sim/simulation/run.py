@@ -66,14 +66,13 @@ def burst(packed: Packed, drive: Drive, ran: Ran, timed: tuple[Blowout, ...]
           ) -> tuple[Blowout, ...]:
     """What really burst: at its time, or when its condition was met, before the run ended."""
     waited: dict[int, list[str]] = {}
-    for b in np.flatnonzero((drive.blow_steps < 0) & (ran.blow_steps >= 0)):
+    for b in _met(drive, ran):
         tire = packed.names.tires[drive.blown[b]]
         waited.setdefault(int(ran.blow_steps[b]), []).append(tire)
-    start, n = drive.initial.time_s, len(drive.inputs)
-    met = [Blowout(start + step * drive.step_s, tuple(tires))
-           for step, tires in waited.items() if step < n]
-    last = ran.ending.time_s if ran.ending else math.inf
-    return tuple(sorted((e for e in (*timed, *met) if e.time_s <= last), key=lambda e: e.time_s))
+    met = [Blowout(drive.initial.time_s + step * drive.step_s, tuple(tires))
+           for step, tires in waited.items()]
+    on_time = [e for e in timed if e.time_s <= _last_s(ran)]
+    return tuple(sorted((*on_time, *met), key=lambda e: e.time_s))
 
 
 def _never_met(packed: Packed, drive: Drive, ran: Ran, scenario: Scenario) -> list[str]:
@@ -81,12 +80,22 @@ def _never_met(packed: Packed, drive: Drive, ran: Ran, scenario: Scenario) -> li
     waiting = [name for name, event in scenario.spec.blowouts.items() if event.when is not None]
     if not waiting or drive.blow_watch is None:
         return []
-    last_s = ran.ending.time_s if ran.ending else math.inf
-    in_time = (ran.blow_steps >= 0) & (ran.blow_steps < len(drive.inputs)) & (
-        drive.initial.time_s + ran.blow_steps * drive.step_s <= last_s)
-    came = set(drive.blow_watch[(drive.blow_steps < 0) & in_time].tolist())
+    came = set(drive.blow_watch[_met(drive, ran)].tolist())
     return [name for number, name in enumerate(waiting)
             if number not in came and scenario.tires_of(name, packed.vehicle)]
+
+
+def _met(drive: Drive, ran: Ran) -> NDArray[np.int64]:
+    """Numbers of the blowouts whose condition was met before the run ended."""
+    step = ran.blow_steps
+    in_time = (step < len(drive.inputs)) & (
+        drive.initial.time_s + step * drive.step_s <= _last_s(ran))
+    return np.flatnonzero((drive.blow_steps < 0) & (step >= 0) & in_time)
+
+
+def _last_s(ran: Ran) -> float:
+    """When a run ended early; never, if it did not."""
+    return ran.ending.time_s if ran.ending else math.inf
 
 
 def prepare(vehicle: AnyVehicle, scenario: Scenario, *, step_s: float = 0.001,

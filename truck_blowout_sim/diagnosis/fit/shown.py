@@ -27,7 +27,7 @@ _SHARES: Floats = np.array([0.0, 0.5, 0.9])  # of tau^2 that runs have in common
 SCATTERS: Floats = np.repeat(_SIZES, _SHARES.size)
 _SHARED: Floats = np.tile(_SHARES, _SIZES.size)
 _ANEW = 0.25  # of the variance of single trucks: of wear, warmth and load, which change by the day
-_WRONG_SHEETS = 0.1  # of the numbers: see `Question.strays`
+_WRONG_SHEETS = 0.1  # of the numbers: see `Shown.strays`
 _DIM = 1e-4  # of what the clearest training run shows of an effect: less is nothing
 
 
