@@ -20,7 +20,7 @@ from proving_ground.sheet import PSI_PA, static_loads
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
 ROAD_STEP_M = 0.1
-DELAY_STEPS = 600
+DELAY_STEPS = 1400  # 1.17 s: a sound brake's delay and the latest that any case conceals
 
 
 class Views(NamedTuple):
