@@ -19,6 +19,7 @@ from truck_blowout_sim.diagnosis.sensors.geometry import stated_geometry, vehicl
 from truck_blowout_sim.diagnosis.sensors.reading import Reading
 from truck_blowout_sim.diagnosis.sensors.signals import read_signals
 from truck_blowout_sim.recordings import Recording, Series
+from truck_blowout_sim.recordings.gravity import gravity_felt, gravity_is_removed
 from truck_blowout_sim.vehicle import load_vehicle
 
 RUN = make_run(20, 15.0)
@@ -74,6 +75,34 @@ def test_sound_baseline_runs_do_not_hide_it(change: Callable[[Recording], Record
 
 def test_gravity_that_is_said_to_be_removed_and_is_not() -> None:
     assert [name for name, _ in names(gravity(RUN))] == ["gravity_convention"]
+
+
+def without_gravity(unit: str, *stems: str) -> Callable[[Recording], Recording]:
+    """Some accelerations of a unit without gravity, which the log goes on calling strapdown."""
+    return lambda r: r.with_channels({f"{unit}_{s}": Series(
+        r[f"{unit}_{s}"].time_s, r[f"{unit}_{s}"].value - gravity_felt(
+            s, r[f"{unit}_roll_rad"].value, r[f"{unit}_pitch_rad"].value)) for s in stems})
+
+
+@pytest.mark.parametrize("unit", ["tractor", "trailer"])
+def test_the_accelerometers_of_one_unit_may_treat_gravity_otherwise(unit: str) -> None:
+    spoilt = without_gravity(unit, "ax_mps2", "ay_mps2", "az_mps2")(RUN)
+    channels = tuple(f"{unit}_{stem}" for stem in ("ax_mps2", "ay_mps2", "az_mps2"))
+    assert names(spoilt) == [("gravity_convention", channels)]
+    (finding,) = sensor_gate([spoilt]).findings
+    mended = finding.distortion.mended(spoilt)
+    other = {"tractor": "trailer", "trailer": "tractor"}[unit]
+    assert gravity_is_removed(mended, unit)
+    assert not gravity_is_removed(mended, other)
+
+
+def test_a_vertical_accelerometer_tells_where_the_body_hardly_leans() -> None:
+    """On a straight nothing else does; a level vertical axis alone is no treatment of gravity."""
+    straight = make_run(20, 15.0, steer=0.0)
+    free = without_gravity("trailer", "ax_mps2", "ay_mps2", "az_mps2")
+    assert [name for name, _ in names(free(straight))] == ["gravity_convention"]
+    assert "gravity_convention" not in [
+        name for name, _ in names(without_gravity("trailer", "az_mps2")(RUN))]
 
 
 def test_with_few_channels_the_hand_wheel_decides_which_one_is_inverted() -> None:
@@ -169,7 +198,7 @@ def test_a_share_of_gravity_is_no_other_treatment_of_it() -> None:
     """A sideways accelerometer that misses 70 % of it is not one that is free of gravity."""
     assert names(leaking("tractor", -0.7)(TRACTOR)) == []
     assert names(gravity(TRACTOR)) == [("gravity_convention", (
-        "tractor_ax_mps2", "tractor_ay_mps2"))]  # fmt: skip
+        "tractor_ax_mps2", "tractor_ay_mps2", "tractor_az_mps2"))]  # fmt: skip
 
 
 def test_all_of_gravity_through_roll_may_be_another_treatment_of_it() -> None:

@@ -141,7 +141,8 @@ def test_without_roll_a_leak_and_a_gain_are_aliases() -> None:
         for unit in ("tractor", "trailer"):
             run = faults.leaking(unit, -1.0)(run)
         return run.with_metadata(accelerometers="gravity removed").without_channels(
-            [f"{unit}_{tilt}_rad" for unit in ("tractor", "trailer") for tilt in ("roll", "pitch")]
+            [f"{unit}_{name}" for unit in ("tractor", "trailer")
+             for name in ("roll_rad", "pitch_rad", "az_mps2")]
         )
 
     spoilt = [faults.scaled("tractor_ay_mps2", 0.12)(free_of_gravity(run)) for run in RUNS]

@@ -116,9 +116,9 @@ def test_trailer_brakes_come_later_than_the_tractors(truck: Packed) -> None:
 
 
 def test_a_delay_is_as_long_as_it_says_or_refused(truck: Packed, slot: Slot) -> None:
-    """The line holds 600 samples: a second has room in them at 2 ms, not at 1 ms."""
+    """The line holds 1,000 samples: a second has room in them at 2 ms, not at 1 ms."""
     late = truck.with_values({"circuit.steer.delay_s": 0.9, "circuit.steer.delay_extra_s": 0.1})
-    words = r"the steer brakes come 1 s late; expected at most 0\.598 s with a step of 0\.001 s"
+    words = r"the steer brakes come 1 s late; expected at most 0\.998 s with a step of 0\.001 s"
     with pytest.raises(InputError, match=words):
         Truck(late)
     for run in (simulate, lambda packed, name: simulate_inputs(packed, simulate(truck, name))):

@@ -21,6 +21,7 @@ SHOWING = {"blowout": "blowout_brake", "quick steer": "random_steer", "hard stee
            "limit": "hard_double", "brake": "braking_ramp", "coast": "coast_slow",
            "straight": "coast_slow", "any": "random_steer"}
 
+TRAILER_CHAMBER = 66  # column of a sample
 # column of a sample: typical size in a manoeuvre (speeds, rates, accelerations, pressures)
 TYPICAL = {7: 1.0, 8: 0.1, 12: 0.02, 14: 0.3, 15: 0.3, 24: 0.1, 28: 0.02, 30: 0.3, 31: 0.3,
            43: 1.0e5, 60: 1.0e4, 62: 1.0e4}
@@ -106,3 +107,15 @@ def test_roll_steer_of_a_rear_axle_is_into_the_turn(rig: Rig) -> None:
     place = [p.axle for p in kind.places].index("drive_1")
     more = replay(rig, truth, at_work(kind, 1.0, place)).samples
     assert abs(more[-100:, 12].mean()) < abs(truth.samples[-100:, 12].mean())
+
+
+@pytest.mark.parametrize("severity", [0.2, 1.0])
+def test_a_dead_time_of_the_brakes_is_as_long_as_the_answer_says(
+        severity: float, rig: Rig, runs: dict[str, Truth]) -> None:
+    """The line that holds the control pressures is long enough for the latest brakes."""
+    kind, truth = LISTED["brake_lag"], runs["braking_ramp"]
+    trailer = kind.others[0](severity, kind.places[2], 1.0, 4.0)
+    late = replay(rig, truth, combine([trailer])).samples
+    filled_s = [0.01 * int(np.argmax(samples[:, TRAILER_CHAMBER] > 1.0e5))
+                for samples in (truth.samples, late)]
+    assert filled_s[1] - filled_s[0] == pytest.approx(trailer.strength.value, abs=0.015)

@@ -19,11 +19,13 @@ from truck_blowout_sim.comparison.contrast import Contrast, contrast
 from truck_blowout_sim.comparison.driving import STEP_S, in_table_order, side_by_side
 from truck_blowout_sim.comparison.errors import ChannelError, channel_error
 from truck_blowout_sim.comparison.noise import channel_sigmas
-from truck_blowout_sim.comparison.pairing import Pair, gravity_is_removed, pairs_of
+from truck_blowout_sim.comparison.pairing import Pair, pairs_of
 from truck_blowout_sim.comparison.provenance import Marks, marks_of
 from truck_blowout_sim.comparison.words import labels_for
 from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.recordings import INPUT_NAMES, Recording, read_recording
+from truck_blowout_sim.recordings.channels import UNITS
+from truck_blowout_sim.recordings.gravity import gravity_is_removed
 from truck_blowout_sim.recordings.shipped import find_recording
 from truck_blowout_sim.vehicle import Vehicle, load_vehicle
 from truck_blowout_sim.vehicle.given import AnyVehicle, packed_of
@@ -196,7 +198,7 @@ def _notes(recording: Recording, model: Recording) -> tuple[str, ...]:
     notes = recording.notes + model.notes
     if "rebuilt" in recording.metadata.get("origin", ""):
         notes += (f"the record is {recording.metadata['origin']}",)
-    if gravity_is_removed(recording):
+    if any(gravity_is_removed(recording, unit) for unit in UNITS):
         notes += ("accelerations are compared without gravity, as the recording gives them",)
     strange = sorted(set(recording.channels) - set(model.channels) - set(INPUT_NAMES))
     if strange:

@@ -17,11 +17,11 @@ from numpy.typing import NDArray
 
 from truck_blowout_sim.comparison.units import DisplayUnit, display_unit
 from truck_blowout_sim.recordings import INPUT_NAMES, Recording
+from truck_blowout_sim.recordings.gravity import ACCELERATIONS, gravity_felt, gravity_is_removed
 
 Floats = NDArray[np.float64]
 
 _FIRST_S = 1.0
-_GRAVITY_MPS2 = 9.81  # what accelerometers of the recordings read at rest
 
 
 @dataclass(frozen=True, eq=False)
@@ -60,18 +60,13 @@ def pairs_of(recording: Recording, model: Recording) -> dict[str, Pair]:
     return found
 
 
-def gravity_is_removed(recording: Recording) -> bool:
-    """Whether the recording says that its accelerations are free of gravity."""
-    return "gravity removed" in recording.metadata.get("accelerometers", "").lower()
-
-
 def _channels(recording: Recording, model: Recording) -> Iterator[Pair]:
     for name, series in recording.channels.items():
         # A spin angle counts turns from an arbitrary start; the spin speed says the same.
         if name in INPUT_NAMES or name not in model or name.startswith("hub_spin_angle_"):
             continue
         simulated = model.at(name, series.time_s)
-        if gravity_is_removed(recording):
+        if gravity_is_removed(recording, name.partition("_")[0]):
             simulated = simulated - _gravity(model, name, series.time_s)
         both = np.isfinite(simulated)
         if np.count_nonzero(both) < 2:
@@ -83,21 +78,12 @@ def _channels(recording: Recording, model: Recording) -> Iterator[Pair]:
 
 
 def _gravity(model: Recording, name: str, time_s: Floats) -> Floats:
-    """Share of gravity in a simulated acceleration; 0 for other channels.
-
-    The vertical seen from a body rolled by phi and pitched by theta (intrinsic z-y-x, nose down
-    positive) is (-sin theta, sin phi cos theta, cos phi cos theta).
-    """
+    """Share of gravity in a simulated acceleration; 0 for other channels."""
     unit, _, stem = name.partition("_")
-    if stem not in ("ax_mps2", "ay_mps2", "az_mps2"):
+    if stem not in ACCELERATIONS:
         return np.zeros_like(time_s)
-    roll, pitch = (model.at(f"{unit}_{angle}_rad", time_s) for angle in ("roll", "pitch"))
-    vertical = {
-        "ax_mps2": -np.sin(pitch),
-        "ay_mps2": np.sin(roll) * np.cos(pitch),
-        "az_mps2": np.cos(roll) * np.cos(pitch),
-    }[stem]
-    return np.asarray(_GRAVITY_MPS2 * vertical)
+    return gravity_felt(stem, *(model.at(f"{unit}_{angle}_rad", time_s)
+                                for angle in ("roll", "pitch")))
 
 
 def _unwrapped(measured: Floats, simulated: Floats) -> tuple[Floats, Floats]:

@@ -54,7 +54,8 @@ def _driven(run: Run) -> bytes:
     """Hash of what drives a run and how its bins are made; one that is asked again is known."""
     drive, initial = run.drive, run.drive.initial
     parts = [getattr(drive, f.name) for f in fields(drive) if f.name != "initial"]
-    return _digest([*parts, repr(initial), run.edges_s, run.correction, repr(run.columns)])
+    return _digest([*parts, repr(initial), run.edges_s, run.correction, repr(run.columns),
+                    repr(run.leaning)])
 
 
 def _truck(packed: Packed) -> tuple[object, ...]:

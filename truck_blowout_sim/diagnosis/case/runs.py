@@ -7,12 +7,13 @@ its share is widened by the number of bins it spans.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
+from truck_blowout_sim.diagnosis.case.leaning import Leaning, leaning_of
 from truck_blowout_sim.diagnosis.case.trust import BRAKES_ON_PA, wider
 from truck_blowout_sim.diagnosis.case.widths import rms_around, swings, widths
 from truck_blowout_sim.diagnosis.fit.color import Color
@@ -51,6 +52,7 @@ class Run:
             those of every truck, which are simulated on the coarse step.
         color: of the residual in units of ``sigma``; what is whitened has it taken out.
         course, since_s: a driven truck from which those simulated differ only after an instant.
+        leaning: accelerations that the recording has free of gravity.
     """
 
     recording: Recording
@@ -69,6 +71,7 @@ class Run:
     color: Color
     course: Course | None = None
     since_s: float = 0.0
+    leaning: tuple[Leaning, ...] = ()
 
     @property
     def length_s(self) -> float:
@@ -136,11 +139,10 @@ class Run:
     def bins_of(self, out: Floats, drive: Drive | None = None) -> Floats:
         """[n, m] bin means of a model output [rows, outputs] of ``drive``, else of the own."""
         rows = self._rows(out.shape[0], drive or self.drive)
-        sums = np.add.reduceat(out[:, self.columns], rows[:-1], axis=0)[:len(rows) - 1]
-        counts = np.diff(np.append(rows[:-1], rows[-1]))[:, None]
-        last = out[rows[-2]:rows[-1], self.columns].sum(axis=0)
-        sums[-1] = last
-        return sums / counts
+        means = _means(out, self.columns, rows)
+        for one in self.leaning:
+            means[:, one.place] -= one.felt(_means(out, one.angles, rows))
+        return means
 
     def _rows(self, n_rows: int, drive: Drive) -> NDArray[np.int64]:
         """Output row at which each bin begins, and where the last one ends."""
@@ -169,6 +171,14 @@ class Run:
         """[n * m] whitened now - base, zero where not measured."""
         z = np.nan_to_num((now - base) / self.sigma, nan=0.0, posinf=0.0, neginf=0.0)
         return self.color.whitened(np.clip(z, -_LOST, _LOST)).ravel()
+
+
+def _means(out: Floats, columns: Sequence[int], rows: NDArray[np.int64]) -> Floats:
+    """[n, m] means of some columns of an output between the rows at which bins begin."""
+    sums = np.add.reduceat(out[:, columns], rows[:-1], axis=0)[:len(rows) - 1]
+    counts = np.diff(np.append(rows[:-1], rows[-1]))[:, None]
+    sums[-1] = out[rows[-2]:rows[-1], columns].sum(axis=0)
+    return np.asarray(sums / counts)
 
 
 def prepare_run(recording: Recording, role: Role, packed: Packed, settings: Settings, *,
@@ -206,7 +216,7 @@ def prepare_run(recording: Recording, role: Role, packed: Packed, settings: Sett
                      np.nan)
     return Run(recording, role, drive, channels, tuple(names.index(n) for n in channels), edges,
                measured, sigma, plain, swing, factor, fine, np.zeros(measured.shape),
-               Color.white(len(channels)))
+               Color.white(len(channels)), leaning=leaning_of(recording, channels, names))
 
 
 def _check_length(recording: Recording, n_bins: int, settings: Settings) -> None:

@@ -61,7 +61,8 @@ _MODULES = (
     yaw_rate_scale,
 )
 LIBRARY: tuple[Effect, ...] = (*(module.EFFECT for module in _MODULES),
-                               driveline_drag.RETARDER, road_grade.FROM_AN_INSTANT,
+                               driveline_drag.RETARDER, brake_lag.LATE,
+                               brake_lag.LATE_AND_SLOW, road_grade.FROM_AN_INSTANT,
                                road_bank.FROM_AN_INSTANT, payload_shift.FOREMOST,
                                payload_shift.REARMOST,
                                steering_ratio.BENT, crosswind.AHEAD, crosswind.BEHIND)

@@ -1,13 +1,24 @@
-"""Chamber pressure follows the control pressure late."""
+"""Chamber pressure follows the control pressure late: it fills slowly, or begins late.
+
+A narrow or leaking line fills slowly; a long line or a slow relay valve begins late.
+
+References: FMVSS 121 S5.3.3 and S5.3.4 (a stop in timing holds both: dead time and rise).
+Validated with: test/diagnosis/test_effects.py.
+"""
 
 from __future__ import annotations
+
+from dataclasses import replace
 
 from truck_blowout_sim.diagnosis.effects.base import (
     Amount,
     Effect,
+    Values,
     added,
     each_circuit,
 )
+from truck_blowout_sim.diagnosis.result.parts import Place
+from truck_blowout_sim.vehicle import Packed
 
 EFFECT = Effect(
     name="brake_lag",
@@ -20,4 +31,31 @@ EFFECT = Effect(
     sentence="The {where} brakes fill {value} s later than modelled.",
     equation="(tau + {value} s) dp/dt + p = p_control(t - T)",
     splits="the chamber pressures",
+)
+
+LATE = replace(
+    EFFECT,
+    amount=replace(EFFECT.amount, high=0.8),
+    values=lambda packed, place, a: added(packed, f"circuit.{place.axle}.delay_extra_s", a),
+    variant=True,
+    sentence="The {where} brakes begin to fill {value} s later than modelled.",
+    equation="tau dp/dt + p = p_control(t - T - {value} s)",
+)
+
+
+def _both(packed: Packed, place: Place, amount: float) -> Values:
+    """Half of the time before the chamber begins to fill, half for filling."""
+    circuit = f"circuit.{place.axle}"
+    return {**added(packed, f"{circuit}.delay_extra_s", 0.5 * amount),
+            **added(packed, f"{circuit}.lag_extra_s", 0.5 * amount)}
+
+
+LATE_AND_SLOW = replace(
+    EFFECT,
+    amount=replace(EFFECT.amount, high=1.6),
+    values=_both,
+    variant=True,
+    sentence="The {where} brakes begin to fill later than modelled and fill more slowly, by "
+             "{value} s in all.",
+    equation="(tau + {value} s / 2) dp/dt + p = p_control(t - T - {value} s / 2)",
 )

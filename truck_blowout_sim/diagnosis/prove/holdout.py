@@ -1,7 +1,7 @@
 """Predict runs that were never fitted: do the named effects help there?
 
 Nuisances carry over from training as a Gaussian posterior; an effect's amount stays as found. Only
-the instant of an event is located anew in each run.
+the instant of an event is located anew in each run, and which of its lengths in training it has.
 """
 
 from __future__ import annotations
@@ -93,30 +93,36 @@ def _locate_events(study: Study, run: Run, carried: _Carried, named: Sequence[Hy
 
 def _place(study: Study, run: Run, carried: _Carried, others: Sequence[Hypothesis],
            event: Hypothesis) -> Hypothesis | None:
-    """The best instant of one event, coarse to fine; None if the run is better without."""
-    name = run.recording.name
-    lengths = [end - start for start, end in event.times.values()]
-    length = float(np.median(lengths)) if lengths else np.inf
+    """The best instant of one event, coarse to fine; None if the run is better without.
 
-    def models(times: Sequence[float]) -> list[Floats]:
-        base = with_effects(study.packed, others, name)
+    It lasts as long as it did in one of the training runs, whichever explains this run best.
+    """
+    name, bin_s = run.recording.name, study.settings.bin_s
+    base = with_effects(study.packed, others, name)
+
+    def models(intervals: Sequence[tuple[float, float]]) -> list[Floats]:
         return study.simulate([study.job(run, base, replace(event, times={name: (t, t + length)}))
-                               for t in times])
+                               for t, length in intervals])
 
-    without = study.simulate([(run, with_effects(study.packed, others, name))])[0]
-    least, bin_s = carried.left(run, without), study.settings.bin_s
-    grid = grid_of(run, event.effect)
-    sums = {float(time) + bins * bin_s: carried.left(
-                run, without + delayed(model - without, bins))
-            for time, model in zip(grid, models(grid.tolist()), strict=True)
+    without = study.simulate([(run, base)])[0]
+    tried = [(float(t), length) for t in grid_of(run, event.effect) for length in _lengths(event)]
+    sums = {(t + bins * bin_s, length): carried.left(run, without + delayed(model - without, bins))
+            for (t, length), model in zip(tried, models(tried), strict=True)
             for bins in bins_between(event.effect, run, bin_s)}
-    at = min(sums, key=lambda time: sums[time])
-    best = carried.left(run, models([at])[0])
+    at, length = min(sums, key=lambda interval: sums[interval])
+    best = carried.left(run, models([(at, length)])[0])
     for width in _REFINE_S:
-        either = (at - width, at + width)
-        found = {time: carried.left(run, model)
-                 for time, model in zip(either, models(either), strict=True)}
+        either = [(at - width, length), (at + width, length)]
+        found = {t: carried.left(run, model)
+                 for (t, _), model in zip(either, models(either), strict=True)}
         nearest = min(found, key=lambda time: found[time])
         if found[nearest] < best:
             at, best = nearest, found[nearest]
+    least = carried.left(run, without)
     return replace(event, times={name: (at, at + length)}) if best < least else None
+
+
+def _lengths(event: Hypothesis) -> list[float]:
+    """How long an event lasted in the training runs: shortest, usual and longest."""
+    lasted = [end - start for start, end in event.times.values()] or [np.inf]
+    return sorted({float(length) for length in (min(lasted), np.median(lasted), max(lasted))})

@@ -139,7 +139,7 @@ def make_case(
             present,
             excess_noise(noise),
             radius_known=bool(baseline),
-            gravity_read=any(s.gravity > 0.0 for s in signals),
+            gravity_read=any(any(s.gravity.values()) for s in signals),
         ),
         hypotheses=tuple(hypotheses),
         covariances=tuple({} for _ in everything),
@@ -172,7 +172,7 @@ def _tilt_allowed(identity: Identity, signals: Signals) -> Identity:
     for word, angle in (("lateral", "roll"), ("longitudinal", "pitch")):
         unit = identity.name.split()[0]
         if (
-            signals.gravity
+            signals.gravity.get(unit)
             and f"{word} acceleration" in identity.name
             and f"{unit}_{angle}_rad" not in signals
         ):

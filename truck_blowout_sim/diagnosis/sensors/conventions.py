@@ -32,6 +32,8 @@ from truck_blowout_sim.diagnosis.sensors.identities import channel_names
 from truck_blowout_sim.diagnosis.sensors.reading import WHEEL, Reading
 from truck_blowout_sim.diagnosis.sensors.signals import Signals, read_wheel
 from truck_blowout_sim.recordings import Recording
+from truck_blowout_sim.recordings.channels import UNITS
+from truck_blowout_sim.recordings.gravity import ACCELERATIONS
 
 _FAMILY_P = 1e-4
 _PER_CHANNEL = 2.0  # log odds that one more channel of an instrument is wired the other way
@@ -187,10 +189,18 @@ def _readings(present: set[str]) -> list[Convention]:
         if set(both) <= present:
             label = f"{_WORDS[key]} of tractor and trailer"
             found.append(Swap("channel_swap", "", label, both))
-    accelerations = tuple(sorted(c for c in present if c.endswith(("_ax_mps2", "_ay_mps2"))))
-    if accelerations and any(c.endswith(("_roll_rad", "_pitch_rad")) for c in present):
-        found.append(GravityConvention("gravity_convention", "", "accelerometers", accelerations))
-    return _unlike(found)
+    return _unlike([*found, *_treatments(present)])
+
+
+def _treatments(present: set[str]) -> list[Convention]:
+    """Gravity treated otherwise than is said: by the accelerometers of each unit, and by all."""
+    told = {unit: [f"{unit}_{stem}" for stem in ACCELERATIONS if f"{unit}_{stem}" in present]
+            for unit in UNITS if f"{unit}_az_mps2" in present or any(
+                f"{unit}_{angle}_rad" in present for angle in ("roll", "pitch"))}
+    asked = [("", "accelerometers", [c for channels in told.values() for c in channels]),
+             *((unit, f"{unit} accelerometers", channels) for unit, channels in told.items())]
+    return [GravityConvention("gravity_convention", unit, words, tuple(sorted(channels)))
+            for unit, words, channels in asked if channels]
 
 
 def _unlike(found: Sequence[Convention]) -> list[Convention]:

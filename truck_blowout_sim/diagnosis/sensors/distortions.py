@@ -17,8 +17,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from truck_blowout_sim.diagnosis.sensors.identities import channel_names
-from truck_blowout_sim.diagnosis.sensors.signals import GRAVITY_MPS2, Signals, stated_gravity
+from truck_blowout_sim.diagnosis.sensors.signals import GRAVITY_MPS2, Signals
 from truck_blowout_sim.recordings import Recording, Series
+from truck_blowout_sim.recordings.channels import UNITS
+from truck_blowout_sim.recordings.gravity import gravity_is_removed, with_gravity_stated
 
 FloatArray = NDArray[np.float64]
 Reader = Callable[[str], FloatArray]
@@ -281,14 +283,26 @@ class Swap(Convention):
 
 @dataclass(frozen=True)
 class GravityConvention(Convention):
-    """Accelerations said to be free of gravity are not, or the reverse."""
+    """Accelerations said to be free of gravity are not, or the reverse: of one unit, or of all."""
+
+    @property
+    def units(self) -> tuple[str, ...]:
+        """Whose accelerometers."""
+        return (self.unit,) if self.unit else UNITS
+
+    def leaked(self, signals: Signals, share: float) -> Signals:
+        """With a share of gravity read where it was said to be removed, and the reverse."""
+        moved = {unit: signals.gravity[unit] + share * (1.0 - 2.0 * signals.gravity[unit])
+                 for unit in self.units}
+        return replace(signals, gravity={**signals.gravity, **moved})
 
     def read(self, signals: Signals) -> Signals:
         """With gravity read where it was said to be removed, and the reverse."""
-        return replace(signals, gravity=1.0 - signals.gravity)
+        return self.leaked(signals, 1.0)
 
     def mended(self, recording: Recording) -> Recording:
         """With the statement in its metadata that holds."""
-        reads = stated_gravity(recording) > 0.0
-        held = "gravity removed" if reads else "strapdown: gravity included"
-        return recording.with_metadata(accelerometers=held)
+        for unit in self.units:
+            recording = with_gravity_stated(recording, unit,
+                                            removed=not gravity_is_removed(recording, unit))
+        return recording

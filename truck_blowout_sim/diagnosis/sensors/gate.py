@@ -63,7 +63,7 @@ def sensor_gate(
     result = search(case, false_alarms)
     findings = [*stated]
     findings += [
-        _finding(found, case.signals[0].gravity,
+        _finding(found, case.signals[0].gravity.get(found.hypothesis.distortion.unit, 1.0),
                  knows_roll=_has_roll(case, found.hypothesis.distortion.unit))
         for found in result.found
     ]

@@ -11,7 +11,6 @@ Validated with: test/diagnosis/test_sensors_conventions.py.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 
 import numpy as np
 
@@ -32,7 +31,7 @@ def look_alikes(logs: Sequence[Reading], convention: GravityConvention, alike: f
         alike: log likelihood ratio within which two readings cannot be told apart.
     """
     whole = sum(log.log_ratio(convention) for log in logs)
-    leak, gain = _best_leak(logs), _best_gain(logs)
+    leak, gain = _best_leak(logs, convention), _best_gain(logs, convention)
     if max(leak, gain) > whole + alike:
         return None
     # a leak through roll says nothing of the longitudinal accelerometer
@@ -41,15 +40,15 @@ def look_alikes(logs: Sequence[Reading], convention: GravityConvention, alike: f
             + (("lateral_accel_scale",) if gain > whole - alike else ()))
 
 
-def _best_leak(logs: Sequence[Reading]) -> float:
+def _best_leak(logs: Sequence[Reading], convention: GravityConvention) -> float:
     """Log likelihood ratio of the share of gravity that explains most."""
-    return max(sum(log.gain_of(replace(log.signals, gravity=log.signals.gravity
-                                       + share * (1.0 - 2.0 * log.signals.gravity)))
-                   for log in logs) for share in _LEAKS.tolist())
+    return max(sum(log.gain_of(convention.leaked(log.signals, share)) for log in logs)
+               for share in _LEAKS.tolist())
 
 
-def _best_gain(logs: Sequence[Reading]) -> float:
-    """The same of the gain of all sideways accelerometers."""
+def _best_gain(logs: Sequence[Reading], convention: GravityConvention) -> float:
+    """The same of the gain of its sideways accelerometers."""
+    sideways = [c for c in convention.channels if c.endswith("_ay_mps2")]
     return max(sum(log.gain_of(log.signals.with_values({
-        channel: log.signals[channel] / gain for channel in log.signals.values
-        if channel.endswith("_ay_mps2")})) for log in logs) for gain in _GAINS.tolist())
+        channel: log.signals[channel] / gain for channel in sideways if channel in log.signals}))
+        for log in logs) for gain in _GAINS.tolist())

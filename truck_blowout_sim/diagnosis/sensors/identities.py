@@ -173,7 +173,7 @@ def with_kinematic_accelerations(smooth: Signals) -> Signals:
 
 def _names(unit: str) -> dict[str, str]:
     return {
-        "x": f"{unit}_x_m", "y": f"{unit}_y_m", "yaw": f"{unit}_yaw_rad",
+        "unit": unit, "x": f"{unit}_x_m", "y": f"{unit}_y_m", "yaw": f"{unit}_yaw_rad",
         "roll": f"{unit}_roll_rad", "pitch": f"{unit}_pitch_rad",
         "vx": f"{unit}_vx_mps", "vy": f"{unit}_vy_mps", "r": f"{unit}_yaw_rate_radps",
         "p": f"{unit}_roll_rate_radps", "q": f"{unit}_pitch_rate_radps",
@@ -194,12 +194,12 @@ def _vertical(s: Signals, n: dict[str, str]) -> FloatArray:
 
 
 def _lateral(s: Signals, n: dict[str, str]) -> FloatArray:
-    weight = s.gravity * GRAVITY_MPS2 * np.sin(s[n["roll"]]) * np.cos(s[n["pitch"]])
+    weight = s.gravity[n["unit"]] * GRAVITY_MPS2 * np.sin(s[n["roll"]]) * np.cos(s[n["pitch"]])
     return np.asarray(s[n["ay"]] - s[n["r"]] * s[n["vx"]] + s[n["p"]] * _vertical(s, n) - weight)
 
 
 def _longitudinal(s: Signals, n: dict[str, str]) -> FloatArray:
-    weight = s.gravity * GRAVITY_MPS2 * np.sin(s[n["pitch"]])
+    weight = s.gravity[n["unit"]] * GRAVITY_MPS2 * np.sin(s[n["pitch"]])
     return np.asarray(s[n["ax"]] + s[n["r"]] * s[n["vy"]] - s[n["q"]] * _vertical(s, n) + weight)
 
 

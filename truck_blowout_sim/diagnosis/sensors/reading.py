@@ -22,8 +22,9 @@ from truck_blowout_sim.diagnosis.sensors.identities import (
     channel_names,
     hitch_identities,
 )
-from truck_blowout_sim.diagnosis.sensors.signals import Signals, smoothed
+from truck_blowout_sim.diagnosis.sensors.signals import GRAVITY_MPS2, Signals, smoothed
 from truck_blowout_sim.diagnosis.sensors.windows import Windows, make_windows
+from truck_blowout_sim.recordings.channels import UNITS
 
 FloatArray = NDArray[np.float64]
 
@@ -32,6 +33,8 @@ _TINY = 1e-12  # of a residual's variance: that of a computed log may vanish
 _LONGEST_S = 2.0  # of the correlation of a residual
 _DRIVES_MPS = 5.0  # no truck reverses faster
 _BACKWARD = 20.0  # log odds against one that does, over a whole recording
+_CONTRARY = 4.5  # log likelihood by which the other identities speak against it
+_UPRIGHT = 20.0  # the same against a vertical accelerometer that is half a gravity off
 
 
 @dataclass(frozen=True)
@@ -77,8 +80,9 @@ class Reading:
         """
         signals = convention.read(self.signals)
         total = sum(self._gain(i, signals) for i in self._touched(convention) if of in i.name)
-        return total + _steered(signals) - _steered(self.signals) + (
-            _forward(signals) - _forward(self.signals))
+        # a vertical accelerometer alone may be corrected otherwise than those along the road
+        asked = (_steered, _forward, *([_upright] if total > -_CONTRARY else []))
+        return total + sum(of_all(signals) - of_all(self.signals) for of_all in asked)
 
     def gain_with(self, channel: str, without: str, convention: Convention) -> float:
         """The same by the identities that read one channel and not another."""
@@ -208,3 +212,15 @@ def _forward(signals: Signals) -> float:
     return sum(-_BACKWARD for unit in ("tractor", "trailer")
                for speed in (channel_names(unit)["vx"],) if speed in signals
                and float(np.nan_to_num(np.nanmedian(signals[speed]))) < -_DRIVES_MPS)  # fmt: skip
+
+
+def _upright(signals: Signals) -> float:
+    """Log odds against a vertical accelerometer that reads gravity, or does not, unlike said.
+
+    The median of a run is what it reads on a level road, whatever its mounting and calibration:
+    one gravity, or nothing.
+    """
+    return sum(-_UPRIGHT for unit in UNITS
+               for up in (channel_names(unit)["az"],) if up in signals
+               and abs(float(np.nan_to_num(np.nanmedian(signals[up])))
+                       - signals.gravity[unit] * GRAVITY_MPS2) > 0.5 * GRAVITY_MPS2)

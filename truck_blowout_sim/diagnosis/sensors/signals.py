@@ -18,6 +18,8 @@ from scipy.ndimage import gaussian_filter1d, uniform_filter1d
 from truck_blowout_sim.diagnosis.sensors.noise import FEWEST_SAMPLES
 from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.recordings import Recording
+from truck_blowout_sim.recordings.channels import UNITS
+from truck_blowout_sim.recordings.gravity import gravity_is_removed
 
 FloatArray = NDArray[np.float64]
 
@@ -38,14 +40,15 @@ class Signals:
         name: of the recording.
         time_s: even grid.
         values: by channel name, NaN where not measured.
-        gravity: 1 if the accelerometers are said to read gravity, 0 if it is said to be removed.
+        gravity: by unit, 1 if its accelerometers are said (or silently assumed) to read gravity,
+            0 if it is said to be removed.
         blown_since_s: instant from which each hub rolls on a blown tire.
     """
 
     name: str
     time_s: FloatArray
     values: Mapping[str, FloatArray]
-    gravity: float
+    gravity: Mapping[str, float]
     blown_since_s: Mapping[str, float]
     _remembered: dict[tuple[str, float, float], tuple[FloatArray | None, FloatArray]] = field(
         default_factory=dict, compare=False, repr=False)
@@ -162,7 +165,7 @@ def read_signals(recording: Recording) -> Signals:
         name=recording.name,
         time_s=np.asarray(time_s, dtype=np.float64),
         values=values,
-        gravity=stated_gravity(recording),
+        gravity={unit: float(not gravity_is_removed(recording, unit)) for unit in UNITS},
         blown_since_s=_blown_hubs(recording),
     )
 
@@ -173,11 +176,6 @@ def read_wheel(signals: Signals, recording: Recording) -> FloatArray | None:
     if wheel not in recording or len(recording[wheel]) < 2:
         return None
     return np.asarray(recording.at(wheel, signals.time_s), dtype=np.float64)
-
-
-def stated_gravity(recording: Recording) -> float:
-    """1 if the accelerometers are said (or silently assumed) to read gravity, else 0."""
-    return 0.0 if "gravity removed" in recording.metadata.get("accelerometers", "").lower() else 1.0
 
 
 def _unwrapped(angle: FloatArray) -> FloatArray:

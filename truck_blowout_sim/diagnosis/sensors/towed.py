@@ -55,7 +55,8 @@ def hitch_force(signals: Signals, geometry: Geometry) -> tuple[Identity, ...]:
         bend = s[b["yaw"]] - s[a["yaw"]] if b["yaw"] in s and a["yaw"] in s else s[BEND]
         along = s[a["ax"]] - (s[a["r"]] ** 2 + s[a["q"]] ** 2) * x
         across = s[a["ay"]] + s[a["p"]] * s[a["q"]] * x
-        leaning = s.gravity * GRAVITY_MPS2 * (np.sin(s[roll]) - np.sin(s[a["roll"]]))
+        leaning = GRAVITY_MPS2 * (s.gravity["trailer"] * np.sin(s[roll])
+                                  - s.gravity["tractor"] * np.sin(s[a["roll"]]))
         turned = np.cos(bend) * across - np.sin(bend) * along + leaning
         here = s[b["ay"]] + s[b["p"]] * s[b["q"]] * x_trailer
         return np.asarray(here - turned)

@@ -21,6 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from truck_blowout_sim.recordings.channels import UNITS
+from truck_blowout_sim.recordings.gravity import gravity_is_removed
 from truck_blowout_sim.recordings.recording import Recording
 from truck_blowout_sim.recordings.units import GRAVITY_MPS2
 
@@ -130,7 +131,7 @@ def _ratios(recording: Recording) -> Iterator[tuple[str, str, float]]:
             along = (_over_a_second(side) for side in (have["ax_mps2"], np.gradient(speed, times)))
             yield from _pair(unit, "ax_mps2", _CHANGE, *(side - np.nanmean(side) for side in along))
         up = f"{unit}_az_mps2"
-        if up in recording and "removed" not in recording.metadata.get("accelerometers", ""):
+        if up in recording and not gravity_is_removed(recording, unit):
             yield up, _GRAVITY, float(np.median(recording[up].value)) / GRAVITY_MPS2
 
 

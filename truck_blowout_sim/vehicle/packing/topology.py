@@ -9,7 +9,7 @@ from truck_blowout_sim.physics import layout
 from truck_blowout_sim.vehicle.schema.axle import CIRCUITS
 from truck_blowout_sim.vehicle.vehicle import Vehicle
 
-LINE_SAMPLES = 600  # longest brake delay in steps, 0.6 s at 1 ms
+LINE_SAMPLES = 1000  # longest brake delay in steps, 1 s at 1 ms
 STEP_NS = 1_000_000
 
 
