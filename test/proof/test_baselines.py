@@ -1,12 +1,16 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import cast
 
 import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from truck_blowout_sim.proof.baselines.compare import mean_square
+from truck_blowout_sim.diagnosis.case.runs import Run
+from truck_blowout_sim.diagnosis.fit.color import Color
+from truck_blowout_sim.proof.baselines import compare
+from truck_blowout_sim.proof.baselines.compare import mean_square, stretch
 from truck_blowout_sim.proof.baselines.features import INPUTS, Stretch, motion_columns
 from truck_blowout_sim.proof.baselines.gaussian_process import gaussian_process, predict_residual
 from truck_blowout_sim.proof.baselines.sparse_regression import (
@@ -16,6 +20,8 @@ from truck_blowout_sim.proof.baselines.sparse_regression import (
     own_stlsq,
     thresholded,
 )
+from truck_blowout_sim.recordings import Recording
+from truck_blowout_sim.simulation.drive import Drive
 
 Floats = NDArray[np.float64]
 NAMES = ("tractor_vx_mps", "tractor_yaw_rate_radps")
@@ -117,3 +123,18 @@ def test_mean_square_is_in_noise_and_blind_to_gaps() -> None:
 def test_only_motion_is_compared() -> None:
     channels = ("tractor_vx_mps", "tractor_roll_rad", "trailer_yaw_rate_radps")
     assert motion_columns(channels) == [0, 2]
+
+
+def test_a_residual_that_lasts_counts_in_full(monkeypatch: pytest.MonkeyPatch) -> None:
+    """What the bins before foretell is taken from a residual to fit it, not to compare errors."""
+    monkeypatch.setattr(compare, "inputs_of", lambda run: np.zeros((40, len(INPUTS))))
+    lasting = Color.of(0.9 ** np.arange(3.0)[None, :].repeat(2, axis=0))
+    left = np.stack([np.full(40, 0.3), np.linspace(0.0, 0.2, 40)], axis=1)
+    left[7, 1] = np.nan
+    drive = cast("Drive", None)
+    run = Run(Recording("run", {}), "holdout", drive, NAMES, (0, 1), BIN_S * np.arange(41.0), left,
+              np.full(left.shape, 0.05), np.full(left.shape, 0.01), left, np.ones(40), drive,
+              np.zeros(left.shape), lasting)
+    whitened = run.residual(np.zeros(left.shape)).reshape(left.shape)
+    assert np.nanmean(np.square(whitened[1:, 0])) < 0.2 * np.nanmean(np.square(left[:, 0] / 0.05))
+    np.testing.assert_allclose(stretch(run, whitened).left, left, atol=1e-12)

@@ -89,7 +89,7 @@ def stretch(run: Run, whitened: Floats) -> Stretch:
     """The motion residuals of a run in SI with their noise and the inputs at the bins."""
     columns = motion_columns(run.channels)
     return Stretch(tuple(run.channels[k] for k in columns),
-                   np.where(np.isfinite(run.measured), whitened * run.sigma, np.nan)[:, columns],
+                   np.where(np.isfinite(run.measured), run.plain(whitened), np.nan)[:, columns],
                    run.noise[:, columns], inputs_of(run),
                    float(run.edges_s[1] - run.edges_s[0]))
 
