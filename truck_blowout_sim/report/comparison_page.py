@@ -23,7 +23,8 @@ from truck_blowout_sim.report.style import Picture
 from truck_blowout_sim.simulation.replay import speed_is_missing
 
 PAGE, DATA, FIGURES = "report.html", "comparison.json", "figures"
-_METADATA = ("test", "vehicle", "road", "tractor_base_link", "trailer_base_link", "accelerometers")
+_METADATA = ("test", "vehicle", "road", "tractor_base_link", "trailer_base_link", "accelerometers",
+             "tractor_accelerometers", "trailer_accelerometers")
 _ABSENT = "–"
 
 

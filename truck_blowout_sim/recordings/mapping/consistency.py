@@ -86,8 +86,9 @@ def contradictions(recording: Recording) -> tuple[str, ...]:
              if other == _TURN and abs(ratio - 1.0) < _TURN_CLOSE}  # fmt: skip
     for name, other, ratio in ratios:
         if other == _GRAVITY and abs(ratio) < _WEIGHTLESS:
+            unit = name.partition("_")[0]
             notes.append(f"{name} is {ratio:.2g} times gravity: reads like accelerations without"
-                         " it; if so, map metadata: {accelerometers: gravity removed}")
+                         f" it; if so, map metadata: {{{unit}_accelerometers: gravity removed}}")
         words = _meaning(other, ratio)
         if other == _HEADING and ratio * _DEG < 2.0 and name.partition("_")[0] in sound:
             words = words and _WRONG_HEADING  # the rate agrees with the lateral acceleration
