@@ -120,6 +120,14 @@ def test_without_baseline_runs_a_wheel_that_beats_is_noted_only(calm: Study) -> 
     assert "Every sound wheel does so" in told.evidence.notes[0]
 
 
+def test_a_run_that_begins_on_a_flat_tire_is_noted(calm: Study) -> None:
+    run, *rest = calm.runs
+    initial = replace(run.drive.initial, flat=(("steer_left", 2.0),))
+    flat = replace(calm, runs=(replace(run, drive=replace(run.drive, initial=initial)), *rest))
+    assert any("steer_left burst 2.00 s" in note for note in answer(material(flat)).evidence.notes)
+    assert not any("burst" in note for note in answer(material(calm)).evidence.notes)
+
+
 def beats() -> Beat:
     scores = BeatScores(True, np.array([3.1, 3.2]), np.array([1.0, 20.0]), 8.0)
     return Beat(True, 3.2, 20.0, 300.0, "tractor", "tractor_az_mps2", 0.1, 22.0, scores)

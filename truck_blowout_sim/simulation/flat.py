@@ -41,6 +41,12 @@ def flat_at(before: Iterable[Blowout], start_s: float) -> tuple[Flat, ...]:
     return tuple(sorted(since.items()))
 
 
+def flat_notes(flat: Iterable[Flat]) -> tuple[str, ...]:
+    """That a run did not begin on whole tires."""
+    return tuple(f"{tire} burst {since_s:.2f} s before the first input: the model starts settled on"
+                 " it" for tire, since_s in flat)
+
+
 def check_tires(vehicle: Vehicle, flat: Iterable[Flat]) -> None:
     """Refuse a flat tire that the vehicle does not have.
 

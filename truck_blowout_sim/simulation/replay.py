@@ -21,7 +21,7 @@ from truck_blowout_sim.simulation.drive import (
     total_mass_kg,
 )
 from truck_blowout_sim.simulation.equilibrium import InitialState
-from truck_blowout_sim.simulation.flat import Flat, flat_at, split_at
+from truck_blowout_sim.simulation.flat import flat_at, flat_notes, split_at
 from truck_blowout_sim.simulation.inputs import opening
 from truck_blowout_sim.simulation.plausible import diverged, implausible
 from truck_blowout_sim.simulation.rates import check_delays, check_rates
@@ -115,7 +115,7 @@ def replayed(recording: Recording, packed: Packed, drive: Drive) -> Recording:
         f"{recording.name} (simulated)", packed, drive, execute(packed, drive), recording.blowouts,
         why_imposed=STATED_SPEED_WORDS if speed_is_missing(recording, packed.vehicle)
         else _ASKED_SPEED_WORDS)
-    return replace(run, notes=(*run.notes, *_flat_notes(drive.initial.flat),
+    return replace(run, notes=(*run.notes, *flat_notes(drive.initial.flat),
                                *silences(recording)))
 
 
@@ -210,9 +210,3 @@ def _blowouts(timed: Sequence[Blowout], vehicle: Vehicle, start_s: float, step_s
             steps.append(max(round((event.time_s - start_s) / step_s), 0))
             tires.append(vehicle.tires.index(tire))
     return np.array(steps, dtype=np.int64), np.array(tires, dtype=np.int64)
-
-
-def _flat_notes(flat: Sequence[Flat]) -> tuple[str, ...]:
-    """That a run did not begin on whole tires."""
-    return tuple(f"{tire} burst {since_s:.2f} s before the first input: the model starts settled on"
-                 " it" for tire, since_s in flat)

@@ -43,6 +43,7 @@ from truck_blowout_sim.diagnosis.result import (
 )
 from truck_blowout_sim.diagnosis.result.evidence import FAR
 from truck_blowout_sim.diagnosis.sensors import GateResult
+from truck_blowout_sim.simulation.flat import flat_notes
 from truck_blowout_sim.simulation.silences import silences
 
 Floats = NDArray[np.float64]
@@ -258,7 +259,8 @@ def gather(material: Material, told: Material) -> Evidence:
         assumptions=words.assumptions(study), missing_channels=words.missing_channels(study),
         notes=(*material.gate.notes, *old,
                *(note for r in study.runs
-                 for note in (*r.recording.notes, *silences(r.recording)))),
+                 for note in (*r.recording.notes, *flat_notes(r.drive.initial.flat),
+                              *silences(r.recording)))),
         facts=(*((f"unnamed wrench on the {w.history.body} buys", f"{w.delta:.0f} with {w.degrees}")
                  for w in told.unnamed),
                *(material.beat.facts if material.beat else ()),
