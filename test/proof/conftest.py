@@ -96,7 +96,9 @@ def prove_ci(tmp_path: Path) -> Callable[..., dict[str, Any]]:
     from truck_blowout_sim.proof.run import run_cases
 
     def prove(*groups: str) -> dict[str, Any]:
-        made, chosen = tmp_path / "made", [c for c in cases_of("ci") if c.group in groups]
+        made = tmp_path / "made"
+        # Every other one, for time; `make prove SET=ci` runs them all.
+        chosen = [c for c in cases_of("ci") if c.group in groups][::2]
         assert all(not astray for _, astray in generate(chosen, made, 1))
         sealed, cases = write_manifest(made, "ci"), find_cases(made)
         lines = {line["case"]: line for line in run_cases(

