@@ -110,6 +110,7 @@ def test_another_vehicle_s_names_are_declared_in_the_file(tmp_path: Path) -> Non
         (f"{HEADER}\n0,0.1,fast\n", "line 2, column tractor_vx_mps", "'fast'"),
         (f"{HEADER}\n0,0.1,1_0\n", "line 2, column tractor_vx_mps", "'1_0'"),
         (f"{HEADER}\n0,0.1,20\n0,0.1,20\n", "line 3, column time_s", "does not follow"),
+        (f"{HEADER}\n1e12,0.1,20\n", "line 2, column time_s", "expected seconds"),
         (f"{HEADER}\n0.1,0.1,20\n0,0.1,20\n", "line 3, column time_s", "does not follow"),
         (f"{HEADER}\n0,0.1,700\n", "line 2, column tractor_vx_mps", "700"),
         (f"{HEADER}\n0,1.5,20\n", "line 2, column throttle", "1.5"),

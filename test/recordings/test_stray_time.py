@@ -55,3 +55,18 @@ def test_import_keeps_every_sample_and_tells_it(
     assert "note: the time leaps from 0 s to 1700000000 s" in said.err
     assert "no robot model: lasts 1700000002 s" in said.out
     assert len(read_recording(tmp_path / "bag")["tractor_vx_mps"]) == 201
+
+
+@pytest.mark.parametrize("times", ["0 0.01 1e300", "-9e8 0 2e9", "-2e9 0"])
+def test_time_that_no_stamp_holds_is_refused_also_with_a_mapping(
+    times: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    log = tmp_path / "log.csv"
+    log.write_text("t,speed\n" + "".join(f"{cell},20\n" for cell in times.split()))
+    rules = tmp_path / "map.yaml"
+    rules.write_text("time: {from: t, unit: s}\n"
+                     "channels: {tractor_vx_mps: {from: speed, unit: m/s}}\n")
+    assert main(["import", str(log), "--map", str(rules), "-o", str(tmp_path / "bag")]) == 2
+    said = capsys.readouterr().err.splitlines()
+    assert "expected seconds, -1000000000 to 2147483648" in said[-1]
+    assert not (tmp_path / "bag").exists()

@@ -22,7 +22,7 @@ from truck_blowout_sim.recordings.bag_topics import TopicSeries, read_topic
 from truck_blowout_sim.recordings.bag_writer import ORIGIN_KEY
 from truck_blowout_sim.recordings.channel import IMU, ODOMETRY
 from truck_blowout_sim.recordings.channels import BLOWOUT_EVENT, Channel, Place
-from truck_blowout_sim.recordings.checks import check_values
+from truck_blowout_sim.recordings.checks import EARLIEST_S, check_values
 from truck_blowout_sim.recordings.names import Parts, parts_of
 from truck_blowout_sim.recordings.recording import Blowout, Recording, Series
 from truck_blowout_sim.recordings.resets import reset_times_s
@@ -142,7 +142,7 @@ class _Reader:
             value = float(text)
         except ValueError:
             value = np.nan
-        if not np.isfinite(value) or abs(value) > 1e9:
+        if not EARLIEST_S <= value <= -EARLIEST_S:
             raise InputError(
                 f"value {quoted(text)}",
                 file=self.path,

@@ -12,6 +12,9 @@ from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.recordings.channels import Channel
 
 FloatArray = NDArray[np.float64]
+# header stamps of ROS 2 count seconds in 32 bits
+STAMPS_END_S = 2.0**31
+EARLIEST_S = -1.0e9
 
 
 def check_values(
@@ -43,11 +46,16 @@ def check_values(
 
 
 def check_times(times: FloatArray, *, file: Path, where: Callable[[int], str]) -> None:
-    """Refuse times that do not increase strictly.
+    """Refuse times that do not increase strictly, or that no stamp can hold.
 
     Raises:
-        InputError: for the first time that is not later than the one before.
+        InputError: for the first time beyond all stamps, or not later than the one before.
     """
+    far = np.flatnonzero(~(np.abs(times) < STAMPS_END_S))
+    if far.size:
+        i = int(far[0])
+        raise InputError(f"time {times[i]:.10g} s", file=file, where=where(i),
+                         expected=f"seconds, below {STAMPS_END_S:.0f}")  # fmt: skip
     back = np.flatnonzero(times[1:] <= times[:-1])
     if back.size:
         i = int(back[0]) + 1

@@ -11,6 +11,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from truck_blowout_sim.errors import InputError
+from truck_blowout_sim.recordings.checks import EARLIEST_S, STAMPS_END_S
 from truck_blowout_sim.recordings.formats import BEGIN_MAPPING, read_native
 from truck_blowout_sim.recordings.mapping import Opened, Rules, combine, load_mapping, open_test
 from truck_blowout_sim.recordings.mapping.consistency import contradictions
@@ -67,6 +68,7 @@ def read_recording(
                            source=source)  # fmt: skip
         if not read.channels:
             raise InputError("holds no numbers", file=path, expected="samples of a channel")
+        _check_stamps(read, path)
         foreign = channels_on((remap or {}).values(), read.channels)
         read = with_local_origin(without_planar_zeros(read, foreign))
         read = replace(read, notes=(*read.notes, *stray_times(read)))
@@ -77,12 +79,25 @@ def read_recording(
     if not read.channels:
         raise InputError("no column becomes a channel", file=path,
                          expected=f"a mapping with channels ({BEGIN_MAPPING})")  # fmt: skip
+    _check_stamps(read, path)
     read = without_planar_zeros(without_excluded(read, rules), _foreign(files, rules, read))
     read = with_local_origin(at_base_link(read, rules.sensors))
     read = replace(read, notes=(*read.notes, *contradictions(read), *odd_sizes(read),
                                 *stray_times(read)))
     stated = with_blowouts(read, rules.blowouts, tires=tires, hubs=hubs, file=rules.file or path)
     return with_blowouts(stated, blow, tires=tires, hubs=hubs)
+
+
+def _check_stamps(read: Recording, path: Path) -> None:
+    """Refuse a span that a bag's stamps, which begin at zero, cannot hold.
+
+    Raises:
+        InputError: its first and last instant.
+    """
+    start_s, end_s = read.start_s, read.end_s
+    if not (start_s >= EARLIEST_S and end_s - min(0.0, start_s) < STAMPS_END_S):
+        raise InputError(f"time from {start_s:.10g} s to {end_s:.10g} s", file=path,
+                         expected=f"seconds, {EARLIEST_S:.0f} to {STAMPS_END_S:.0f}")  # fmt: skip
 
 
 def _foreign(files: Iterable[Opened], rules: Rules, read: Recording) -> set[str]:
