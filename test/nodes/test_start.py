@@ -16,11 +16,22 @@ from diagnostic_msgs.msg import DiagnosticArray
 from std_msgs.msg import String
 from std_srvs.srv import Trigger
 
+from truck_blowout_sim import load_vehicle
 from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.nodes import blow_schedule
 from truck_blowout_sim.nodes.blow_schedule import BlowSchedule
+from truck_blowout_sim.nodes.clock import NS
+from truck_blowout_sim.nodes.inputs import InputBank
+from truck_blowout_sim.nodes.plant import Plant
 from truck_blowout_sim.nodes.signals import CAUGHT, Interrupted
+from truck_blowout_sim.nodes.simulator_parameters import (
+    DEFAULT_VEHICLE,
+    SPECS,
+    flat_of,
+    inputs_of,
+)
 from truck_blowout_sim.nodes.steering_gear import _gear
+from truck_blowout_sim.simulation import InitialState
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -139,10 +150,24 @@ def test_a_schedule_gives_each_blowout_once_a_run() -> None:
     assert list(schedule.due(9_000_000_000)) == ["b"]
 
 
-@pytest.mark.parametrize("text", ["a", "a@", "a@-1", "a@nan", "c@1", "a@inf"])
+@pytest.mark.parametrize("text", ["a", "a@", "a@-1", "a@nan", "c@1", "a@inf", "a@1e300"])
 def test_a_schedule_that_cannot_be_is_refused(text: str) -> None:
     with pytest.raises(InputError, match=f"'{text}' is no blowout of this vehicle"):
         blow_schedule.parse(text, {"a", "b"})
+
+
+@pytest.mark.parametrize("text", ["steer_left@-1", "steer_left@1e300", "steer_left@nan"])
+def test_a_tire_that_cannot_have_burst_before_is_refused(text: str) -> None:
+    with pytest.raises(InputError, match=f"^parameter, initial_flat: '{text}'"):
+        flat_of(text)
+
+
+def test_a_flat_start_stays_before_a_followed_clock_that_begins_late() -> None:
+    bank = InputBank(inputs_of({spec.name: spec.default for spec in SPECS}))
+    flat = InitialState(flat=(("steer_left", 2.0),))
+    plant = Plant(load_vehicle(DEFAULT_VEHICLE), 0.001, flat, bank)
+    plant.move_to(1_000_000 * NS)
+    assert plant.blown_ns == {"steer_left": 999_998 * NS}
 
 
 @pytest.mark.parametrize("curve", [0.0, 0.6, -0.6])

@@ -5,7 +5,8 @@ from __future__ import annotations
 
 import time
 from pathlib import Path
-from typing import Any
+from types import SimpleNamespace
+from typing import Any, cast
 
 import numpy as np
 import pytest
@@ -16,6 +17,9 @@ from sensor_msgs.msg import FluidPressure
 from std_srvs.srv import Trigger
 
 from truck_blowout_sim import read_recording
+from truck_blowout_sim.nodes import clock_topics
+from truck_blowout_sim.nodes.clock import FollowPace
+from truck_blowout_sim.nodes.clock_topics import FollowedClock
 
 
 def stamp_s(message: Any) -> float:
@@ -187,3 +191,21 @@ def test_a_jump_back_resets_and_says_so(followed: Any, client: Any) -> None:
     followed.node.wait_for("jumped back from 52.000 to 20.000")
     assert followed.pressure[-1].fluid_pressure > 800e3
     assert followed.heard[-1].pose.pose.position.x == pytest.approx(4.0, abs=0.5)
+
+
+def test_a_clock_below_zero_is_ignored(monkeypatch: pytest.MonkeyPatch) -> None:
+    takes: list[Any] = []
+    monkeypatch.setattr(
+        clock_topics, "subscription", lambda _node, _kind, _topic, take, _qos: takes.append(take)
+    )
+    said: list[str] = []
+    log = SimpleNamespace(warning=lambda words, **_: said.append(words), info=said.append)
+    moved: list[int] = []
+    plant = SimpleNamespace(ready=False, move_to=moved.append)
+    pace = FollowPace(10_000_000)
+    FollowedClock(cast(Any, None), cast(Any, SimpleNamespace(plant=plant, log=log)), pace, {})
+    takes[0](clock_at(-5.0))
+    assert (moved, pace.target_ns) == ([], None)
+    assert said == ["a /clock below zero is ignored: no stamp has it"]
+    takes[0](clock_at(5.0))
+    assert moved == [5_000_000_000]

@@ -6,6 +6,7 @@ import math
 from collections.abc import Collection, Iterator
 
 from truck_blowout_sim.errors import InputError, quoted
+from truck_blowout_sim.recordings.checks import STAMPS_END_S
 
 _NS = 1_000_000_000
 EXPECTED = "TIRE@SECONDS or HUB@SECONDS, several joined by commas, as in steer_left@10.0"
@@ -28,7 +29,7 @@ def parse(text: str, parts: Collection[str]) -> tuple[tuple[int, str], ...]:
             at_s = float(seconds)
         except ValueError:
             at_s = math.nan
-        if part not in parts or not 0.0 <= at_s < math.inf:
+        if part not in parts or not 0.0 <= at_s < STAMPS_END_S:
             raise InputError(
                 f"{quoted(word)} is no blowout of this vehicle", file="parameter", where="blow",
                 expected=EXPECTED,

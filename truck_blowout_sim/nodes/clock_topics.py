@@ -88,8 +88,11 @@ class FollowedClock:
 
     def _take(self, message: Clock) -> None:
         now_ns = message.clock.sec * NS + message.clock.nanosec
-        before_ns, self._pace.target_ns = self._pace.target_ns, now_ns
         plant, log = self._simulator.plant, self._simulator.log
+        if now_ns < 0:
+            log.warning("a /clock below zero is ignored: no stamp has it", once=True)
+            return
+        before_ns, self._pace.target_ns = self._pace.target_ns, now_ns
         if before_ns is None or not plant.ready:
             plant.move_to(now_ns)
             if plant.ready:

@@ -126,6 +126,7 @@ class Plant:
         elapsed_ns = self.elapsed_ns
         self.clock.move_to(now_ns)
         self.began_ns = now_ns - elapsed_ns
+        self.blown_ns |= self._flat_ns()
 
     def outputs(self) -> NDArray[np.float64]:
         """Output vector of the model, in the order of `truck.output_names`."""

@@ -6,13 +6,14 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from truck_blowout_sim.errors import InputError
+from truck_blowout_sim.errors import InputError, quoted
 from truck_blowout_sim.nodes.inputs import Input
 from truck_blowout_sim.nodes.outputs import GROUPS
 from truck_blowout_sim.nodes.parameters import Spec
 from truck_blowout_sim.recordings import Blowout
 from truck_blowout_sim.recordings.blowout_words import parse_blowouts
 from truck_blowout_sim.recordings.channels import by_name, channels_for
+from truck_blowout_sim.recordings.checks import STAMPS_END_S
 from truck_blowout_sim.simulation import InitialState
 from truck_blowout_sim.simulation.flat import Flat, flat_at
 from truck_blowout_sim.simulation.plausible import MOST_BRAKE_PA
@@ -139,12 +140,18 @@ def flat_of(text: str) -> tuple[Flat, ...]:
     """Tires that burst before the start, and how long before, of the words of `initial_flat`.
 
     Raises:
-        InputError: a word of another form.
+        InputError: a word of another form, or an instant that cannot be.
     """
-    before = [Blowout(-b.time_s, b.tires) for b in parse_blowouts(text.split(",") if text else [])]
-    if any(b.time_s > 0.0 for b in before):
-        raise InputError("a tire that bursts later", file="parameter", where="initial_flat",
-                         expected="TIRE@SECONDS before the start")  # fmt: skip
+    expected = "TIRE@SECONDS before the start"
+    try:
+        events = parse_blowouts(text.split(",") if text else [])
+    except InputError as error:
+        raise InputError(error.problem.removeprefix("--blow "), file="parameter",
+                         where="initial_flat", expected=expected) from None  # fmt: skip
+    before = [Blowout(-b.time_s, b.tires) for b in events]
+    if not all(-STAMPS_END_S < b.time_s <= 0.0 for b in before):
+        raise InputError(f"{quoted(text)}: a tire that bursts later, or too long ago",
+                         file="parameter", where="initial_flat", expected=expected)  # fmt: skip
     return flat_at(sorted(before, key=lambda b: b.time_s), 0.0)
 
 
