@@ -139,3 +139,10 @@ def test_impossible_rates_are_refused(
 ) -> None:
     with pytest.raises(InputError, match=words):
         simulate(truck, "coast_down", step_s=step_s, rate_hz=rate_hz)
+
+
+def test_a_run_beyond_all_memory_is_refused(truck: Packed, tmp_path: Path) -> None:
+    path = tmp_path / "long.yaml"
+    path.write_text(COAST.replace("end_s: 2", "end_s: 1.0e+9"), encoding="utf-8")
+    with pytest.raises(InputError, match=r"lasts 1e\+09 s; expected 86400 s at most with steps of"):
+        simulate(truck, path)

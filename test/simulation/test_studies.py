@@ -219,6 +219,11 @@ def test_a_grid_has_every_combination_and_a_range_needs_its_number() -> None:
         grid([parse_axis("a=1:2")])
 
 
+def test_a_grid_beyond_all_memory_is_refused_before_it_is_made() -> None:
+    with pytest.raises(InputError, match="1000000000000 runs; expected"):
+        grid([parse_axis("a=1:2:1000000000000")])
+
+
 def test_a_sample_covers_each_axis_evenly_and_repeats() -> None:
     axes = [parse_axis("a=0:10"), parse_axis("b=x,y")]
     rows = sample(axes, 20, seed=4)

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.recordings import Blowout, Recording, read_recording
+from truck_blowout_sim.recordings.stray_time import LONGEST_S
 from truck_blowout_sim.resources import config_file
 from truck_blowout_sim.simulation.drive import Drive, Progress, Ran, execute
 from truck_blowout_sim.simulation.driver import input_table, pilot_of, speed_to_hold
@@ -24,6 +25,8 @@ from truck_blowout_sim.simulation.replay import as_recording, drive_from
 from truck_blowout_sim.simulation.scenario import Scenario, load_scenario
 from truck_blowout_sim.vehicle import Packed, load_road, road_values
 from truck_blowout_sim.vehicle.given import AnyVehicle, packed_of
+
+_MOST_STEPS = round(LONGEST_S / 0.001)
 
 
 def simulate(vehicle: AnyVehicle, scenario: Scenario | str | PathLike[str], *,
@@ -148,8 +151,15 @@ def row_times(scenario: Scenario, step_s: float, rate_hz: float) -> NDArray[np.f
 
 
 def _count_steps(scenario: Scenario, step_s: float) -> int:
-    """Steps from its start to its end; at least one."""
+    """Steps from its start to its end; at least one, and no more than fit into memory.
+
+    Raises:
+        InputError: what it lasts, and what is possible.
+    """
     spec = scenario.spec
+    if not spec.end_s - spec.start_s <= _MOST_STEPS * step_s:
+        raise InputError(f"end_s: lasts {spec.end_s - spec.start_s:g} s", file=scenario.path,
+                         expected=f"{_MOST_STEPS * step_s:g} s at most with steps of {step_s:g} s")
     n_steps = round((spec.end_s - spec.start_s) / step_s)
     if n_steps < 1:
         raise InputError(f"end_s: lasts {spec.end_s - spec.start_s:g} s", file=scenario.path,

@@ -98,10 +98,10 @@ def grid(axes: Sequence[Axis]) -> list[dict[str, Value]]:
         InputError: a range without a number of values, a key twice, or far too many runs.
     """
     _check(axes)
+    runs = math.prod(len(axis.values) or max(axis.count, 1) for axis in axes)
+    if runs > _MOST_RUNS:  # before the values are made: they might not fit into memory
+        raise InputError(f"{runs} runs", expected=f"at most {_MOST_RUNS}, or --random N")
     values = [axis.grid_values() for axis in axes]
-    if math.prod(len(v) for v in values) > _MOST_RUNS:
-        raise InputError(f"{math.prod(len(v) for v in values)} runs",
-                         expected=f"at most {_MOST_RUNS}, or --random N")
     names = [axis.key for axis in axes]
     return [dict(zip(names, row, strict=True)) for row in itertools.product(*values)]
 
