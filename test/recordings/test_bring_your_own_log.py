@@ -115,6 +115,20 @@ def test_inspect_tells_what_a_mapping_would_refuse(tmp_path: Path) -> None:
     assert "column 'steering angle', line 62: 'abc' is not a number" in notes
 
 
+def test_rows_without_a_valid_time_are_told(tmp_path: Path) -> None:
+    path, rules = tmp_path / "gaps.csv", tmp_path / "map.yaml"
+    times = ["inf" if k == 5 else "---" if k == 9 else f"{0.01 * k:.2f}" for k in range(30)]
+    path.write_text("time [s],speed [km/h]\n" + "".join(f"{t},80\n" for t in times))
+    rules.write_text("channels: {tractor_vx_mps: speed}\n")
+    told = "gaps.csv: 2 rows without a valid time left out, the first is line 7: 'inf'"
+    inspected = inspect_log(path).notes
+    assert told in inspected
+    assert not [note for note in inspected if "where a channel takes it" in note]
+    read = read_recording(path, mapping=rules)
+    assert told in read.notes
+    assert len(read["tractor_vx_mps"]) == 28
+
+
 def test_inspect_refuses_a_wrong_mapping_in_one_line(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

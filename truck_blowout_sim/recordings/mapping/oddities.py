@@ -35,9 +35,10 @@ def _of_time(opened: Opened) -> Iterator[str]:
 
 
 def _of_cells(opened: Opened) -> Iterator[str]:
-    """The first cell of each column that is no number."""
+    """The first cell of each column that is no number, but for the column of time."""
+    time = opened.rows.column if opened.rows else ""
     for name in opened.log.names:
         column = opened.log.column(name)
-        if column.bad and name not in opened.native_columns:
+        if column.bad and name != time and name not in opened.native_columns:
             yield (f"column {quoted(name)}, {column.bad} is not a number: the column is refused"
                    " where a channel takes it")

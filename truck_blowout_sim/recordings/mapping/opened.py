@@ -5,7 +5,7 @@ Validated with: test/recordings/test_mapping.py.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -147,16 +147,25 @@ def _open(path: Path, stated: str, time: TimeRule, rules: Rules, namespace: str 
         if not thesis_without_time:
             raise
     else:
-        told = other_unit(opened.rows.column, opened.log.column(opened.rows.column).unit,
-                          find_unit(time.unit))  # fmt: skip
-        opened.notes += [f"{path.name}: {told}"] if told else []
-        if not opened.rows.named:
-            opened.notes.append(f"{path.name}: no column is called time; {opened.rows.column!r} is"
-                                " taken for it, because it increases in every row")
-        if opened.rows.guessed and opened.rows.unit != "s":
-            opened.notes.append(f"{path.name}: time column {opened.rows.column!r} is taken to be in"
-                                f" {opened.rows.unit}, by its numbers")  # fmt: skip
+        said = _notes_on(opened.rows, opened.log, time)
+        opened.notes += [f"{path.name}: {note}" for note in said]
     return opened
+
+
+def _notes_on(rows: Times, log: Log, rule: TimeRule) -> Iterator[str]:
+    """What a person should know of a log's time column."""
+    column = log.column(rows.column)
+    if told := other_unit(rows.column, column.unit, find_unit(rule.unit)):
+        yield told
+    if not rows.named:
+        yield (f"no column is called time; {rows.column!r} is taken for it, because it increases in"
+               " every row")
+    if rows.guessed and rows.unit != "s":
+        yield f"time column {rows.column!r} is taken to be in {rows.unit}, by its numbers"
+    left = np.flatnonzero(~np.isfinite(rows.time_s))
+    if left.size:
+        first = column.bad or f"row {left[0] + 1}"
+        yield f"{left.size} rows without a valid time left out, the first is {first}"
 
 
 def other_unit(column: str, stated: str, taken: Unit | None) -> str:
