@@ -20,8 +20,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from truck_blowout_sim.comparison.units import PSI_PA
 from truck_blowout_sim.recordings import Recording, Series
+from truck_blowout_sim.vehicle.units import PSI_PA
 
 Floats = NDArray[np.float64]
 

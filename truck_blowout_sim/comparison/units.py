@@ -12,12 +12,8 @@ import math
 import re
 from dataclasses import dataclass
 
-from truck_blowout_sim.vehicle.units import FOOT_M
-
-MPH_MPS = 0.44704
-PSI_PA = 6894.757293168361
-G_MPS2 = 9.80665
-POUND_FORCE_N = 4.4482216152605
+from truck_blowout_sim.recordings.units import GRAVITY_MPS2
+from truck_blowout_sim.vehicle.units import FOOT_M, MILE_PER_HOUR_MPS, POUND_FORCE_N, PSI_PA
 
 
 @dataclass(frozen=True)
@@ -29,9 +25,9 @@ class DisplayUnit:
 
 
 _BY_SUFFIX = {
-    "mps2": DisplayUnit("g", 1.0 / G_MPS2),
+    "mps2": DisplayUnit("g", 1.0 / GRAVITY_MPS2),
     "radps": DisplayUnit("deg/s", math.degrees(1.0)),
-    "mps": DisplayUnit("mph", 1.0 / MPH_MPS),
+    "mps": DisplayUnit("mph", 1.0 / MILE_PER_HOUR_MPS),
     "rad": DisplayUnit("deg", math.degrees(1.0)),
     "pa": DisplayUnit("psi", 1.0 / PSI_PA),
     "m": DisplayUnit("ft", 1.0 / FOOT_M),

@@ -17,11 +17,11 @@ import numpy as np
 
 from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.motion.source import Floats, Source
+from truck_blowout_sim.recordings.units import GRAVITY_MPS2
 from truck_blowout_sim.vehicle import Vehicle
 from truck_blowout_sim.vehicle.statics import static_loads
 
-_DEFLATION_S = 0.5
-_GRAVITY_MPS2 = 9.80665
+_DEFLATION_S = 0.5  # thesis L665
 _FORCES = ("fx", "fy", "fz")
 
 
@@ -102,7 +102,7 @@ def _air(source: Source, vehicle: Vehicle, tire: str) -> Floats:
 def _resting_radii(source: Source, vehicle: Vehicle) -> dict[str, float]:
     """Hub height of each tire at rest on the level."""
     try:
-        loads = static_loads(vehicle, _GRAVITY_MPS2).road_n
+        loads = static_loads(vehicle, GRAVITY_MPS2).road_n
     except (ValueError, InputError):
         source.assume("axle loads at rest: unknown, tires are drawn at their free radius")
         loads = {}

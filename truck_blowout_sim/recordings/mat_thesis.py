@@ -28,11 +28,10 @@ from truck_blowout_sim.recordings.channels import by_name, channels_for
 from truck_blowout_sim.recordings.checks import check_times, check_values
 from truck_blowout_sim.recordings.mat_file import Variable, read_variables
 from truck_blowout_sim.recordings.recording import Blowout, Recording, Series
+from truck_blowout_sim.recordings.units import FOOT_M, MILE_PER_HOUR_MPS
 
 FloatArray = NDArray[np.float64]
 
-MPH_IN_MPS = 0.44704
-FOOT_IN_M = 0.3048
 DEGREE_IN_RAD = math.pi / 180.0
 BLOWN_TIRE = "steer_left"
 SOURCES = {"experiment": "_e", "hve": "_h"}
@@ -48,11 +47,11 @@ class _Variable:
 
 
 _VARIABLES = (
-    _Variable("vx", "tractor_vx_mps", MPH_IN_MPS, False),
-    _Variable("vy", "tractor_vy_mps", MPH_IN_MPS, True),
+    _Variable("vx", "tractor_vx_mps", MILE_PER_HOUR_MPS, False),
+    _Variable("vy", "tractor_vy_mps", MILE_PER_HOUR_MPS, True),
     _Variable("yaw", "tractor_yaw_rate_radps", DEGREE_IN_RAD, True),
-    _Variable("x", "tractor_x_m", FOOT_IN_M, False),
-    _Variable("y", "tractor_y_m", FOOT_IN_M, True),
+    _Variable("x", "tractor_x_m", FOOT_M, False),
+    _Variable("y", "tractor_y_m", FOOT_M, True),
 )
 
 THESIS_CHANNELS = frozenset(variable.channel for variable in _VARIABLES)

@@ -26,15 +26,14 @@ from numpy.typing import NDArray
 from truck_blowout_sim.recordings.atomic import replacing
 from truck_blowout_sim.recordings.csv_writer import write_csv
 from truck_blowout_sim.recordings.recording import Blowout, Recording, Series
+from truck_blowout_sim.recordings.units import FOOT_M, GRAVITY_MPS2, MILE_PER_HOUR_MPS, PSI_PA
 from truck_blowout_sim.resources import config_dir
 
 FloatArray = NDArray[np.float64]
 
 NAME = "test_2013_steer_blowout"
-_SI = {"ft": 0.3048, "mph": 0.44704, "deg": np.pi / 180, "deg/s": np.pi / 180}
-_PSI_IN_PA = 6894.757293168361
-_GRAVITY_MPS2 = 9.80665
-_KMH_IN_MPS = 3.6
+_SI = {"ft": FOOT_M, "mph": MILE_PER_HOUR_MPS, "deg": np.pi / 180, "deg/s": np.pi / 180}
+_KMH_PER_MPS = 3.6
 _DECIMALS = {"tractor_x_m": 4, "tractor_y_m": 4, "tractor_vx_mps": 5, "throttle": 5}
 _MARKS = ("stated", "derived", "interpolated")
 
@@ -158,13 +157,13 @@ def _brake_pressure_pa(
     torque_nm = force_n * budget["rolling_radius"] / budget["wheel_ends"]
     a, b = budget["brake_quadratic"], budget["brake_linear"]
     above_push_out = (b - np.sqrt(b * b - 4 * a * torque_nm)) / (2 * a)
-    return float((budget["brake_push_out"] + above_push_out) * _PSI_IN_PA)
+    return float((budget["brake_push_out"] + above_push_out) * PSI_PA)
 
 
 def _resistance_n(speed_mps: float, budget: Mapping[str, float]) -> float:
     air = 0.5 * budget["air_density"] * budget["drag_area"] * speed_mps**2
-    per_speed = budget["rolling_per_speed"] * _KMH_IN_MPS * speed_mps
-    return air + (budget["rolling_constant"] + per_speed) * budget["mass"] * _GRAVITY_MPS2
+    per_speed = budget["rolling_per_speed"] * _KMH_PER_MPS * speed_mps
+    return air + (budget["rolling_constant"] + per_speed) * budget["mass"] * GRAVITY_MPS2
 
 
 def _yaw_rate(time_s: FloatArray, vx: FloatArray, figures: Mapping[str, float]) -> FloatArray:

@@ -16,10 +16,12 @@ from dataclasses import dataclass
 from truck_blowout_sim.errors import InputError, nearest, quoted
 from truck_blowout_sim.recordings.channel import ATMOSPHERE_PA
 
+# Standard gravity, the unit g. That of a simulated road is its own `gravity_mps2`.
 GRAVITY_MPS2 = 9.80665
 _DEG = math.pi / 180.0
-_FOOT_M, _MILE_M, _NAUTICAL_MILE_M = 0.3048, 1609.344, 1852.0
-_POUND_N, _PSI_PA = 4.4482216152605, 6894.757293168361
+FOOT_M, MILE_M, _NAUTICAL_MILE_M = 0.3048, 1609.344, 1852.0
+MILE_PER_HOUR_MPS, KMH_MPS = MILE_M / 3600.0, 1.0 / 3.6
+_POUND_N, PSI_PA = 4.4482216152605, 6894.757293168361
 
 
 @dataclass(frozen=True)
@@ -61,15 +63,15 @@ _TABLE: dict[str, dict[str, tuple[float, float, str]]] = {
     },
     "speed": {
         "m/s": (1.0, 0.0, "mps m/sec meter/s m*s^-1 m.s-1"),
-        "km/h": (1 / 3.6, 0.0, "kmh kph kmph kilometer/h km/hr"),
-        "mph": (_MILE_M / 3600.0, 0.0, "mi/h miles/h mile/h"),
+        "km/h": (KMH_MPS, 0.0, "kmh kph kmph kilometer/h km/hr"),
+        "mph": (MILE_PER_HOUR_MPS, 0.0, "mi/h miles/h mile/h"),
         "knots": (_NAUTICAL_MILE_M / 3600.0, 0.0, "knot kn kt kts"),
-        "ft/s": (_FOOT_M, 0.0, "fps ft/sec"),
+        "ft/s": (FOOT_M, 0.0, "fps ft/sec"),
     },
     "acceleration": {
         "m/s2": (1.0, 0.0, "m/s^2 m/s² mps2 m/s/s m/sec2 m/sec^2 m*s^-2 m.s-2"),
         "g": (GRAVITY_MPS2, 0.0, "gn g's gs"),
-        "ft/s2": (_FOOT_M, 0.0, "ft/s^2 ft/s²"),
+        "ft/s2": (FOOT_M, 0.0, "ft/s^2 ft/s²"),
         "mg": (GRAVITY_MPS2 / 1e3, 0.0, ""),
     },
     "length": {
@@ -77,8 +79,8 @@ _TABLE: dict[str, dict[str, tuple[float, float, str]]] = {
         "km": (1e3, 0.0, ""),
         "cm": (1e-2, 0.0, ""),
         "mm": (1e-3, 0.0, ""),
-        "ft": (_FOOT_M, 0.0, "foot feet"),
-        "in": (_FOOT_M / 12.0, 0.0, "inch inches"),
+        "ft": (FOOT_M, 0.0, "foot feet"),
+        "in": (FOOT_M / 12.0, 0.0, "inch inches"),
     },
     "pressure": {
         "Pa": (1.0, 0.0, "pascal"),
@@ -86,11 +88,11 @@ _TABLE: dict[str, dict[str, tuple[float, float, str]]] = {
         "kPa": (1e3, 0.0, ""),
         "MPa": (1e6, 0.0, ""),
         "bar": (1e5, 0.0, "barg bar(g)"),
-        "psi": (_PSI_PA, 0.0, "psig lb/in2 lbf/in2"),
+        "psi": (PSI_PA, 0.0, "psig lb/in2 lbf/in2"),
         "Pa absolute": (1.0, -ATMOSPHERE_PA, "pa(a) paa"),
         "kPa absolute": (1e3, -ATMOSPHERE_PA, "kpa(a) kpaa"),
         "bar absolute": (1e5, -ATMOSPHERE_PA, "bara bar(a)"),
-        "psi absolute": (_PSI_PA, -ATMOSPHERE_PA, "psia psi(a)"),
+        "psi absolute": (PSI_PA, -ATMOSPHERE_PA, "psia psi(a)"),
     },
     "ratio": {
         "1": (1.0, 0.0, "- none ratio fraction 0..1"),

@@ -16,7 +16,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from truck_blowout_sim.comparison import Comparison
-from truck_blowout_sim.comparison.units import PSI_PA, display_unit
+from truck_blowout_sim.comparison.units import display_unit
 from truck_blowout_sim.report.comparison_lines import (
     draw_both,
     draw_error,
@@ -37,7 +37,7 @@ from truck_blowout_sim.report.style import (
     new_figure,
     styled,
 )
-from truck_blowout_sim.vehicle.units import FOOT_M
+from truck_blowout_sim.vehicle.units import FOOT_M, PSI_PA
 
 _TALL = (WIDE[0], 5.2)
 _QUIET_PA = 2.0 * PSI_PA

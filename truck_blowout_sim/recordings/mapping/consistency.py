@@ -23,15 +23,15 @@ from numpy.typing import NDArray
 from truck_blowout_sim.recordings.channels import UNITS
 from truck_blowout_sim.recordings.gravity import gravity_is_removed
 from truck_blowout_sim.recordings.recording import Recording
-from truck_blowout_sim.recordings.units import GRAVITY_MPS2
+from truck_blowout_sim.recordings.units import FOOT_M, GRAVITY_MPS2, MILE_M
 
 FloatArray = NDArray[np.float64]
 
 _DEG = 180.0 / math.pi
-_FOOT_M, _MPH = 0.3048, 3600.0 / 1609.344
+_MPH = 3600.0 / MILE_M  # of 1 m/s
 _HEADING, _PLACE, _TURN, _GRAVITY = "yaw_rad", "its position", "speed times yaw rate", "gravity"
 _PATH, _CHANGE = "the turning of its path", "its change of speed"
-_MPH_IN_KMH = 1.609344
+_MPH_IN_KMH = MILE_M / 1e3
 # what a channel is held against: ratio of its number to what that says, and what the ratio means
 _MISTAKES: dict[str, tuple[tuple[float, str], ...]] = {
     _HEADING: ((_DEG, "reads like deg taken for rad"), (1 / _DEG, "reads like rad taken for deg")),
@@ -40,8 +40,8 @@ _MISTAKES: dict[str, tuple[tuple[float, str], ...]] = {
     _PLACE: (
         (3.6, "reads like km/h taken for m/s"), (1 / 3.6, "reads like m/s taken for km/h"),
         (_MPH, "reads like mph taken for m/s"), (1 / _MPH, "reads like m/s taken for mph"),
-        (_FOOT_M, "the position reads like ft taken for m"),
-        (1 / _FOOT_M, "the position reads like m taken for ft"),
+        (FOOT_M, "the position reads like ft taken for m"),
+        (1 / FOOT_M, "the position reads like m taken for ft"),
         (1e3, "the position reads like km taken for m"),
         (1e-3, "the position reads like m taken for km"),
     ),

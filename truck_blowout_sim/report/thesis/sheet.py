@@ -7,7 +7,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
-from truck_blowout_sim.comparison.units import PSI_PA
+from truck_blowout_sim.recordings.units import GRAVITY_MPS2
 from truck_blowout_sim.report.style import INK, SOFT, plain_log_ticks
 from truck_blowout_sim.report.thesis.canvas import (
     OURS_LINE,
@@ -20,8 +20,9 @@ from truck_blowout_sim.report.thesis.canvas import (
 from truck_blowout_sim.simulation.thesis_data import OURS, THESIS, ThesisData
 from truck_blowout_sim.vehicle.schema.axle import AxleSpec
 from truck_blowout_sim.vehicle.statics import static_loads
+from truck_blowout_sim.vehicle.units import PSI_PA
 
-_G, _LB_N, _LINES = 9.80665, 4.4482216152605, {OURS: OURS_LINE, THESIS: THESIS_LINE}
+_LINES = {OURS: OURS_LINE, THESIS: THESIS_LINE}
 _TRAVEL_MM = np.linspace(-95.0, 95.0, 381)
 
 
@@ -70,7 +71,7 @@ def spring(data: ThesisData, stated: str, axle: str) -> Figure:
     figure, (axes,) = canvas(stated)
     for sheet, vehicle in data.vehicles.items():
         spec = vehicle.spec.axles[axle]
-        preload = static_loads(vehicle, _G).spring_n[axle] / 2.0
+        preload = static_loads(vehicle, GRAVITY_MPS2).spring_n[axle] / 2.0
         _loop(axes, spec, preload, _LINES[sheet], sheet)
         axes.plot([0.0], [preload / 1e3], "o", color=_LINES[sheet], markersize=5, zorder=4)
     own = data.vehicles[OURS].spec.axles[axle].suspension

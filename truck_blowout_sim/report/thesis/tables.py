@@ -8,11 +8,12 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
+from truck_blowout_sim.recordings.units import GRAVITY_MPS2
 from truck_blowout_sim.simulation.thesis_data import OURS, THESIS, ThesisData
 from truck_blowout_sim.vehicle import Vehicle
 from truck_blowout_sim.vehicle.statics import static_loads
+from truck_blowout_sim.vehicle.units import INCH_M, KMH_MPS, POUND_KG
 
-_LB_KG, _IN_M, _G, _KMH = 0.45359237, 0.0254, 9.80665, 1.0 / 3.6
 NONE = "–"
 
 
@@ -45,11 +46,12 @@ def _unit_mass_lb(vehicle: Vehicle, unit: str) -> str:
     spec = vehicle.unit_specs[unit]
     total = spec.body.mass_kg + sum(a.mass_kg for a in vehicle.spec.axles.values()
                                     if a.unit == unit)
-    return f"{total / _LB_KG:,.0f}"
+    return f"{total / POUND_KG:,.0f}"
 
 
 def _gross_lb(vehicle: Vehicle) -> str:
-    return f"{sum(static_loads(vehicle, _G).road_n.values()) / _G / _LB_KG:,.0f}"
+    weight_n = sum(static_loads(vehicle, GRAVITY_MPS2).road_n.values())
+    return f"{weight_n / GRAVITY_MPS2 / POUND_KG:,.0f}"
 
 
 def _tandem_m(vehicle: Vehicle, unit: str, skip: int) -> float:
@@ -59,7 +61,7 @@ def _tandem_m(vehicle: Vehicle, unit: str, skip: int) -> float:
 
 def _tractor(a: Vehicle, b: Vehicle) -> Rows:
     tires = [[v.tire_specs[t].title for t in ("steer_left", "drive_1_left_outer")] for v in (a, b)]
-    wheelbase = [f"{_tandem_m(v, 'tractor', 1) / _IN_M:.0f}" for v in (a, b)]
+    wheelbase = [f"{_tandem_m(v, 'tractor', 1) / INCH_M:.0f}" for v in (a, b)]
     return _HEADER, [
         ("loaded weight (lb)", "52,000", _gross_lb(a), _gross_lb(b)),
         ("curb weight, fuel included; ours with crew and instruments (lb)", "17,523",
@@ -80,7 +82,7 @@ def _springs(a: Vehicle, b: Vehicle, axle: str) -> list[str]:
 
 
 def _trailer(a: Vehicle, b: Vehicle) -> Rows:
-    track = [f"{v.spec.axles['trailer_1'].track_m / _IN_M:.1f}" for v in (a, b)]
+    track = [f"{v.spec.axles['trailer_1'].track_m / INCH_M:.1f}" for v in (a, b)]
     tires = [v.tire_specs["trailer_1_left_outer"].title for v in (a, b)]
     return _HEADER, [
         ("gross rating (lb)", "80,000", NONE, NONE),
@@ -153,7 +155,7 @@ def _rolling(vehicle: Vehicle, tire: str) -> str:
     spec, hub = vehicle.tire_specs[tire], vehicle.hub_of_tire(tire)
     axle = vehicle.axle_of_hub(hub)
     rate = spec.stiffness_npm + spec.stiffness_npmppa * spec.pressure_pa
-    load = static_loads(vehicle, _G).road_n[axle] / 2 / len(vehicle.tires_of_hub(hub))
+    load = static_loads(vehicle, GRAVITY_MPS2).road_n[axle] / 2 / len(vehicle.tires_of_hub(hub))
     radius = (spec.unloaded_radius_m - spec.radius_fraction * load / rate + spec.radius_offset_m)
     return f"{radius * 1e3:.0f}; {rate / 1e3:.0f}"
 
@@ -172,7 +174,7 @@ def _rolling_resistance(a: Vehicle, b: Vehicle) -> Rows:
     steps = b.blowout.steps
     assert steps is not None
     rows: list[tuple[str, ...]] = [
-        (f"{t:.2f}", f"{c:.5f}", f"{v * _KMH:.7f}")
+        (f"{t:.2f}", f"{c:.5f}", f"{v * KMH_MPS:.7f}")
         for t, c, v in zip(steps.time_s, steps.rolling_0, steps.rolling_spm, strict=True)]
     return ("time after the blowout (s)", f"R_RC, {THESIS}", f"R_RV (h/km), {THESIS}"), rows
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 import numpy as np
 
 from truck_blowout_sim.recordings import Recording
+from truck_blowout_sim.recordings.units import GRAVITY_MPS2
 from truck_blowout_sim.simulation.run import simulate
 from truck_blowout_sim.simulation.validation.rows import (
     Row,
@@ -21,7 +22,6 @@ from truck_blowout_sim.simulation.validation.rows import (
 from truck_blowout_sim.vehicle import Packed
 from truck_blowout_sim.vehicle.units import MILE_PER_HOUR_MPS, PSI_PA
 
-_G = 9.81
 _INPUT = "input of the run"
 _LOG = "against the rebuilt log, whose shape between stated figures is no evidence"
 
@@ -39,7 +39,7 @@ def _within(value: float, low: float, high: float) -> bool:
 
 def _clock_and_speed(run: Recording) -> list[Row]:
     v0, v5, v10 = (mph(at(run, "tractor_vx_mps", t)) for t in (0.0, 5.0, 10.0))
-    brakes = MILE_PER_HOUR_MPS * (v0 - v5) / 5.0 / _G
+    brakes = MILE_PER_HOUR_MPS * (v0 - v5) / 5.0 / GRAVITY_MPS2
     exact = (run.start_s, run.blowouts[0].time_s) == (-4.92, 0.0)
     return [
         Row("V1", "start, trigger, end", "-4.92, 0, about 10 s",
