@@ -13,7 +13,7 @@ from truck_blowout_sim.nodes.adapters.brake_curve import BrakeCurve, brake_curve
 from truck_blowout_sim.vehicle import Vehicle
 
 _LOWEST_SPEED_MPS = 1.0
-_GRAVITY_MPS2 = 9.81
+_ROLLING = 0.006  # resistance per weight of warm truck tires, for the feed-forward alone
 
 
 @dataclass(frozen=True)
@@ -26,6 +26,7 @@ class SpeedController:
         max_force_n: of the drive at low speed.
         drag_n: of the engine with the throttle closed.
         brakes: braking force over control pressure.
+        gravity_mps2: of the road.
         gain_ps: acceleration per speed error.
         max_deceleration_mps2: what is asked of the brakes at most.
     """
@@ -35,6 +36,7 @@ class SpeedController:
     max_force_n: float
     drag_n: float
     brakes: BrakeCurve
+    gravity_mps2: float
     gain_ps: float = 0.5
     max_deceleration_mps2: float = 6.0
 
@@ -56,7 +58,7 @@ class SpeedController:
         return 0.0, self.brakes.pressure_pa(deceleration * self.mass_kg)
 
     def _rolling_n(self) -> float:
-        return 0.006 * self.mass_kg * _GRAVITY_MPS2
+        return _ROLLING * self.mass_kg * self.gravity_mps2
 
     def _throttle(self, force_n: float, speed_mps: float) -> float:
         full_n = min(self.power_w / max(speed_mps, _LOWEST_SPEED_MPS), self.max_force_n)
@@ -78,4 +80,5 @@ def speed_controller(vehicle: Vehicle) -> SpeedController:
         max_force_n=driveline.max_force_n,
         drag_n=driveline.drag_n,
         brakes=brake_curve(vehicle),
+        gravity_mps2=vehicle.road.gravity_mps2,
     )

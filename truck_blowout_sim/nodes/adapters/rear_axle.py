@@ -20,7 +20,6 @@ from truck_blowout_sim.vehicle import Vehicle
 from truck_blowout_sim.vehicle.places import hub_places
 
 FloatArray = NDArray[np.float64]
-_GRAVITY_MPS2 = 9.81
 
 
 @dataclass(frozen=True)
@@ -64,6 +63,7 @@ class RearAxle:
         self._velocity = columns("vx_mps", "vy_mps", "vz_mps")
         self._rates = columns("roll_rate_radps", "pitch_rate_radps", "yaw_rate_radps")
         self._force = columns("ax_mps2", "ay_mps2", "az_mps2")
+        self._gravity_mps2 = vehicle.road.gravity_mps2
         self._last: tuple[int, FloatArray] | None = None
 
     def motion(self, stamp_ns: int, outputs: FloatArray) -> Motion:
@@ -73,7 +73,7 @@ class RearAxle:
         body = _matrix(roll, pitch, yaw)
         rate, at = outputs[self._rates], self.offset_m
         spin = self._angular_acceleration(stamp_ns, rate)
-        free = outputs[self._force] - body.T @ np.array([0.0, 0.0, _GRAVITY_MPS2])
+        free = outputs[self._force] - body.T @ np.array([0.0, 0.0, self._gravity_mps2])
         return Motion(
             place_m=outputs[self._place] + body @ at,
             turn=turn,
