@@ -21,7 +21,7 @@ from truck_blowout_sim.vehicle.single_track.draft import Draft
 from truck_blowout_sim.vehicle.single_track.plan import AxlePlan, UnitPlan
 
 WHEEL_GYRATION = 0.75  # of a wheel with its tire over the free radius: mass between rim and tread
-WHEEL_SHARE = 0.5  # share of an axle's mass in its wheels (config: 14 kg m2 a steer wheel)
+WHEEL_SHARE = 0.5  # share of an axle's mass in its wheels: 19 kg m2 a steer wheel of the default
 
 
 def put_axles(draft: Draft, unit: UnitPlan, *, total_driven: int) -> None:
