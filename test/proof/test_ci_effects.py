@@ -1,4 +1,4 @@
-"""Half of the cases of the `ci` set whose truck lacks one thing of the library, from truth to table."""
+"""Half of the cases of the `ci` set whose truck lacks one thing, from truth to table."""
 
 from __future__ import annotations
 
