@@ -1,4 +1,4 @@
-"""Command line of the proving ground: `python -m proving_ground generate|list|seal|validate`."""
+"""Command line of the proving ground: `python -m proving_ground VERB`, `--help` for the verbs."""
 
 from __future__ import annotations
 

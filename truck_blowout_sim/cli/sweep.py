@@ -25,7 +25,7 @@ VEHICLE: Any = typer.Option(
     "international_9400i_trailmobile", help="Name of a shipped vehicle, or a YAML file.",
     autocompletion=names_of("vehicles"),
 )
-_LOADING = "loading the model; the first sweep compiles it, in a minute"
+_LOADING = "loading the model; the first sweep compiles it, in up to a minute"
 _CONTINUES = "the same command continues from here"
 
 

@@ -90,7 +90,9 @@ _TABLE: dict[str, dict[str, tuple[float, float, str]]] = {
         "bar": (1e5, 0.0, "barg bar(g)"),
         "psi": (PSI_PA, 0.0, "psig lb/in2 lbf/in2"),
         "Pa absolute": (1.0, -ATMOSPHERE_PA, "pa(a) paa"),
+        "hPa absolute": (1e2, -ATMOSPHERE_PA, "hpa(a) hpaa"),
         "kPa absolute": (1e3, -ATMOSPHERE_PA, "kpa(a) kpaa"),
+        "MPa absolute": (1e6, -ATMOSPHERE_PA, "mpa(a) mpaa"),
         "bar absolute": (1e5, -ATMOSPHERE_PA, "bara bar(a)"),
         "psi absolute": (PSI_PA, -ATMOSPHERE_PA, "psia psi(a)"),
     },
@@ -128,7 +130,8 @@ _UNITS = {
 }
 # What the splitting at blanks above would take apart.
 _UNITS |= {
-    _key(f"{name} abs"): _UNITS[_key(f"{name} absolute")] for name in ("Pa", "kPa", "bar", "psi")
+    _key(f"{name} abs"): _UNITS[_key(f"{name} absolute")]
+    for name in ("Pa", "hPa", "kPa", "MPa", "bar", "psi")
 }
 _MILLI_PASCAL = "mPa"
 
