@@ -14,6 +14,7 @@ from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.result.parts import Place
 from truck_blowout_sim.diagnosis.settings import load_settings
 from truck_blowout_sim.resources import config_names
+from truck_blowout_sim.simulation import InitialState, Inputs, Truck
 from truck_blowout_sim.vehicle import Packed, load_vehicle, pack
 
 Floats = NDArray[np.float64]
@@ -242,3 +243,24 @@ def test_a_load_that_moves_to_the_left_turns_the_body_to_the_left(truck: Packed)
     effect = next(e for e in LIBRARY if e.name == "payload_shift")
     _, equation = fill(Hypothesis(effect, effect.places(truck.vehicle)[0]), 0.4, 2.5)
     assert equation.startswith("M_x = -m_load g * 0.4 m from t = 2.50 s")
+
+
+def chamber_pa(packed: Packed) -> Floats:
+    """[2000] pressure in a trailer's brake chamber, each ms after 1 bar: no wheel locks."""
+    run, found = Truck(packed, initial=InitialState(speed_mps=20.0)), np.zeros(2000)
+    for k in range(found.size):
+        run.advance(Inputs(0.0, 0.0, 1e5, 1e5, 1e5))
+        found[k] = run.outputs()["brake_chamber_trailer_2_left_pa"]
+    return found
+
+
+def test_late_brakes_are_as_late_as_they_say_and_begin_late_by_law(truck: Packed) -> None:
+    """The area between control and chamber pressure is the lag, however it comes about."""
+    laws = [effect for effect in LIBRARY if effect.name == "brake_lag"]
+    sound, place = chamber_pa(truck), Place(body="trailer", axle="trailer")
+    begins = []
+    for law in laws:
+        late = chamber_pa(truck.with_values(law.values(truck, place, 0.2)))
+        assert 0.001 * float(np.sum(sound - late)) / 1e5 == pytest.approx(0.2, abs=0.004)
+        begins.append(0.001 * int(np.argmax(late > 0.0) - np.argmax(sound > 0.0)))
+    assert begins == pytest.approx([0.0, 0.2, 0.1], abs=0.003)
