@@ -33,8 +33,8 @@ _TINY = 1e-12  # of a residual's variance: that of a computed log may vanish
 _LONGEST_S = 2.0  # of the correlation of a residual
 _DRIVES_MPS = 5.0  # no truck reverses faster
 _BACKWARD = 20.0  # log odds against one that does, over a whole recording
-_CONTRARY = 4.5  # log likelihood by which the other identities speak against it
 _UPRIGHT = 20.0  # the same against a vertical accelerometer that is half a gravity off
+_CONTRARY = 4.5  # log likelihood by which identities may speak against what that one says
 
 
 @dataclass(frozen=True)
