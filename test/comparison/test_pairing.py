@@ -5,7 +5,6 @@ import pytest
 
 from truck_blowout_sim.comparison.pairing import pairs_of
 from truck_blowout_sim.recordings import Recording, Series
-from truck_blowout_sim.recordings.units import GRAVITY_MPS2
 
 FINE = np.linspace(0.0, 10.0, 1001)
 COARSE = np.array([0.0, 0.5, 1.0, 2.0, 9.0, 9.5])
@@ -61,7 +60,7 @@ def test_position_errors_are_along_and_across_the_first_course() -> None:
 
 
 def test_gravity_leaves_the_model_where_the_recording_is_free_of_it() -> None:
-    roll, pitch, g = 0.05, 0.02, GRAVITY_MPS2
+    roll, pitch, g = 0.05, 0.02, 9.81
     felt = {"ax": -g * np.sin(pitch), "ay": g * np.sin(roll) * np.cos(pitch),
             "az": g * np.cos(roll) * np.cos(pitch)}  # fmt: skip
     model = made(FINE, tractor_roll_rad=roll, tractor_pitch_rad=pitch,

@@ -7,11 +7,11 @@ import pytest
 
 from truck_blowout_sim.recordings import Recording
 from truck_blowout_sim.recordings.gravity import (
+    AT_REST_MPS2,
     gravity_felt,
     gravity_is_removed,
     with_gravity_stated,
 )
-from truck_blowout_sim.recordings.units import GRAVITY_MPS2
 
 SAID = Recording("run", {}).with_metadata(accelerometers="Gravity removed by the INS")
 
@@ -32,6 +32,6 @@ def test_one_line_speaks_of_all_units_and_another_of_one() -> None:
 def test_a_leaning_body_feels_one_gravity_in_all(roll: float, pitch: float) -> None:
     felt = np.array([gravity_felt(stem, np.array(roll), np.array(pitch))
                      for stem in ("ax_mps2", "ay_mps2", "az_mps2")])
-    assert np.linalg.norm(felt) == pytest.approx(GRAVITY_MPS2)
+    assert np.linalg.norm(felt) == pytest.approx(AT_REST_MPS2)
     assert np.sign(felt[1]) == np.sign(roll)
     assert np.sign(felt[0]) == -np.sign(pitch)

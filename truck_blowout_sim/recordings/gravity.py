@@ -15,10 +15,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from truck_blowout_sim.recordings.recording import Recording
-from truck_blowout_sim.recordings.units import GRAVITY_MPS2
 
 FloatArray = NDArray[np.float64]
 ACCELERATIONS: Final = ("ax_mps2", "ay_mps2", "az_mps2")
+AT_REST_MPS2: Final = 9.81  # what a vertical accelerometer reads at rest, on shipped roads too
 _REMOVED = "gravity removed"
 _INCLUDED = "strapdown: gravity included"
 
@@ -49,4 +49,4 @@ def gravity_felt(stem: str, roll_rad: FloatArray, pitch_rad: FloatArray) -> Floa
         "ay_mps2": np.sin(roll_rad) * np.cos(pitch_rad),
         "az_mps2": np.cos(roll_rad) * np.cos(pitch_rad),
     }[stem]
-    return np.asarray(GRAVITY_MPS2 * vertical)
+    return np.asarray(AT_REST_MPS2 * vertical)

@@ -26,7 +26,7 @@ from truck_blowout_sim.simulation.scenario import Scenario, load_scenario
 from truck_blowout_sim.vehicle import Packed, load_road, road_values
 from truck_blowout_sim.vehicle.given import AnyVehicle, packed_of
 
-_MOST_STEPS = round(LONGEST_S / 0.001)
+_MOST_STEPS = round(LONGEST_S / 0.001)  # a day at the usual step
 
 
 def simulate(vehicle: AnyVehicle, scenario: Scenario | str | PathLike[str], *,

@@ -39,8 +39,10 @@ class Leaning:
 def leaning_of(recording: Recording, channels: Sequence[str], names: Sequence[str]
                ) -> tuple[Leaning, ...]:
     """Those of a recording's ``channels``; ``names``: of the model's output."""
-    units = {channel: channel.partition("_") for channel in channels}
-    return tuple(
-        Leaning(k, stem, (names.index(f"{unit}_roll_rad"), names.index(f"{unit}_pitch_rad")))
-        for k, (unit, _, stem) in enumerate(units.values())
-        if stem in ACCELERATIONS and gravity_is_removed(recording, unit))
+    found = []
+    for place, channel in enumerate(channels):
+        unit, _, stem = channel.partition("_")
+        if stem in ACCELERATIONS and gravity_is_removed(recording, unit):
+            roll, pitch = (names.index(f"{unit}_{angle}_rad") for angle in ("roll", "pitch"))
+            found.append(Leaning(place, stem, (roll, pitch)))
+    return tuple(found)

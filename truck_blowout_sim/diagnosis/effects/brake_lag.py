@@ -20,6 +20,8 @@ from truck_blowout_sim.diagnosis.effects.base import (
 from truck_blowout_sim.diagnosis.result.parts import Place
 from truck_blowout_sim.vehicle import Packed
 
+_LATEST_S = 0.8  # the model's line holds 1 s, of which a sheet's own delay takes 0.1 to 0.15 s
+
 EFFECT = Effect(
     name="brake_lag",
     amount=Amount("extra_lag_s", "s", step=0.08, low=0.0, high=3.0, material=0.035,
@@ -35,7 +37,7 @@ EFFECT = Effect(
 
 LATE = replace(
     EFFECT,
-    amount=replace(EFFECT.amount, high=0.8),
+    amount=replace(EFFECT.amount, high=_LATEST_S),
     values=lambda packed, place, a: added(packed, f"circuit.{place.axle}.delay_extra_s", a),
     variant=True,
     sentence="The {where} brakes begin to fill {value} s later than modelled.",
@@ -52,7 +54,7 @@ def _both(packed: Packed, place: Place, amount: float) -> Values:
 
 LATE_AND_SLOW = replace(
     EFFECT,
-    amount=replace(EFFECT.amount, high=1.6),
+    amount=replace(EFFECT.amount, high=2.0 * _LATEST_S),
     values=_both,
     variant=True,
     sentence="The {where} brakes begin to fill later than modelled and fill more slowly, by "

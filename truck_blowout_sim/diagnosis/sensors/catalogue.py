@@ -31,11 +31,11 @@ from truck_blowout_sim.diagnosis.sensors.distortions import (
 )
 from truck_blowout_sim.diagnosis.sensors.identities import ARTICULATION, channel_names
 from truck_blowout_sim.diagnosis.sensors.towed import ROLL
+from truck_blowout_sim.recordings.gravity import AT_REST_MPS2
 
 _GYRO_RADPS = float(np.radians(0.006))
 _ACCELEROMETER_MPS2 = 0.006
 _ANGLE_RAD = float(np.radians(0.05))
-_GRAVITY_MPS2 = 9.81
 _GYRO_SCALE, _ACCELEROMETER_SCALE, _SPEED_SCALE = 0.002, 0.005, 0.001
 # Where the angle was not recorded, gravity enters in proportion to the acceleration itself.
 _UNKNOWN_TILT_SCALE = 0.3
@@ -122,7 +122,7 @@ def _unit_imperfections(unit: str, present: set[str], excess: Mapping[str, float
                         gravity_read: bool) -> list[Imperfection]:
     n = channel_names(unit)
     k = _TRAILER_FACTOR if unit == "trailer" else 1.0
-    accel = k * float(np.hypot(_ACCELEROMETER_MPS2, _GRAVITY_MPS2 * _ANGLE_RAD))
+    accel = k * float(np.hypot(_ACCELEROMETER_MPS2, AT_REST_MPS2 * _ANGLE_RAD))
 
     def bias(name: str, key: str, si_unit: str) -> Bias:
         return Bias(name, unit, f"{unit} {key}", (n[key],), "bias", si_unit)

@@ -17,10 +17,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from truck_blowout_sim.diagnosis.sensors.identities import channel_names
-from truck_blowout_sim.diagnosis.sensors.signals import GRAVITY_MPS2, Signals
+from truck_blowout_sim.diagnosis.sensors.signals import Signals
 from truck_blowout_sim.recordings import Recording, Series
 from truck_blowout_sim.recordings.channels import UNITS
-from truck_blowout_sim.recordings.gravity import gravity_is_removed, with_gravity_stated
+from truck_blowout_sim.recordings.gravity import (
+    AT_REST_MPS2,
+    gravity_is_removed,
+    with_gravity_stated,
+)
 
 FloatArray = NDArray[np.float64]
 Reader = Callable[[str], FloatArray]
@@ -158,7 +162,7 @@ class RollLeak(Distortion):
     def slope(self, index: int, channel: str, read: Reader, period_s: float) -> FloatArray:
         """Gravity along the rolled axis."""
         del index, channel, period_s
-        return np.asarray(GRAVITY_MPS2 * np.sin(read(channel_names(self.unit)["roll"])))
+        return np.asarray(AT_REST_MPS2 * np.sin(read(channel_names(self.unit)["roll"])))
 
 
 @dataclass(frozen=True)

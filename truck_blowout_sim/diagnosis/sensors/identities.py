@@ -20,7 +20,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from truck_blowout_sim.diagnosis.sensors.geometry import Geometry
-from truck_blowout_sim.diagnosis.sensors.signals import GRAVITY_MPS2, Signals
+from truck_blowout_sim.diagnosis.sensors.signals import Signals
+from truck_blowout_sim.recordings.gravity import AT_REST_MPS2
 
 FloatArray = NDArray[np.float64]
 ARTICULATION = "articulation_rad"
@@ -172,6 +173,7 @@ def with_kinematic_accelerations(smooth: Signals) -> Signals:
 
 
 def _names(unit: str) -> dict[str, str]:
+    """Names of a unit's channels, and its own."""
     return {
         "unit": unit, "x": f"{unit}_x_m", "y": f"{unit}_y_m", "yaw": f"{unit}_yaw_rad",
         "roll": f"{unit}_roll_rad", "pitch": f"{unit}_pitch_rad",
@@ -194,12 +196,12 @@ def _vertical(s: Signals, n: dict[str, str]) -> FloatArray:
 
 
 def _lateral(s: Signals, n: dict[str, str]) -> FloatArray:
-    weight = s.gravity[n["unit"]] * GRAVITY_MPS2 * np.sin(s[n["roll"]]) * np.cos(s[n["pitch"]])
+    weight = s.gravity[n["unit"]] * AT_REST_MPS2 * np.sin(s[n["roll"]]) * np.cos(s[n["pitch"]])
     return np.asarray(s[n["ay"]] - s[n["r"]] * s[n["vx"]] + s[n["p"]] * _vertical(s, n) - weight)
 
 
 def _longitudinal(s: Signals, n: dict[str, str]) -> FloatArray:
-    weight = s.gravity[n["unit"]] * GRAVITY_MPS2 * np.sin(s[n["pitch"]])
+    weight = s.gravity[n["unit"]] * AT_REST_MPS2 * np.sin(s[n["pitch"]])
     return np.asarray(s[n["ax"]] + s[n["r"]] * s[n["vy"]] - s[n["q"]] * _vertical(s, n) + weight)
 
 

@@ -22,9 +22,10 @@ from truck_blowout_sim.diagnosis.sensors.identities import (
     channel_names,
     hitch_identities,
 )
-from truck_blowout_sim.diagnosis.sensors.signals import GRAVITY_MPS2, Signals, smoothed
+from truck_blowout_sim.diagnosis.sensors.signals import Signals, smoothed
 from truck_blowout_sim.diagnosis.sensors.windows import Windows, make_windows
 from truck_blowout_sim.recordings.channels import UNITS
+from truck_blowout_sim.recordings.gravity import AT_REST_MPS2
 
 FloatArray = NDArray[np.float64]
 
@@ -81,8 +82,10 @@ class Reading:
         signals = convention.read(self.signals)
         total = sum(self._gain(i, signals) for i in self._touched(convention) if of in i.name)
         # a vertical accelerometer alone may be corrected otherwise than those along the road
-        asked = (_steered, _forward, *([_upright] if total > -_CONTRARY else []))
-        return total + sum(of_all(signals) - of_all(self.signals) for of_all in asked)
+        if isinstance(convention, GravityConvention) and total > -_CONTRARY:
+            total += _upright(signals) - _upright(self.signals)
+        return total + _steered(signals) - _steered(self.signals) + (
+            _forward(signals) - _forward(self.signals))
 
     def gain_with(self, channel: str, without: str, convention: Convention) -> float:
         """The same by the identities that read one channel and not another."""
@@ -223,4 +226,4 @@ def _upright(signals: Signals) -> float:
     return sum(-_UPRIGHT for unit in UNITS
                for up in (channel_names(unit)["az"],) if up in signals
                and abs(float(np.nan_to_num(np.nanmedian(signals[up])))
-                       - signals.gravity[unit] * GRAVITY_MPS2) > 0.5 * GRAVITY_MPS2)
+                       - signals.gravity[unit] * AT_REST_MPS2) > 0.5 * AT_REST_MPS2)

@@ -23,7 +23,6 @@ from truck_blowout_sim.recordings.gravity import gravity_is_removed
 
 FloatArray = NDArray[np.float64]
 
-GRAVITY_MPS2 = 9.81
 _SMOOTH_S = 0.08
 _MAX_GAP_FACTOR = 2.5
 _ASKED = ("tractor_", "trailer_", "hub_speed_", "brake_pressure_", "articulation_")

@@ -17,7 +17,8 @@ from numpy.typing import NDArray
 
 from truck_blowout_sim.diagnosis.sensors.geometry import Geometry
 from truck_blowout_sim.diagnosis.sensors.identities import Identity, channel_names
-from truck_blowout_sim.diagnosis.sensors.signals import GRAVITY_MPS2, Signals
+from truck_blowout_sim.diagnosis.sensors.signals import Signals
+from truck_blowout_sim.recordings.gravity import AT_REST_MPS2
 
 FloatArray = NDArray[np.float64]
 
@@ -55,7 +56,7 @@ def hitch_force(signals: Signals, geometry: Geometry) -> tuple[Identity, ...]:
         bend = s[b["yaw"]] - s[a["yaw"]] if b["yaw"] in s and a["yaw"] in s else s[BEND]
         along = s[a["ax"]] - (s[a["r"]] ** 2 + s[a["q"]] ** 2) * x
         across = s[a["ay"]] + s[a["p"]] * s[a["q"]] * x
-        leaning = GRAVITY_MPS2 * (s.gravity["trailer"] * np.sin(s[roll])
+        leaning = AT_REST_MPS2 * (s.gravity["trailer"] * np.sin(s[roll])
                                   - s.gravity["tractor"] * np.sin(s[a["roll"]]))
         turned = np.cos(bend) * across - np.sin(bend) * along + leaning
         here = s[b["ay"]] + s[b["p"]] * s[b["q"]] * x_trailer
