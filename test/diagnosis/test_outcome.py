@@ -32,7 +32,7 @@ from truck_blowout_sim.diagnosis.locate.posture import Posture
 from truck_blowout_sim.diagnosis.locate.restless import Restless
 from truck_blowout_sim.diagnosis.locate.wrench import Wrenches
 from truck_blowout_sim.diagnosis.model.law import Law
-from truck_blowout_sim.diagnosis.name.judging import Found
+from truck_blowout_sim.diagnosis.name.judging import Found, strongest_of
 from truck_blowout_sim.diagnosis.name.trial import Fate, Trial
 from truck_blowout_sim.diagnosis.prove.intervals import Timing
 from truck_blowout_sim.diagnosis.result.evidence import BeatScores, ForceHistory
@@ -173,7 +173,9 @@ def test_chance_falls_with_evidence_and_stays_a_probability(calm: Study, truck: 
     def p_value(support: float) -> float:
         one = material(calm, (replace(ranked(truck, "road_bank", 0.03), support=support),))
         one.found.chance = chance
+        one.found.strongest = strongest_of([trial.ranked for trial in one.found.tried])
         return one.found.p_value
+
     chances = [p_value(support) for support in (0.0, 5.0, chance.asked, 60.0)]
     assert chances[0] == pytest.approx(1.0)
     assert chances[2] == pytest.approx(calm.settings.alarms_by_name)

@@ -55,6 +55,8 @@ def names(*runs: Recording) -> list[tuple[str, tuple[str, ...]]]:
      ("tractor_ax_mps2", "tractor_ay_mps2")),
     (exchanged("tractor_yaw_rate_radps", "trailer_yaw_rate_radps"), "channel_swap",
      ("tractor_yaw_rate_radps", "trailer_yaw_rate_radps")),
+    (exchanged("hub_speed_trailer_1_left_radps", "hub_speed_trailer_1_right_radps"), "channel_swap",
+     ("hub_speed_trailer_1_left_radps", "hub_speed_trailer_1_right_radps")),
 ])  # fmt: skip
 def test_a_reading_that_is_not_as_stated_is_named(
     change: Callable[[Recording], Recording], name: str, channels: tuple[str, ...]

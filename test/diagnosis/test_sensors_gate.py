@@ -2,6 +2,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from pathlib import Path
+from types import SimpleNamespace
+from typing import cast
 
 import numpy as np
 import pytest
@@ -12,7 +14,8 @@ from truck_blowout_sim import read_recording
 from truck_blowout_sim.diagnosis.sensors import correct, sensor_gate
 from truck_blowout_sim.diagnosis.sensors.case import Hypothesis
 from truck_blowout_sim.diagnosis.sensors.distortions import Delay, LeverArm
-from truck_blowout_sim.diagnosis.sensors.search import leaders_of_each_kind
+from truck_blowout_sim.diagnosis.sensors.search import _sound_in_training, leaders_of_each_kind
+from truck_blowout_sim.diagnosis.sensors.solve import Estimate
 from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.recordings import Recording, Series
 
@@ -130,10 +133,45 @@ def test_two_faults_at_once() -> None:
     }  # fmt: skip
 
 
+def test_what_only_the_baseline_has_is_no_fault_of_training() -> None:
+    """An arm in every run and its opposite in training: the training runs are sound."""
+    arm = LeverArm("lever_arm", "trailer", "trailer velocity", ("trailer_vx_mps",), ("forward",))
+    late = Delay("channel_delay", "tractor", "", ("tractor_ay_mps2",))
+    chosen = [Hypothesis(arm, everywhere=True), Hypothesis(late, everywhere=False),
+              Hypothesis(arm, everywhere=False)]
+    kept = {}
+    for opposite in (0.76, 0.3):
+        estimate = cast("Estimate", SimpleNamespace(
+            amounts=((-0.84,), (0.1,), (opposite,)), covariance=np.diag([2e-3, 1e-6, 2e-3])))
+        kept[opposite] = _sound_in_training(chosen, estimate)
+    assert kept == {0.76: [chosen[1]], 0.3: chosen}
+
+
 def test_a_fault_of_every_run_shows_without_a_baseline() -> None:
     result = sensor_gate([faults.scaled("tractor_ay_mps2", 0.12)(run) for run in RUNS])
     assert [finding.name for finding in result.findings] == ["lateral_accel_scale"]
     assert result.findings[0].parameters["scale_error"].value == pytest.approx(0.12, abs=0.02)
+
+
+@pytest.mark.parametrize("gain", [-0.6, 0.6])
+def test_a_gain_that_is_off_by_more_than_half_is_measured(gain: float) -> None:
+    result = sensor_gate([faults.scaled("tractor_ay_mps2", gain)(run) for run in RUNS], BASELINE)
+    assert [finding.name for finding in result.findings] == ["lateral_accel_scale"]
+    assert result.findings[0].parameters["scale_error"].value == pytest.approx(gain, abs=0.05)
+
+
+def test_what_explains_all_but_a_twentieth_is_an_alias() -> None:
+    """Gravity that leaks through a noisy roll angle looks like a gain."""
+    rng = np.random.default_rng(5)
+
+    def leaking(run: Recording) -> Recording:
+        run = faults.leaking("tractor", 0.5)(run)
+        roll = run["tractor_roll_rad"]
+        noisy = roll.value + rng.normal(0.0, 0.3 * np.std(roll.value), roll.value.size)
+        return run.with_channels({"tractor_roll_rad": Series(roll.time_s, noisy)})
+
+    found = sensor_gate([leaking(run) for run in RUNS], BASELINE).findings
+    assert "lateral_accel_roll" in {name for one in found for name in one.aliases}
 
 
 def test_without_roll_a_leak_and_a_gain_are_aliases() -> None:

@@ -43,6 +43,7 @@ class Found:
         models_null: training models before anything was named.
         before, after: holdout predictions without and with them.
         chance: what chance reaches in the first round.
+        strongest: largest support in the first round.
         more_by_chance: chance that training keeps so much more than baseline runs, where what is
             named rests on that.
     """
@@ -56,19 +57,20 @@ class Found:
     before: tuple[Prediction, ...] = ()
     after: tuple[Prediction, ...] = ()
     chance: Chance | None = None
+    strongest: float = 0.0
     more_by_chance: float = 1.0
 
     @property
     def p_value(self) -> float:
-        """Chance that a search where nothing is missing is led so far; 1 where none was made.
-
-        Of what could be named: steady causes once they are fitted, and events that add up.
-        """
-        best = max((trial.ranked.support for trial in self.tried
-                    if trial.ranked.refitted or trial.ranked.hypothesis.effect.adds_up),
-                   default=0.0)
-        searched = 1.0 if self.chance is None else self.chance.p_value(best)
+        """Chance that a search where nothing is missing is led so far; 1 where none was made."""
+        searched = 1.0 if self.chance is None else self.chance.p_value(self.strongest)
         return min(searched, self.more_by_chance)
+
+
+def strongest_of(ranked: Sequence[Ranked]) -> float:
+    """Largest support of what could be named: fitted steady causes, and events that add up."""
+    return max((one.support for one in ranked if one.refitted or one.hypothesis.effect.adds_up),
+               default=0.0)
 
 
 def excess_of(study: Study, found: Found) -> float:

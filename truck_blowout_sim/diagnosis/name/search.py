@@ -26,6 +26,7 @@ from truck_blowout_sim.diagnosis.name.judging import (
     predict_with,
     predicts_better,
     slack,
+    strongest_of,
     weakness,
     worth,
 )
@@ -61,6 +62,7 @@ def search(study: Study, progress: Progress | None = None, most: int = _MOST_EFF
         ranked, found.chance = this.ranked, found.chance or this.chance
         if not rounds:
             found.tried = [Trial(r, Fate("refit", r.promise)) for r in ranked]
+            found.strongest = strongest_of(ranked)
         best, disbelieved = _accept(study, found, this, named)
         if best is None and sound and not named:  # a law that is named leaves some of its own
             best = _accept_quieting(study, found, this)

@@ -28,11 +28,12 @@ from truck_blowout_sim.diagnosis.sensors.distortions import (
 )
 from truck_blowout_sim.diagnosis.sensors.geometry import Geometry
 from truck_blowout_sim.diagnosis.sensors.gravity import look_alikes
+from truck_blowout_sim.diagnosis.sensors.hubs import axle_pairs
 from truck_blowout_sim.diagnosis.sensors.identities import channel_names
 from truck_blowout_sim.diagnosis.sensors.reading import WHEEL, Reading
 from truck_blowout_sim.diagnosis.sensors.signals import Signals, read_wheel
 from truck_blowout_sim.recordings import Recording
-from truck_blowout_sim.recordings.channels import UNITS
+from truck_blowout_sim.recordings.channels import UNITS, hub_of
 from truck_blowout_sim.recordings.gravity import ACCELERATIONS
 
 _FAMILY_P = 1e-4
@@ -106,7 +107,8 @@ def find_conventions(
 def _best(logs: Sequence[Reading], is_baseline: NDArray[np.bool_]) -> FoundConvention | None:
     """The reading that fits best, if it fits clearly better than the log as it stands."""
     present = set.intersection(*(set(log.signals.values) for log in logs))
-    tried = _readings(present)
+    pairs = set.intersection(*(set(axle_pairs(log.signals)) for log in logs))
+    tried = [*_readings(present), *_exchanged_wheels(sorted(pairs))]
     scored: list[tuple[float, int, Convention, bool]] = []
     for order, convention in enumerate(tried):
         gains = np.array([log.log_ratio(convention) for log in logs])
@@ -190,6 +192,13 @@ def _readings(present: set[str]) -> list[Convention]:
             label = f"{_WORDS[key]} of tractor and trailer"
             found.append(Swap("channel_swap", "", label, both))
     return _unlike([*found, *_treatments(present)])
+
+
+def _exchanged_wheels(pairs: Sequence[tuple[str, str]]) -> list[Convention]:
+    """Left and right hub speed of an axle exchanged, as by their plugs."""
+    return [Swap("channel_swap", "trailer" if hub_of(left).startswith("trailer") else "tractor",
+                 f"hub speeds {hub_of(left)} and {hub_of(right)}", (left, right))
+            for left, right in pairs]
 
 
 def _treatments(present: set[str]) -> list[Convention]:

@@ -67,6 +67,10 @@ class Distortion(ABC):
             error = error + amount * self.slope(index, channel, read, period_s)
         return time_s, value - error
 
+    def grown(self, amounts: FloatArray) -> FloatArray:
+        """d(amount in full) / d(amount that is left once these are taken out)."""
+        return np.ones_like(amounts)
+
 
 @dataclass(frozen=True)
 class Bias(Distortion):
@@ -94,6 +98,10 @@ class Scale(Distortion):
     def parameters(self) -> tuple[tuple[str, str], ...]:
         """Gain error as a fraction."""
         return (("scale_error", "1"),)
+
+    def grown(self, amounts: FloatArray) -> FloatArray:
+        """What is left of a gain multiplies what was taken out."""
+        return np.asarray(1.0 + amounts)
 
     def slope(self, index: int, channel: str, read: Reader, period_s: float) -> FloatArray:
         """The channel itself."""

@@ -103,6 +103,44 @@ def hub_identity(
     )  # fmt: skip
 
 
+def axle_pairs(signals: Signals) -> tuple[tuple[str, str], ...]:
+    """Hub-speed channels of both ends of each axle, left before right."""
+    names = [n for n in signals.values if n.startswith("hub_speed_")]
+    axles = sorted({hub_of(n).rpartition("_")[0] for n in names})
+    both = [(f"hub_speed_{axle}_left_radps", f"hub_speed_{axle}_right_radps") for axle in axles]
+    return tuple(pair for pair in both if set(pair) <= set(names))
+
+
+def axle_identities(signals: Signals, geometry: Geometry) -> tuple[Identity, ...]:
+    """In a turn the outer wheel of an axle rolls faster than the inner one."""
+    found = []
+    for left, right in axle_pairs(signals):
+        axle = hub_of(left).rpartition("_")[0]
+        unit = "trailer" if axle.startswith("trailer") else "tractor"
+        n = channel_names(unit)
+        if n["vx"] in signals and n["r"] in signals and free_rolling(signals, unit).any():
+            found.append(_axle_identity(signals, unit, (left, right), geometry))
+    return tuple(found)
+
+
+def _axle_identity(signals: Signals, unit: str, pair: tuple[str, str], geometry: Geometry
+                   ) -> Identity:
+    n, (left, right) = channel_names(unit), pair
+    track_m = geometry.hub_left_m(hub_of(left)) - geometry.hub_left_m(hub_of(right))
+    asked = free_rolling(signals, unit) & (signals.time_s < _blown_since(signals, unit))
+    masked = np.where(asked, 0.0, np.nan)
+    rolled = np.nanmedian(np.where(asked, signals[left] + signals[right], np.nan))
+    radius_m = 2.0 * np.nanmedian(signals[n["vx"]][asked]) / rolled
+
+    def residual(s: Signals) -> FloatArray:
+        return np.asarray(track_m * s[n["r"]] - radius_m * (s[right] - s[left]) + masked)
+
+    return Identity(
+        f"{hub_of(left).rpartition('_')[0]} hub speeds, left and right", "m/s",
+        "R (omega_right - omega_left) = track r",
+        (n["r"], left, right), (), residual, (), _MODEL_SIGMA_MPS)
+
+
 def _blown_since(signals: Signals, unit: str) -> float:
     """Instant from which a tire of the unit is blown."""
     return min((t for hub, t in signals.blown_since_s.items()

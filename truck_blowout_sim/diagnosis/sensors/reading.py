@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from truck_blowout_sim.diagnosis.sensors.distortions import Convention, GravityConvention
 from truck_blowout_sim.diagnosis.sensors.geometry import Geometry
+from truck_blowout_sim.diagnosis.sensors.hubs import axle_identities
 from truck_blowout_sim.diagnosis.sensors.identities import (
     Identity,
     articulation_identities,
@@ -55,7 +56,8 @@ class Reading:
     def of(cls, signals: Signals, geometry: Geometry) -> Reading:
         """Every identity that the recording has the channels for."""
         asked = [i for unit in ("tractor", "trailer") for i in body_identities(unit)]
-        asked += [*hitch_identities(geometry), *articulation_identities()]
+        asked += [*hitch_identities(geometry), *articulation_identities(),
+                  *axle_identities(signals, geometry)]
         kept = tuple(i for i in asked if i.available(signals))
         windows = make_windows(signals.period_s)
         left = {i.name: _left(i, signals, windows) for i in kept}

@@ -11,7 +11,8 @@ Validated with: test/diagnosis/test_sensors_gate.py (power, naming, false alarms
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from itertools import permutations
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,6 +20,8 @@ from numpy.typing import NDArray
 from truck_blowout_sim.diagnosis.sensors.case import Applied, Case, Hypothesis, with_amounts
 from truck_blowout_sim.diagnosis.sensors.judgement import (
     ALIAS_CHI2,
+    ALIAS_SHARE,
+    CLEAR,
     FALSE_ALARMS,
     admissible,
     determined,
@@ -28,6 +31,7 @@ from truck_blowout_sim.diagnosis.sensors.judgement import (
 from truck_blowout_sim.diagnosis.sensors.reversal import doubtful as made_by_noise
 from truck_blowout_sim.diagnosis.sensors.solve import (
     Estimate,
+    in_full,
     noise_inflation,
     refine,
     slices_of,
@@ -124,6 +128,11 @@ def search(case: Case, false_alarms: float = FALSE_ALARMS) -> SearchResult:
             chosen, estimate, system, inflation = kept, refined, cleaned, scatter
         else:  # as before it was tried
             refused.append(hypothesis)
+    sound = _sound_in_training(chosen, estimate)
+    if len(sound) < len(chosen):
+        amounts = [estimate.amounts[chosen.index(h)] for h in sound]
+        cleaned = assemble(case, with_amounts(sound, amounts))
+        chosen, estimate = sound, refine(case, sound, noise_inflation(cleaned), amounts)
     return _summary(case, chosen, rivals, before, estimate)
 
 
@@ -150,14 +159,17 @@ def _next(
     if not scored:
         return None
     scored.sort()
-    return _refined_best(case, scored, chosen, starts, inflation)
+    return _refined_best(case, scored, chosen, starts, inflation, base.chi2)
 
 
 def _refined_best(
     case: Case, scored: Sequence[tuple[float, int, Hypothesis]], chosen: Sequence[Hypothesis],
-    starts: Mapping[Hypothesis, Amounts], inflation: Mapping[str, float],
+    starts: Mapping[Hypothesis, Amounts], inflation: Mapping[str, float], without: float,
 ) -> tuple[Hypothesis, Estimate, tuple[tuple[Hypothesis, float], ...]]:  # fmt: skip
-    """Compare the leaders at their own nonlinear optimum; the linear score ranks the rest."""
+    """Compare the leaders at their own nonlinear optimum; the linear score ranks the rest.
+
+    ``without``: sum of squares without any of them.
+    """
     linear = {h: score for score, _, h in scored}
     close = [h for score, _, h in scored if score < _WORTH_A_LOOK * scored[0][0]]
     short = leaders_of_each_kind([h for _, _, h in scored], len(close))
@@ -173,7 +185,8 @@ def _refined_best(
     for hypothesis in close:
         if hypothesis not in exact:
             above[hypothesis] = max(0.0, linear[hypothesis] - linear[best])
-    near = sorted((v, i, h) for i, (h, v) in enumerate(above.items()) if v <= ALIAS_CHI2)
+    room = max(ALIAS_CHI2, ALIAS_SHARE * (without - exact[best]))
+    near = sorted((v, i, h) for i, (h, v) in enumerate(above.items()) if v <= room)
     return best, estimates[best], tuple((h, v) for v, _, h in near)
 
 
@@ -216,6 +229,17 @@ def _pruned(
     return kept, estimate
 
 
+def _sound_in_training(chosen: Sequence[Hypothesis], estimate: Estimate) -> list[Hypothesis]:
+    """Without what acts in all runs and is undone in training: then only baseline runs have it."""
+    undone: set[Hypothesis] = set()
+    for i, j in permutations(range(len(chosen)), 2):
+        if chosen[i].distortion == chosen[j].distortion and chosen[i].everywhere:
+            (one, a), (other, b) = (part(chosen, estimate, k) for k in (i, j))
+            if not np.any(np.abs(one + other) > CLEAR * np.sqrt(np.diag(a) + np.diag(b))):
+                undone |= {chosen[i], chosen[j]}
+    return [h for h in chosen if h not in undone]
+
+
 def _stated(chosen: Sequence[Hypothesis], estimate: Estimate, which: int) -> list[float]:
     """Amounts of one fault that the answer would state, zero for those that it would not."""
     amounts, covariance = part(chosen, estimate, which)
@@ -246,6 +270,7 @@ def _summary(
     inflation = noise_inflation(after)
     normal = normal_equations(after, inflation)
     final = solve(case, normal, chosen)
+    final = replace(final, covariance=in_full(chosen, estimate.amounts, final))
     found = []
     for k, hypothesis in enumerate(chosen):
         covariance = part(chosen, final, k)[1]

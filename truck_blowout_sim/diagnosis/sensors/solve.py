@@ -115,14 +115,21 @@ def refine(
         system = assemble(case, taken, [h.distortion for h in hypotheses])
         estimate = solve(case, normal_equations(system, inflation), hypotheses)
         steps = [np.array(step) for step in estimate.amounts]
-        amounts = [
-            _held(h, a + step) for h, a, step in zip(hypotheses, amounts, steps, strict=True)
-        ]
+        amounts = [_held(h, a + h.distortion.grown(a) * step)
+                   for h, a, step in zip(hypotheses, amounts, steps, strict=True)]
         sigma = np.sqrt(np.diag(estimate.covariance))
         if not hypotheses or np.all(np.abs(np.concatenate(steps)) <= _CONVERGED * sigma):
             break
     full = tuple(tuple(float(v) for v in a) for a in amounts)
-    return replace(estimate, amounts=full)
+    return replace(estimate, amounts=full, covariance=in_full(hypotheses, full, estimate))
+
+
+def in_full(hypotheses: Sequence[Hypothesis], amounts: Sequence[tuple[float, ...]],
+            estimate: Estimate) -> FloatArray:
+    """Covariance of amounts in full, of which the estimate has the last step."""
+    grown = np.concatenate([h.distortion.grown(np.array(a))
+                            for h, a in zip(hypotheses, amounts, strict=True)] or [np.zeros(0)])
+    return estimate.covariance * np.outer(grown, grown)
 
 
 def _held(hypothesis: Hypothesis, amounts: FloatArray) -> FloatArray:
