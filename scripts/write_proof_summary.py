@@ -1,36 +1,44 @@
-"""Put the proof's tables into README.md and docs/proof.md, its picture and cases into docs/.
+"""Count the published answers, and put the proof's tables into README.md and docs/proof.md.
 
-Use: python scripts/write_proof_summary.py w1=FOLDER w2=FOLDER ...
+Use: python scripts/write_proof_summary.py [FOLDER for all figures, out/published]
 
-Each folder is what `truck-blowout prove -o FOLDER` wrote for the sealed cases of a world. The
-picture is drawn anew where sigma_b was measured in every world, the table of rivals where they were
-tried in any; else those of an earlier draw stay.
+Read are docs/proof_<world>_answers.jsonl.xz; written the tables, the picture, and the cases as
+docs/proof_<world>_cases.csv. The picture is drawn anew where sigma_b was measured in every world,
+the table of rivals where they were tried in any; else those of an earlier draw stay.
 """
 
 from __future__ import annotations
 
-import json
 import shutil
 import sys
 from pathlib import Path
 
+from truck_blowout_sim.proof.archive import read_entries, score_entries
+from truck_blowout_sim.proof.prove import Figures
 from truck_blowout_sim.proof.worlds import draw_power_by_world, rivals_table, worlds_table
 from truck_blowout_sim.report.marked import put_on_page
 
 ROOT = Path(__file__).resolve().parents[1]
+WORLDS = ("w1", "w2", "w3", "w4")
 PICTURE = "proof_power.png"
 CAPTION = "Share of concealed effects that were named, against what an ideal detector sees"
 
 
+def counted(world: str, out: Path) -> Figures:
+    """Figures of one world."""
+    path = ROOT / "docs" / f"proof_{world}_answers.jsonl.xz"
+    manifest = ROOT / "proving_ground" / "sealed" / f"sealed_{world}.json"
+    figures = score_entries(read_entries(path), manifest, out / world, path)
+    shutil.copy(out / world / "cases.csv", ROOT / "docs" / f"proof_{world}_cases.csv")
+    return figures
+
+
 def main(words: list[str]) -> int:
-    runs = {world: Path(folder) for world, _, folder in (word.partition("=") for word in words)}
-    if not runs or not all((folder / "proof.json").is_file() for folder in runs.values()):
+    if len(words) > 1:
         print(__doc__, file=sys.stderr)
         return 2
-    figures = {world: json.loads((folder / "proof.json").read_text(encoding="utf-8"))
-               for world, folder in runs.items()}  # fmt: skip
-    for world, folder in runs.items():
-        shutil.copy(folder / "cases.csv", ROOT / "docs" / f"proof_{world}_cases.csv")
+    out = Path(words[0] if words else ROOT / "out" / "published")
+    figures = {world: counted(world, out) for world in WORLDS}
     measured = all(one["seen"] for one in figures.values())
     if measured:
         (ROOT / "docs" / PICTURE).write_bytes(draw_power_by_world(figures).png())

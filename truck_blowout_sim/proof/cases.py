@@ -156,28 +156,35 @@ def read_truth(path: Path) -> Truth:
     Raises:
         InputError: the file is not an answer; says which key is missing.
     """
+    return truth_of(path.read_text(encoding="utf-8"), visibility_of(path), path)
+
+
+def truth_of(text: str, visibility: Mapping[str, Sequence[float]], file: Path) -> Truth:
+    """What the text of an answer says; ``visibility``: see :func:`visibility_of`.
+
+    Raises:
+        InputError: it is no answer; ``file`` is named as its origin.
+    """
     try:
-        tree = json.loads(path.read_text(encoding="utf-8"))
+        tree = json.loads(text)
         group = str(tree["group"])
         verdicts = tree["verdicts"] if "verdicts" in tree else [tree["verdict"]]
         right = NOTHING_MISSING if group == "null" else tuple(map(str, verdicts))
-        seen = _visibility(path)
+        seen = [list(map(float, visibility.get(key, ()))) for key in ("sigma_b", "individual")]
         causes = tuple(_cause(entry, *(one[k] if k < len(one) else None for one in seen))
                        for k, entry in enumerate(tree["effects"]))
         return Truth(group, right, causes, tuple(tree.get("missing_channels", ())))
     except (KeyError, TypeError, json.JSONDecodeError) as error:
-        raise InputError(f"not an answer: {error!r}", file=path,
+        raise InputError(f"not an answer: {error!r}", file=file,
                          expected="group, verdicts, effects") from error
 
 
-def _visibility(answer: Path) -> tuple[list[float], list[float]]:
-    """sigma_b of each effect of a case of a world, where it was measured, and its `individual`."""
+def visibility_of(answer: Path) -> dict[str, list[float]]:
+    """`sigma_b` of each effect of a case of a world, and its `individual`, where measured."""
     path = answer.parents[1] / SIGMA_B
     if not path.is_file():
-        return [], []
-    found = json.loads(path.read_text(encoding="utf-8")).get(answer.stem, {})
-    return (list(map(float, found.get("sigma_b", ()))),
-            list(map(float, found.get("individual", ()))))
+        return {}
+    return dict(json.loads(path.read_text(encoding="utf-8")).get(answer.stem, {}))
 
 
 def _cause(entry: Mapping[str, Any], sigma_b: float | None = None,

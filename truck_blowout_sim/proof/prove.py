@@ -10,11 +10,11 @@ from typing import Any
 from truck_blowout_sim.comparison.plain_json import json_text
 from truck_blowout_sim.proof.baselines.sparse_regression import optimizer_name
 from truck_blowout_sim.proof.case_tables import cases_csv, parameters_csv
-from truck_blowout_sim.proof.cases import Case, read_truth
+from truck_blowout_sim.proof.cases import Case, Truth, read_truth
 from truck_blowout_sim.proof.figures import pictures
 from truck_blowout_sim.proof.rows import as_json, rows, rows_table, uniformity
 from truck_blowout_sim.proof.score import score_case
-from truck_blowout_sim.proof.seal import check_seals
+from truck_blowout_sim.proof.seal import SealCheck, check_seals
 from truck_blowout_sim.proof.short import short_table
 from truck_blowout_sim.proof.summary import null_floor, summarize
 from truck_blowout_sim.proof.table import markdown
@@ -33,6 +33,12 @@ def score_run(cases: Sequence[Case], lines: Mapping[str, Mapping[str, Any]], out
     """
     seals = check_seals(cases, manifest, lines.keys() & {case.id for case in cases})
     truths = {case.id: read_truth(case.answer) for case in cases if case.id in lines}
+    return score_answers(truths, lines, seals, out)
+
+
+def score_answers(truths: Mapping[str, Truth], lines: Mapping[str, Mapping[str, Any]],
+                  seals: SealCheck, out: Path) -> Figures:
+    """Score answers by what was concealed, write all files into ``out``."""
     answered = [case for case in truths if lines[case]["answer"]]
     floor = null_floor(lines, [case for case in answered if truths[case].group == "null"])
     scores = [score_case(lines[case], truths[case], floor) for case in answered]

@@ -128,21 +128,31 @@ def check_seals(cases: Sequence[Case], manifest: Path | None,
     """
     if manifest is None:
         return SealCheck(None)
+    return check_hashes({case.id: (file_hash(case.answer), folder_hash(case.folder))
+                         for case in cases}, manifest, scored)
+
+
+def check_hashes(hashes: Mapping[str, tuple[str, str]], manifest: Path,
+                 scored: Collection[str] | None = None) -> SealCheck:
+    """The same by the hashes of answer and recordings of each case.
+
+    Raises:
+        InputError: the manifest cannot be read, or contradicts itself.
+    """
     sealed = _read(manifest)
     found: dict[str, list[str]] = {"holds": [], "broken": [], "remade": [], "absent": []}
-    for case in cases:
-        found[_state(case, sealed["cases"].get(case.id))].append(case.id)
-    have = {case.id for case in cases} if scored is None else set(scored)
+    for case, own in hashes.items():
+        found[_state(own, sealed["cases"].get(case))].append(case)
+    have = set(hashes) if scored is None else set(scored)
     return SealCheck(str(manifest), str(sealed.get("set", "")), str(sealed.get("seal", "")),
                      sealed=len(sealed["cases"]),
                      not_scored=tuple(sorted(set(sealed["cases"]) - have)),
                      **{state: tuple(ids) for state, ids in found.items()})
 
 
-def _state(case: Case, hashes: Mapping[str, str] | None) -> str:
+def _state(own: tuple[str, str], hashes: Mapping[str, str] | None) -> str:
     if hashes is None:
         return "absent"
-    if hashes.get("answer_sha256") != file_hash(case.answer):
+    if hashes.get("answer_sha256") != own[0]:
         return "broken"
-    same = hashes.get("recordings_sha256") == folder_hash(case.folder)
-    return "holds" if same else "remade"
+    return "holds" if hashes.get("recordings_sha256") == own[1] else "remade"

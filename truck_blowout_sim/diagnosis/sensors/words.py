@@ -28,7 +28,8 @@ _EQUATIONS = {
 
 _TESTS = {
     "channel_sign": "turn left slowly by hand: which channels go up tells which are inverted",
-    "channel_swap": "tilt or turn the instrument about one axis at a time, standing",
+    "channel_swap": "tilt or turn the instrument about one axis at a time, standing; for hub "
+    "speeds, turn one wheel by hand, off the ground",
     "gravity_convention": "stand still on a slope: an accelerometer that reads gravity shows it",
     "yaw_rate_bias": "stand still or drive straight for 20 s: a bias stays, a gain error vanishes",
     "yaw_rate_scale": "turn a known angle (full circle): the integrated yaw rate shows the gain",

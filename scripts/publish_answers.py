@@ -1,0 +1,50 @@
+"""Add the answers of scored cases to the published ones, docs/proof_<world>_answers.jsonl.xz.
+
+Use: python scripts/publish_answers.py w1=CASES,RUN w2=CASES,RUN ...
+
+CASES is the folder of the cases, RUN what `truck-blowout prove -o RUN` wrote for them. Published
+answers of cases that the world's manifest no longer names are of an earlier draw and go.
+"""
+
+from __future__ import annotations
+
+import json
+import sys
+from pathlib import Path
+
+from truck_blowout_sim.errors import InputError
+from truck_blowout_sim.proof.archive import entries_of, joined, read_entries, write_entries
+from truck_blowout_sim.proof.cases import find_cases
+from truck_blowout_sim.proof.run import RESULTS, read_lines
+
+ROOT = Path(__file__).resolve().parents[1]
+
+
+def publish(world: str, cases: Path, run: Path) -> str:
+    """Add one world's answers; what was done, in words."""
+    manifest = ROOT / "proving_ground" / "sealed" / f"sealed_{world}.json"
+    sealed = json.loads(manifest.read_text(encoding="utf-8"))["cases"]
+    path = ROOT / "docs" / f"proof_{world}_answers.jsonl.xz"
+    before = [entry for entry in (read_entries(path) if path.is_file() else ())
+              if entry.case in sealed]
+    further = [entry for entry in entries_of(find_cases(cases), read_lines(run / RESULTS))
+               if entry.case in sealed]
+    every = joined(before, further)
+    write_entries(path, every)
+    return f"{path.name}: {len(every)} of {len(sealed)} sealed cases"
+
+
+def main(words: list[str]) -> int:
+    try:
+        for word in words:
+            world, _, folders = word.partition("=")
+            cases, run = map(Path, folders.split(","))
+            print(publish(world, cases, run))
+    except (ValueError, OSError, InputError) as error:
+        print(f"{error}\n{__doc__}", file=sys.stderr)
+        return 2
+    return 0 if words else 2
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

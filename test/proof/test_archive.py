@@ -1,0 +1,106 @@
+"""Published answers: counting them again gives what the run gave, and what the pages say."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import lzma
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from truck_blowout_sim.errors import InputError
+from truck_blowout_sim.proof.archive import (
+    entries_of,
+    joined,
+    read_entries,
+    score_entries,
+    write_entries,
+)
+from truck_blowout_sim.proof.cases import SIGMA_B, find_cases
+from truck_blowout_sim.proof.prove import score_run
+from truck_blowout_sim.proof.seal import folder_hash
+from truck_blowout_sim.proof.worlds import worlds_table
+
+Maker = Callable[..., dict[str, Any]]
+ROOT = Path(__file__).parents[2]
+WORLDS = ("w1", "w2", "w3", "w4")
+
+
+@pytest.fixture
+def run(tmp_path: Path, write_case: Callable[..., Path], line: Maker, effect: Maker, cause: Maker
+        ) -> dict[str, dict[str, Any]]:
+    """Lines of a null, a named effect and one that was missed, with sigma_b beside the cases."""
+    lines = {"n": line("n", "consistent", p_value=0.3), "s": line("s", effects=(effect(),)),
+             "m": line("m", "miscalibrated")}
+    write_case(tmp_path, "n")
+    for name in ("s", "m"):
+        write_case(tmp_path, name, "single", (cause(),))
+    (tmp_path / SIGMA_B).write_text(json.dumps(
+        {"s": {"sigma_b": [12.0], "individual": [9.0]}, "m": {"sigma_b": [3.0]}}))
+    return {name: {**one, "recordings_sha256": folder_hash(tmp_path / "cases" / name)}
+            for name, one in lines.items()}
+
+
+def test_published_answers_give_the_figures_of_the_run(
+    tmp_path: Path, run: dict[str, dict[str, Any]], manifest: Callable[[Path], Path]
+) -> None:
+    cases, sealed, path = find_cases(tmp_path), manifest(tmp_path), tmp_path / "answers.jsonl.xz"
+    expected = score_run(cases, run, tmp_path / "run", sealed)
+    write_entries(path, entries_of(cases, run))
+    found = score_entries(read_entries(path), sealed, tmp_path / "again", path)
+    assert found == expected
+    assert (tmp_path / "again" / "cases.csv").read_bytes() == (
+        tmp_path / "run" / "cases.csv").read_bytes()
+
+
+def test_a_draw_is_published_in_parts(tmp_path: Path, run: dict[str, dict[str, Any]]) -> None:
+    """A later part adds its cases, and replaces a case that was answered again."""
+    every = {entry.case: entry for entry in entries_of(find_cases(tmp_path), run)}
+    anew = replace(every["m"], line={**every["m"].line, "cpu_s": 9.0})
+    found = joined([every["s"], every["m"]], [every["n"], anew])
+    assert found == [anew, every["n"], every["s"]]
+
+
+def test_a_moved_answer_shows(
+    tmp_path: Path, run: dict[str, dict[str, Any]], manifest: Callable[[Path], Path]
+) -> None:
+    sealed, entries = manifest(tmp_path), entries_of(find_cases(tmp_path), run)
+    moved = replace(entries[0], truth=entries[0].truth + " ")
+    found = score_entries([moved, *entries[1:]], sealed, tmp_path / "out", tmp_path)
+    assert list(found["seals"]["broken"]) == [moved.case]
+
+
+@pytest.mark.parametrize("content", [b"", b"not xz", lzma.compress(b"[1]\n"),
+                                     lzma.compress(b'{"case": "a"}\n')])
+def test_a_damaged_file_is_refused_in_one_line(tmp_path: Path, content: bytes) -> None:
+    path = tmp_path / "answers.jsonl.xz"
+    path.write_bytes(content)
+    with pytest.raises(InputError, match="no published answers") as error:
+        read_entries(path)
+    assert "\n" not in str(error.value)
+
+
+@pytest.mark.parametrize("page", ["README.md", "docs/proof.md"])
+def test_the_pages_say_what_the_published_answers_say(tmp_path: Path, page: str) -> None:
+    figures = {}
+    for world in WORLDS:
+        path = ROOT / "docs" / f"proof_{world}_answers.jsonl.xz"
+        sealed = ROOT / "proving_ground" / "sealed" / f"sealed_{world}.json"
+        figures[world] = score_entries(read_entries(path), sealed, tmp_path / world, path)
+        assert not figures[world]["seals"]["broken"]
+        assert not figures[world]["seals"]["remade"]
+        assert (tmp_path / world / "cases.csv").read_text() == (
+            ROOT / "docs" / f"proof_{world}_cases.csv").read_text()
+    assert worlds_table(figures) in (ROOT / page).read_text(encoding="utf-8")
+
+
+def test_the_sealed_text_is_kept_to_the_byte(tmp_path: Path, run: dict[str, dict[str, Any]]
+                                             ) -> None:
+    for case, entry in zip(find_cases(tmp_path), entries_of(find_cases(tmp_path), run),
+                           strict=True):
+        assert hashlib.sha256(entry.truth.encode()).digest() == hashlib.sha256(
+            case.answer.read_bytes()).digest()
