@@ -13,6 +13,7 @@ import shutil
 import sys
 from pathlib import Path
 
+from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.proof.archive import read_entries, score_entries
 from truck_blowout_sim.proof.prove import Figures
 from truck_blowout_sim.proof.worlds import draw_power_by_world, rivals_table, worlds_table
@@ -38,7 +39,11 @@ def main(words: list[str]) -> int:
         print(__doc__, file=sys.stderr)
         return 2
     out = Path(words[0] if words else ROOT / "out" / "published")
-    figures = {world: counted(world, out) for world in WORLDS}
+    try:
+        figures = {world: counted(world, out) for world in WORLDS}
+    except InputError as error:
+        print(error, file=sys.stderr)
+        return 2
     measured = all(one["seen"] for one in figures.values())
     if measured:
         (ROOT / "docs" / PICTURE).write_bytes(draw_power_by_world(figures).png())

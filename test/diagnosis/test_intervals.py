@@ -11,7 +11,7 @@ from truck_blowout_sim.diagnosis.case.study import Study
 from truck_blowout_sim.diagnosis.effects import LIBRARY
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.fit.attribute import Ranked
-from truck_blowout_sim.diagnosis.prove.intervals import Timing, time_intervals
+from truck_blowout_sim.diagnosis.prove.intervals import _SHAPE, Timing, time_intervals
 from truck_blowout_sim.vehicle import Packed
 
 Studies = Callable[..., Study]
@@ -50,8 +50,20 @@ def test_a_weaker_gust_is_known_less_well(study_of: Studies, truck: Packed) -> N
     assert weak.duration_s is not None
     assert np.mean(strong.onset_s) == pytest.approx(START_S)
     assert np.mean(strong.duration_s) == pytest.approx(END_S - START_S)
-    assert 0.05 < width(strong.onset_s) < width(weak.onset_s) < 1.5
+    shape = 2.0 * 1.645 * np.hypot(0.3, _SHAPE * (END_S - START_S))  # of another kind of gust
+    assert shape < width(strong.onset_s) < width(weak.onset_s) < shape + 0.5
     assert 0.05 < width(strong.duration_s) < width(weak.duration_s)
+
+
+def test_another_shape_of_the_same_force_middle_and_width_begins_within_the_interval() -> None:
+    """Closed form: (1 - cos) beside on-off, a load that slides ever faster beside an even one."""
+    t = np.linspace(0.0, 1.0, 20001)
+    for rate in (1.0 - np.cos(2.0 * np.pi * t), 2.0 * t):
+        middle = np.average(t, weights=rate)
+        even = np.sqrt(12.0 * np.average((t - middle) ** 2, weights=rate))
+        earlier = (middle - 0.5 * even) / even
+        assert 0.25 < earlier < 0.35
+        assert earlier < 1.645 * _SHAPE
 
 
 def test_an_end_that_no_recording_shows_is_open(study_of: Studies, truck: Packed) -> None:

