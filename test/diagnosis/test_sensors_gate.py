@@ -1,6 +1,6 @@
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from types import SimpleNamespace
 from typing import cast
@@ -12,7 +12,8 @@ from trial_drive import make_run
 
 from truck_blowout_sim import read_recording
 from truck_blowout_sim.diagnosis.sensors import correct, sensor_gate
-from truck_blowout_sim.diagnosis.sensors.case import Hypothesis
+from truck_blowout_sim.diagnosis.sensors import search as searching
+from truck_blowout_sim.diagnosis.sensors.case import Case, Hypothesis
 from truck_blowout_sim.diagnosis.sensors.distortions import Delay, LeverArm
 from truck_blowout_sim.diagnosis.sensors.search import _sound_in_training, leaders_of_each_kind
 from truck_blowout_sim.diagnosis.sensors.solve import Estimate
@@ -256,3 +257,21 @@ def test_bad_input_is_refused_in_one_line() -> None:
     empty = Recording("still.csv", {"throttle": Series(time_s, np.zeros(time_s.size))})
     with pytest.raises(InputError, match=r"still\.csv: no motion channel"):
         sensor_gate([empty])
+
+
+def test_what_a_refused_hypothesis_explains_better_is_not_named(
+    monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A delay that may be chance is no reason to believe in a lever arm that explains less."""
+    late = faults.delayed([f"trailer_{c}" for c in INERTIAL], 0.06)
+    spoilt = [late(run) for run in RUNS]
+    assert [f.name for f in sensor_gate(spoilt, BASELINE).findings] == ["channel_delay"]
+    usual = searching.chances
+
+    def doubtful(case: Case, chosen: Sequence[Hypothesis], amounts: Sequence[Sequence[float]],
+                 inflation: Mapping[str, float]) -> list[float]:
+        return [1.0 if isinstance(h.distortion, Delay) else p
+                for h, p in zip(chosen, usual(case, chosen, amounts, inflation), strict=True)]
+
+    monkeypatch.setattr(searching, "chances", doubtful)
+    assert sensor_gate(spoilt, BASELINE).findings == ()

@@ -255,3 +255,12 @@ def test_every_amount_has_its_unit_and_the_page_shows_it(truck: Packed) -> None:
         for n in load_settings(pack(load_vehicle(vehicle))).nuisances:
             pure = n.kind == "scale" or n.targets[0][0].endswith((".roll_steer", ".polytropic"))
             assert (n.unit == "1") == pure, n.targets[0][0]
+
+
+def test_all_tests_together_raise_the_one_stated_rate_of_false_alarms(truck: Packed) -> None:
+    """Names, instruments, two tests of what is left, three signs."""
+    rules = load_settings(truck)
+    parts = (rules.alarms_by_name, rules.alarms_by_instrument, 2.0 * rules.alarms_by_rest,
+             3.0 * rules.alarms_by_sign)
+    assert sum(parts) == pytest.approx(rules.false_alarms)
+    assert min(parts) > 0.0

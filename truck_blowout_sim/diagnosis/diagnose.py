@@ -96,7 +96,7 @@ def diagnose(recordings: Sequence[Recording], *, baseline: Sequence[Recording] =
     packed = pack(loaded)
     rules = replace(load_settings(packed, settings), without=known_names(without))
     gate = sensor_gate(list(recordings), list(baseline), vehicle_geometry(loaded),
-                       rules.false_alarms)
+                       rules.alarms_by_instrument)
     rules = replace(rules, trial_step_s=rules.coarsest_step_s) if effort.coarse else rules
     if kept is not None:
         kept.begin(case_parts({"train": recordings, "baseline": baseline, "holdout": holdout},

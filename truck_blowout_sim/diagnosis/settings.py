@@ -78,9 +78,14 @@ class Settings:
     without: tuple[str, ...] = ()
 
     @property
+    def alarms_by_instrument(self) -> float:
+        """False alarms that the check of the instruments may raise."""
+        return 0.05 * self.false_alarms
+
+    @property
     def alarms_by_name(self) -> float:
         """False alarms that the search for names may raise: the others are for ``unknown``."""
-        return 0.45 * self.false_alarms
+        return 0.4 * self.false_alarms
 
     @property
     def alarms_by_rest(self) -> float:

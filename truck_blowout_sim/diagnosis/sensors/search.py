@@ -2,7 +2,8 @@
 
 A fault is accepted if dropping its prior (its normal size) lowers the sum of squares by more than
 chance would, over all candidates together, and never if another accepted fault already explains
-the same. Candidates that do almost as well as the accepted one are its aliases.
+the same, nor if one that was refused explains more. Candidates that do almost as well as the
+accepted one are its aliases.
 
 References: forward selection with backward check; family-wise error by Bonferroni.
 Validated with: test/diagnosis/test_sensors_gate.py (power, naming, false alarms).
@@ -99,6 +100,22 @@ class SearchResult:
     usual_sigma: FloatArray
 
 
+@dataclass(frozen=True, eq=False)
+class _Best:
+    """The hypothesis that explains most of what is left, beside what was chosen.
+
+    Attributes:
+        estimate: of all faults together; ``chi2``: its sum of squares, handicap included.
+        room: within which others explain as much; ``near``: those, best first.
+    """
+
+    hypothesis: Hypothesis
+    estimate: Estimate
+    chi2: float
+    room: float
+    near: tuple[tuple[Hypothesis, float], ...]
+
+
 def search(case: Case, false_alarms: float = FALSE_ALARMS) -> SearchResult:
     """Find the sensor faults of a case.
 
@@ -114,20 +131,23 @@ def search(case: Case, false_alarms: float = FALSE_ALARMS) -> SearchResult:
     normal = normal_equations(before, inflation)
     estimate = solve(case, normal, ())
     highest = false_alarms / independent_candidates(case, normal)
+    most = np.inf  # sum of squares of what explains as much as a hypothesis that was refused
     while len(chosen) < _MOST_FAULTS and len(refused) < _MOST_REFUSED:
         best = _next(case, system, chosen, refused, estimate, inflation)
-        if best is None:
+        if best is None or best.chi2 > most:
             break
-        hypothesis, tried, near = best
-        rivals[hypothesis] = near
+        hypothesis, tried = best.hypothesis, best.estimate
+        rivals[hypothesis] = best.near
         trial = [*chosen, hypothesis]
         cleaned = assemble(case, with_amounts(trial, tried.amounts))
         scatter = noise_inflation(cleaned)
         kept, refined = _pruned(case, trial, tried, scatter, highest)
         if hypothesis in kept:
             chosen, estimate, system, inflation = kept, refined, cleaned, scatter
+            most = np.inf
         else:  # as before it was tried
             refused.append(hypothesis)
+            most = min(most, best.chi2 + best.room)
     sound = _sound_in_training(chosen, estimate)
     if len(sound) < len(chosen):
         amounts = [estimate.amounts[chosen.index(h)] for h in sound]
@@ -139,8 +159,8 @@ def search(case: Case, false_alarms: float = FALSE_ALARMS) -> SearchResult:
 def _next(
     case: Case, system: System, chosen: Sequence[Hypothesis], refused: Sequence[Hypothesis],
     found: Estimate, inflation: Mapping[str, float],
-) -> tuple[Hypothesis, Estimate, tuple[tuple[Hypothesis, float], ...]] | None:  # fmt: skip
-    """The best further hypothesis, the joint estimate, its rivals; ``None`` if none counts."""
+) -> _Best | None:  # fmt: skip
+    """The best further hypothesis; ``None`` if none counts."""
     normal = normal_equations(system, inflation)
     base = solve(case, normal, chosen)
     scored: list[tuple[float, int, Hypothesis]] = []
@@ -165,7 +185,7 @@ def _next(
 def _refined_best(
     case: Case, scored: Sequence[tuple[float, int, Hypothesis]], chosen: Sequence[Hypothesis],
     starts: Mapping[Hypothesis, Amounts], inflation: Mapping[str, float], without: float,
-) -> tuple[Hypothesis, Estimate, tuple[tuple[Hypothesis, float], ...]]:  # fmt: skip
+) -> _Best:  # fmt: skip
     """Compare the leaders at their own nonlinear optimum; the linear score ranks the rest.
 
     ``without``: sum of squares without any of them.
@@ -187,7 +207,7 @@ def _refined_best(
             above[hypothesis] = max(0.0, linear[hypothesis] - linear[best])
     room = max(ALIAS_CHI2, ALIAS_SHARE * (without - exact[best]))
     near = sorted((v, i, h) for i, (h, v) in enumerate(above.items()) if v <= room)
-    return best, estimates[best], tuple((h, v) for v, _, h in near)
+    return _Best(best, estimates[best], exact[best], room, tuple((h, v) for v, _, h in near))
 
 
 def leaders_of_each_kind(ranked: Sequence[Hypothesis], close: int) -> list[Hypothesis]:
