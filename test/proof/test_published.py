@@ -39,3 +39,15 @@ def test_what_is_no_table_of_published_cases_is_refused(tmp_path: Path, now: str
     with pytest.raises(InputError) as caught:
         repeats(run, published)
     assert "\n" not in str(caught.value)
+
+
+def test_an_answer_that_a_correction_changed_is_told_with_its_reason(tmp_path: Path) -> None:
+    run, published = tables(tmp_path, BEFORE.replace("physics,brake_lag", "physics,brake_fade"))
+    changed = tmp_path / "changed.csv"
+    changed.write_text("case,concealed,verdict,named,why\n"
+                       "w1-2,brake_lag,missing physics,brake_fade,a reason\n", encoding="utf-8")
+    same, other = repeats(run, published, changed)
+    assert (same.same, same.corrected) == (True, False)
+    assert (other.same, other.corrected, other.why) == (False, True, "a reason")
+    changed.write_text(changed.read_text().replace("brake_fade", "roll_steer"))
+    assert not repeats(run, published, changed)[1].corrected

@@ -22,31 +22,43 @@ class Repeat:
     Attributes:
         case: its name; ``concealed``: what is missing in it.
         published, now: verdict and names, each as one text.
+        later: what a correction made of the published answer, if it is known; ``why`` it did.
     """
 
     case: str
     concealed: str
     published: str
     now: str
+    later: str | None = None
+    why: str = ""
 
     @property
     def same(self) -> bool:
         """Whether verdict and names are those that were published."""
         return self.published == self.now
 
+    @property
+    def corrected(self) -> bool:
+        """Whether they are what a published correction has made of them."""
+        return not self.same and self.now == self.later
 
-def repeats(run: Path, published: Path) -> list[Repeat]:
+
+def repeats(run: Path, published: Path, changed: Path | None = None) -> list[Repeat]:
     """Each case of a run's ``cases.csv`` beside the published one, in the order of the run.
+
+    ``changed``: table of published answers that later corrections changed, with the reason.
 
     Raises:
         InputError: a file is missing or no such table; a case was never published.
     """
-    before = _rows(published)
+    before, later = _rows(published), _rows(changed) if changed else {}
     found = []
     for case, row in _rows(run).items():
         if case not in before:
             raise InputError(f"no case {case}", file=published, expected="a published case")
-        found.append(Repeat(case, row["concealed"], _answer(before[case]), _answer(row)))
+        after = later.get(case)
+        found.append(Repeat(case, row["concealed"], _answer(before[case]), _answer(row),
+                            _answer(after) if after else None, after["why"] if after else ""))
     return found
 
 
