@@ -80,12 +80,12 @@ class Settings:
     @property
     def alarms_by_instrument(self) -> float:
         """False alarms that the check of the instruments may raise."""
-        return 0.05 * self.false_alarms
+        return 0.02 * self.false_alarms
 
     @property
     def alarms_by_name(self) -> float:
         """False alarms that the search for names may raise: the others are for ``unknown``."""
-        return 0.4 * self.false_alarms
+        return 0.45 * self.false_alarms
 
     @property
     def alarms_by_rest(self) -> float:
@@ -95,7 +95,7 @@ class Settings:
     @property
     def alarms_by_sign(self) -> float:
         """Those that each of three signs may raise: a body's stand, and two kinds of beat."""
-        return 0.05 / 3.0 * self.false_alarms
+        return 0.01 * self.false_alarms
 
     def form(self, effect: str) -> float:
         """1 sigma of what another form of law does to an amount, as a share of it."""
