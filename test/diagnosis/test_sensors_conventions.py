@@ -16,6 +16,7 @@ from truck_blowout_sim.diagnosis.sensors import conventions, correct, sensor_gat
 from truck_blowout_sim.diagnosis.sensors.conventions import find_conventions
 from truck_blowout_sim.diagnosis.sensors.distortions import Sign
 from truck_blowout_sim.diagnosis.sensors.geometry import stated_geometry, vehicle_geometry
+from truck_blowout_sim.diagnosis.sensors.hubs import axle_identities
 from truck_blowout_sim.diagnosis.sensors.reading import Reading
 from truck_blowout_sim.diagnosis.sensors.signals import read_signals
 from truck_blowout_sim.recordings import Recording, Series
@@ -253,3 +254,12 @@ def test_what_explains_half_of_what_is_left_is_noise_whatever_it_gains() -> None
     log.share_explained = lambda _: np.array([0.58, 1.0])  # type: ignore[method-assign]
     logs = cast("list[conventions.Reading]", [log])
     assert conventions._best(logs, np.array([False])) is None
+
+
+@pytest.mark.parametrize("rad_s", [0.0, 0.5])
+def test_hubs_that_do_not_turn_say_nothing_of_their_plugs(rad_s: float) -> None:
+    still = {c: Series(RUN[c].time_s, np.full_like(RUN[c].value, rad_s))
+             for c in RUN.channels if c.startswith("hub_speed_")}
+    signals = read_signals(RUN.with_channels(still))
+    assert axle_identities(signals, stated_geometry([RUN])) == ()
+    assert len(axle_identities(read_signals(RUN), stated_geometry([RUN]))) == 3

@@ -32,6 +32,8 @@ _SLOWEST_MPS = 4.0
 _HARD_TURN_MPS2 = 2.0
 _TURN_S = 0.5
 _MODEL_SIGMA_MPS = 0.01
+_TURNS_RADPS = 1.0  # slower wheels stand, as far as their sensors tell
+_FEWEST = 50  # samples for a radius
 
 
 def hub_channels(signals: Signals, unit: str, geometry: Geometry) -> tuple[str, ...]:
@@ -74,8 +76,8 @@ def rolling_radii(all_signals: Sequence[Signals], geometry: Geometry) -> Mapping
             for channel in hub_channels(signals, unit, geometry):
                 sound = free & _sound(signals, channel)
                 speed = signals[n["vx"]] - signals[n["r"]] * geometry.hub_left_m(hub_of(channel))
-                usable = sound & (signals[channel] > 1.0) & np.isfinite(speed)
-                if usable.sum() > 50:
+                usable = sound & (signals[channel] > _TURNS_RADPS) & np.isfinite(speed)
+                if usable.sum() > _FEWEST:
                     ratio = speed[usable] / signals[channel][usable]
                     ratios.setdefault(channel, []).append(ratio)
     return {channel: float(np.median(np.concatenate(r))) for channel, r in ratios.items()}
@@ -89,8 +91,7 @@ def hub_identity(
     hubs = tuple(c for c in hub_channels(signals, unit, geometry) if c in radii)
     if not hubs or n["vx"] not in signals:
         return None
-    asked = free_rolling(signals, unit) & (signals.time_s < _blown_since(signals, unit))
-    masked = np.where(asked, 0.0, np.nan)
+    masked = np.where(_asked(signals, unit), 0.0, np.nan)
     left = {c: geometry.hub_left_m(hub_of(c)) for c in hubs}
 
     def residual(s: Signals) -> FloatArray:
@@ -113,32 +114,37 @@ def axle_pairs(signals: Signals) -> tuple[tuple[str, str], ...]:
 
 def axle_identities(signals: Signals, geometry: Geometry) -> tuple[Identity, ...]:
     """In a turn the outer wheel of an axle rolls faster than the inner one."""
-    found = []
-    for left, right in axle_pairs(signals):
-        axle = hub_of(left).rpartition("_")[0]
-        unit = "trailer" if axle.startswith("trailer") else "tractor"
-        n = channel_names(unit)
-        if n["vx"] in signals and n["r"] in signals and free_rolling(signals, unit).any():
-            found.append(_axle_identity(signals, unit, (left, right), geometry))
-    return tuple(found)
+    found = (_axle_identity(signals, pair, geometry) for pair in axle_pairs(signals))
+    return tuple(one for one in found if one)
 
 
-def _axle_identity(signals: Signals, unit: str, pair: tuple[str, str], geometry: Geometry
-                   ) -> Identity:
-    n, (left, right) = channel_names(unit), pair
+def _axle_identity(signals: Signals, pair: tuple[str, str], geometry: Geometry) -> Identity | None:
+    """None where the axle rolls freely in too few samples."""
+    (left, right), axle = pair, hub_of(pair[0]).rpartition("_")[0]
+    unit = "trailer" if axle.startswith("trailer") else "tractor"
+    n = channel_names(unit)
+    if n["vx"] not in signals or n["r"] not in signals:
+        return None
     track_m = geometry.hub_left_m(hub_of(left)) - geometry.hub_left_m(hub_of(right))
-    asked = free_rolling(signals, unit) & (signals.time_s < _blown_since(signals, unit))
+    both = 0.5 * (signals[left] + signals[right])
+    asked = _asked(signals, unit) & (both > _TURNS_RADPS) & np.isfinite(signals[n["vx"]])
+    if asked.sum() <= _FEWEST:
+        return None
     masked = np.where(asked, 0.0, np.nan)
-    rolled = np.nanmedian(np.where(asked, signals[left] + signals[right], np.nan))
-    radius_m = 2.0 * np.nanmedian(signals[n["vx"]][asked]) / rolled
+    radius_m = float(np.median(signals[n["vx"]][asked]) / np.median(both[asked]))
 
     def residual(s: Signals) -> FloatArray:
         return np.asarray(track_m * s[n["r"]] - radius_m * (s[right] - s[left]) + masked)
 
     return Identity(
-        f"{hub_of(left).rpartition('_')[0]} hub speeds, left and right", "m/s",
+        f"{axle} hub speeds, left and right", "m/s",
         "R (omega_right - omega_left) = track r",
         (n["r"], left, right), (), residual, (), _MODEL_SIGMA_MPS)
+
+
+def _asked(signals: Signals, unit: str) -> BoolArray:
+    """Samples at which the unit's wheels roll freely, and on sound tires."""
+    return free_rolling(signals, unit) & (signals.time_s < _blown_since(signals, unit))
 
 
 def _blown_since(signals: Signals, unit: str) -> float:
