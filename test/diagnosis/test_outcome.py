@@ -29,7 +29,7 @@ from truck_blowout_sim.diagnosis.fit.shown import SCATTERS
 from truck_blowout_sim.diagnosis.locate.beat import Beat
 from truck_blowout_sim.diagnosis.locate.lagging import Lag
 from truck_blowout_sim.diagnosis.locate.posture import Posture
-from truck_blowout_sim.diagnosis.locate.restless import Restless
+from truck_blowout_sim.diagnosis.locate.restless import Restless, Unrest
 from truck_blowout_sim.diagnosis.locate.wrench import Wrenches
 from truck_blowout_sim.diagnosis.model.law import Law
 from truck_blowout_sim.diagnosis.name.judging import Found, strongest_of
@@ -250,13 +250,13 @@ def test_a_wheel_that_lags_is_no_drag_of_the_air(calm: Study, truck: Packed) -> 
 
 def test_a_channel_that_moves_on_is_of_no_list(calm: Study, truck: Packed) -> None:
     moving = Restless("trailer", "trailer_yaw_rate_radps", 0.003, 0.001, 900.0)
-    told = answer(replace(material(calm), restless=moving))
+    told = answer(replace(material(calm), unrest=Unrest(moving, 1e-4)))
     assert told.verdict == "unknown"
     assert "trailer's yaw rate" in told.sentence
     assert told.next_test == moving.next_test
     assert moving.equation in told.evidence.equations
     lag = ranked(truck, "tire_relaxation", 2.0, delta=300.0)
-    assert decide(replace(material(calm, (lag,)), restless=moving)) == "unknown"
+    assert decide(replace(material(calm, (lag,)), unrest=Unrest(moving, 1e-4))) == "unknown"
 
 
 def test_what_an_inexact_law_leaves_in_a_channel_is_no_other_effect(
@@ -264,7 +264,7 @@ def test_what_an_inexact_law_leaves_in_a_channel_is_no_other_effect(
 ) -> None:
     lost = ranked(truck, "secondary_blowout", 0.1, delta=1e6, start_s=2.0)
     moving = Restless("trailer", "trailer_yaw_rate_radps", 0.003, 0.001, 900.0)
-    told = answer(replace(material(calm, (lost,)), restless=moving))
+    told = answer(replace(material(calm, (lost,)), unrest=Unrest(moving, 1e-4)))
     assert told.verdict == "missing_physics"
     assert "moves in a way" not in told.sentence
 

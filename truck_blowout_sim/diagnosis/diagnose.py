@@ -27,7 +27,7 @@ from truck_blowout_sim.diagnosis.locate.comparable import Left
 from truck_blowout_sim.diagnosis.locate.lagging import lagging_wheel
 from truck_blowout_sim.diagnosis.locate.periodic import find_beat
 from truck_blowout_sim.diagnosis.locate.posture import turned_body
-from truck_blowout_sim.diagnosis.locate.restless import restless
+from truck_blowout_sim.diagnosis.locate.restless import Unrest, unrest
 from truck_blowout_sim.diagnosis.locate.wrench import Wrenches, missing_wrenches
 from truck_blowout_sim.diagnosis.model.law import Law, plainest_law
 from truck_blowout_sim.diagnosis.model.law_check import checked
@@ -172,7 +172,7 @@ def _material(study: Study, found: Found, gate: GateResult, vehicle: str,
                         _arms(study, found, progress) if effort.profile else {},
                         find_beat(study, named), lagging_wheel(study, named, scatter),
                         turned_body(study, named, scatter) if sound else None,
-                        restless(study, named) if sound else None)
+                        unrest(study, named) if sound else Unrest())
     if unexplained(material):
         told = as_told(material)
         material = replace(material, law=checked(told.study, _law(study, told.unnamed)))

@@ -17,13 +17,14 @@ from truck_blowout_sim.diagnosis.locate.beat import Beat
 from truck_blowout_sim.diagnosis.locate.lagging import Lag
 from truck_blowout_sim.diagnosis.locate.left_over import (
     NAMING_SHARE,
+    chance_of_more,
     excess,
     expected_squares,
     keeps_more,
     mean_squares,
 )
 from truck_blowout_sim.diagnosis.locate.posture import Posture
-from truck_blowout_sim.diagnosis.locate.restless import Restless
+from truck_blowout_sim.diagnosis.locate.restless import Restless, Unrest
 from truck_blowout_sim.diagnosis.locate.wrench import Wrenches
 from truck_blowout_sim.diagnosis.model.law import Law
 from truck_blowout_sim.diagnosis.name.judging import Found
@@ -62,7 +63,7 @@ class Material:
         separation: the run that would best tell apart what these cannot, if any could.
         arms: of each effect's amount by profile likelihood and jackknife, by key, if asked for.
         beat: a periodic force too fast for the bins; ``lag``: a wheel that a drag holds back;
-            ``posture``: a body that stands turned; ``restless``: a channel that nothing calms.
+            ``posture``: a body that stands turned; ``unrest``: a channel that nothing calms.
     """
 
     study: Study
@@ -78,7 +79,7 @@ class Material:
     beat: Beat | None = None
     lag: Lag | None = None
     posture: Posture | None = None
-    restless: Restless | None = None
+    unrest: Unrest = field(default_factory=Unrest)
 
     @property
     def signs(self) -> tuple[words.Sign, ...]:
@@ -111,7 +112,7 @@ def answer(material: Material) -> Diagnosis:
             material.signs),
         effects=tuple(effects), alias_sets=tuple(aliases), location=locate(material),
         train=fit(told, "train"), holdout=fit(told, "holdout"),
-        null_p_value=found.p_value, next_test=next_test,
+        null_p_value=chance_of_all(material, verdict), next_test=next_test,
         evidence=gather(material, told))
 
 
@@ -130,6 +131,23 @@ def as_told(material: Material) -> Material:
         material, study=replace(study, models=list(found.models_null)), unnamed=material.wrenches,
         found=replace(found, named=[], rivals=[], tried=tried, chi2_after=found.chi2_null,
                       after=found.before))
+
+
+def chance_of_all(material: Material, verdict: Verdict) -> float:
+    """Chance that any of the tests is led so far where nothing is missing.
+
+    Each counts by its share of the false alarms (Bonferroni with weights), so what is stated comes
+    out below ``false_alarms``. Of a sign beside a force only that it passed is known.
+    """
+    study, settings = material.study, material.study.settings
+    every = [material.found.p_value / settings.alarms_by_name]
+    if not material.gate.findings:
+        named = [r.hypothesis for r in material.found.named]
+        every += [material.unrest.chance / settings.alarms_by_rest,
+                  chance_of_more(study, mean_squares(study, named)) / settings.alarms_by_rest]
+    if verdict in ("unknown", "sensor_artefact"):
+        every.append(1.0)
+    return min(min(every) * settings.false_alarms, 1.0)
 
 
 def decide(material: Material) -> Verdict:
@@ -154,7 +172,7 @@ def _beats(material: Material) -> bool:
 
 def _moving_on(material: Material) -> Restless | None:
     """The restless channel, if more is left of it than everything named explains of all."""
-    moving = material.restless
+    moving = material.unrest.channel
     return moving if moving is not None and moving.evidence > _bought(material) else None
 
 

@@ -28,6 +28,7 @@ from truck_blowout_sim.diagnosis.fit.linear import Projector
 from truck_blowout_sim.diagnosis.fit.models import models_at, with_effects
 from truck_blowout_sim.diagnosis.fit.scatter import Chance
 from truck_blowout_sim.diagnosis.fit.shown import Part, Shown, parts_of
+from truck_blowout_sim.diagnosis.fit.width_error import degrees_of, most_supported
 
 Floats = NDArray[np.float64]
 
@@ -65,7 +66,10 @@ class Beside:
 
 
 def supported(study: Study, one: Ranked, beside: Beside, chance: Chance) -> Ranked:
-    """The same with its support, for amounts up to the one that was fitted."""
+    """The same with its support, for amounts up to the one that was fitted.
+
+    No more than what it explains supports where widths are estimates; see `width_error.py`.
+    """
     h, models = one.hypothesis, beside.models
     away = h.amount - h.effect.neutral(study.packed)
     if away == 0.0 or (one.refitted and one.delta <= 0.0):
@@ -94,7 +98,11 @@ def supported(study: Study, one: Ranked, beside: Beside, chance: Chance) -> Rank
         return replace(one, support=0.0)
     change = away * fitted[:study.columns.shape[0]]
     scatter = chance.beside(h.key, change, study.columns.T @ change, left)
-    return replace(one, support=scatter.support(shown, _log_choices(study, h)))
+    support = scatter.support(shown, _log_choices(study, h))
+    if one.refitted:
+        runs = len(study.baseline or study.train)
+        support = min(support, most_supported(one.evidence, degrees_of(runs)))
+    return replace(one, support=support)
 
 
 def asks_unseen(h: Hypothesis, named: Sequence[Hypothesis]) -> bool:

@@ -28,13 +28,13 @@ from scipy.stats import t as student
 from truck_blowout_sim.diagnosis.case.restlessness import left_by_fit
 from truck_blowout_sim.diagnosis.case.study import Study, row_ranges
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
+from truck_blowout_sim.diagnosis.fit.width_error import RUN_SCATTER
 from truck_blowout_sim.diagnosis.locate.comparable import Left
 
 Floats = NDArray[np.float64]
-_SCATTER = 0.4  # of the logarithm: what a model leaves differs by half from manoeuvre to manoeuvre
 _RUNS = 6.0  # as many runs is that prior worth: cases seldom have more
 _LEAST = 1e-6
-_GUESSED = 1.0  # squares a row, where the widths are what two good models differ by
+GUESSED = 1.0  # squares a row, where the widths are what two good models differ by
 _GUESS = 2.0 * np.log(1.5)  # 1 sigma of their logarithm: a guess errs by half (a judgement)
 NAMING_SHARE = 0.5  # of what training keeps more than usual: what explains less is no name for it
 
@@ -102,7 +102,7 @@ def expected_squares(study: Study, squares: Sequence[float]) -> float:
 
 def _still(study: Study, squares: Sequence[float]) -> list[float]:
     """What baseline runs keep, or one in their stead."""
-    return [squares[i] for i in study.baseline] or [_GUESSED]
+    return [squares[i] for i in study.baseline] or [GUESSED]
 
 
 def excess(study: Study, squares: Sequence[float], usual: float) -> float:
@@ -119,7 +119,7 @@ def _test(train: Sequence[float], baseline: Sequence[float], guess: float = 0.0
     groups = [np.log(train), np.log(baseline)]
     degrees = sum(one.size - 1 for one in groups) + _RUNS
     pooled = (sum(float(np.sum((one - one.mean()) ** 2)) for one in groups)
-              + _RUNS * _SCATTER**2) / degrees
+              + _RUNS * RUN_SCATTER**2) / degrees
     return (float(groups[1].mean()),
             *_with_guess(pooled * sum(1.0 / one.size for one in groups), degrees, guess))
 
@@ -136,13 +136,18 @@ def most_by_chance(train: Sequence[float], baseline: Sequence[float], rate: floa
     return float(np.exp(mean + spread * student.isf(rate, degrees)))
 
 
+def chance_of(train: Sequence[float], baseline: Sequence[float], guess: float = 0.0) -> float:
+    """Chance that training keeps so much on the geometric mean where nothing is missing."""
+    mean, spread, degrees = _test(train, baseline, guess)
+    return float(student.sf((np.mean(np.log(train)) - mean) / spread, degrees))
+
+
 def chance_of_more(study: Study, squares: Sequence[float]) -> float:
     """Chance that training, or one run of it, keeps so much more where nothing is missing."""
     train, baseline = [squares[i] for i in study.train], _still(study, squares)
     guess = 0.0 if study.baseline else _GUESS
-    mean, spread, degrees = _test(train, baseline, guess)
-    all_of_it = float(student.sf((np.mean(np.log(train)) - mean) / spread, degrees))
-    return min(2.0 * min(all_of_it, _chance_of_one(train, baseline, guess)), 1.0)
+    return min(2.0 * min(chance_of(train, baseline, guess),
+                         _chance_of_one(train, baseline, guess)), 1.0)
 
 
 def _chance_of_one(train: Sequence[float], baseline: Sequence[float], guess: float) -> float:
@@ -155,7 +160,7 @@ def _chance_of_one(train: Sequence[float], baseline: Sequence[float], guess: flo
     degrees = max(others.size - 1, 0) + still.size - 1 + _RUNS
     squares = sum(float(np.sum((one - one.mean()) ** 2)) for one in (others, still) if one.size)
     spread, degrees = _with_guess(
-        (squares + _RUNS * _SCATTER**2) / degrees * (1.0 + 1.0 / still.size), degrees, guess)
+        (squares + _RUNS * RUN_SCATTER**2) / degrees * (1.0 + 1.0 / still.size), degrees, guess)
     return float(logs.size * student.sf((logs[-1] - still.mean()) / spread, degrees))
 
 

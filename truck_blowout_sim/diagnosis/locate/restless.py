@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from truck_blowout_sim.diagnosis.case.study import Study, row_ranges
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.locate.comparable import Left
-from truck_blowout_sim.diagnosis.locate.left_over import most_by_chance
+from truck_blowout_sim.diagnosis.locate.left_over import GUESSED, chance_of, most_by_chance
 
 Floats = NDArray[np.float64]
 _UNITS = (("_mps2", "m/s2"), ("_mps", "m/s"), ("_radps", "rad/s"), ("_rad", "rad"))
@@ -67,38 +67,55 @@ class Restless:
                 "moves on by itself, with the speed or with the hand wheel tells what makes it.")
 
 
-def restless(study: Study, named: Sequence[Hypothesis]) -> Restless | None:
-    """The channel that is farthest beyond what baseline runs allow, if one is.
+@dataclass(frozen=True)
+class Unrest:
+    """What moves on by itself.
 
-    Study's models have ``named`` in force.
+    Attributes:
+        channel: the one that is farthest beyond what baseline runs allow, if one is.
+        chance: that any channel moves so much more where nothing is missing.
     """
+
+    channel: Restless | None = None
+    chance: float = 1.0
+
+
+def unrest(study: Study, named: Sequence[Hypothesis]) -> Unrest:
+    """What moves on in training. Study's models have ``named`` in force."""
     if not study.baseline:
-        return None
+        return Unrest()
     clean = Left.of(study, study.models, named, comparable=True)
     channels = [c for c in dict.fromkeys(c for i in study.train for c in study.runs[i].channels)
                 if c.endswith(tuple(end for end, _ in _NAMES))]
-    found = [one for name in channels
-             if (one := _judge(study, clean, name, len(channels))) is not None]
-    return max(found, key=lambda one: one.evidence, default=None)
+    judged = [_judge(study, clean, name, len(channels)) for name in channels]
+    return Unrest(
+        max((one for one, _ in judged if one is not None), key=lambda one: one.evidence,
+            default=None),
+        min(len(channels) * min((chance for _, chance in judged), default=1.0), 1.0))
 
 
-def _judge(study: Study, clean: Left, channel: str, asked: int) -> Restless | None:
-    """A channel, if more of it is left than baseline runs allow one of ``asked`` channels."""
+def _judge(study: Study, clean: Left, channel: str, asked: int) -> tuple[Restless | None, float]:
+    """A channel, if more of it is left than baseline runs allow one of ``asked`` channels.
+
+    With the chance that so much is left of this one where nothing is missing.
+    """
     parts, base = ([_left(study, clean, channel, i) for i in which
                     if channel in study.runs[i].channels]
                    for which in (study.train, study.baseline))
     train, still = ([square for left, _ in group if (square := _mean_square(left)) > 0.0]
                     for group in (parts, base))
     if not train or not still:
-        return None
+        return None, 1.0
+    still.append(GUESSED)
+    chance = chance_of(train, still)
     usual = float(np.sqrt(most_by_chance(train, still, study.settings.alarms_by_rest / asked)))
     typical = float(np.exp(0.5 * np.mean(np.log(train))))
     if typical <= usual:
-        return None
+        return None, chance
     left, plain = (np.concatenate(one) for one in zip(*parts, strict=True))
     size = float(np.sqrt(_mean_square(plain)))
     return Restless(channel.split("_", 1)[0], channel, size, size * usual / typical,
-                    float(left @ left - left.size * usual**2))
+                    float(left @ left - left.size * usual**2)), chance
 
 
 def _left(study: Study, clean: Left, channel: str, i: int) -> tuple[Floats, Floats]:

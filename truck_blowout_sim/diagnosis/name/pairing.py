@@ -118,7 +118,7 @@ def _holds(study: Study, found: Found, named: list[Ranked], ranked: Sequence[Ran
            chance: Chance) -> Pair | None:
     """Everything fitted together, if each stays what it was named and the holdout gains."""
     fitted, chi2 = fit_together(study, named)
-    fitted = _each_supported(study, fitted, chance)
+    fitted = _each_supported(study, fitted, chance, found.chi2_after - chi2)
     if any(weakness(one, chance) for one in fitted):
         return None
     models, after = predict_with(study, [one.hypothesis for one in fitted])
@@ -127,11 +127,17 @@ def _holds(study: Study, found: Found, named: list[Ranked], ranked: Sequence[Ran
     return Pair(fitted, ranked, models, after, chi2)
 
 
-def _each_supported(study: Study, fitted: Sequence[Ranked], chance: Chance) -> list[Ranked]:
-    """Each with its support beside all the others."""
+def _each_supported(study: Study, fitted: Sequence[Ranked], chance: Chance, together: float
+                    ) -> list[Ranked]:
+    """Each with its support beside all the others.
+
+    ``together``: fall of the sum of squares that the new ones bring, each of which may explain
+    little alone.
+    """
     found = []
     for k, one in enumerate(fitted):
         others = [r.hypothesis for j, r in enumerate(fitted) if j != k]
         beside = Beside.of(study, others, models_with(study, others))
-        found.append(supported(study, one, beside, chance))
+        joint = replace(one, evidence=max(one.evidence, together))
+        found.append(replace(one, support=supported(study, joint, beside, chance).support))
     return found
