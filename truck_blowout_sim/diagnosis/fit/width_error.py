@@ -26,6 +26,6 @@ def degrees_of(runs: int) -> float:
 
 
 def most_supported(fall: float, degrees: float) -> float:
-    """Support that would be as rare by chance, were the widths known, as the fall is by the t-law."""
+    """Support that is as rare by chance, were the widths known, as the fall is by the t-law."""
     rare = float(student.logsf(np.sqrt(max(fall, 0.0)), degrees))
     return float(chi2.isf(2.0 * np.exp(rare), 1))
