@@ -15,6 +15,7 @@ from pathlib import Path
 from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.proof.archive import entries_of, joined, read_entries, write_entries
 from truck_blowout_sim.proof.cases import find_cases
+from truck_blowout_sim.proof.places import Places
 from truck_blowout_sim.proof.run import RESULTS, read_lines
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -22,9 +23,8 @@ ROOT = Path(__file__).resolve().parents[1]
 
 def publish(world: str, cases: Path, run: Path) -> str:
     """Add one world's answers; what was done, in words."""
-    manifest = ROOT / "proving_ground" / "sealed" / f"sealed_{world}.json"
-    sealed = json.loads(manifest.read_text(encoding="utf-8"))["cases"]
-    path = ROOT / "docs" / f"proof_{world}_answers.jsonl.xz"
+    places = Places(ROOT, world)
+    sealed, path = json.loads(places.manifest.read_text(encoding="utf-8"))["cases"], places.answers
     before = [entry for entry in (read_entries(path) if path.is_file() else ())
               if entry.case in sealed]
     further = [entry for entry in entries_of(find_cases(cases), read_lines(run / RESULTS))

@@ -19,21 +19,16 @@ from rich.table import Table
 
 from proving_ground.worlds import FIRST_SEED
 from truck_blowout_sim.errors import InputError
+from truck_blowout_sim.proof.places import WORLDS, Places
 from truck_blowout_sim.proof.published import Repeat, cases_in, repeats
 
 ROOT = Path(__file__).resolve().parents[1]
-WORLDS = ("w1", "w2", "w3", "w4")
 CHANGED = ROOT / "docs" / "proof_changed.csv"
-
-
-def published(world: str) -> Path:
-    """Table of a world's sealed cases and their answers."""
-    return ROOT / "docs" / f"proof_{world}_cases.csv"
 
 
 def numbers(world: str, count: int) -> range:
     """The first published cases of a world, by number."""
-    cases = cases_in(published(world))
+    cases = cases_in(Places(ROOT, world).cases)
     first = min(int(case.partition("-")[2]) for case in cases) - FIRST_SEED[world]
     return range(first, first + min(count, len(cases)))
 
@@ -45,8 +40,8 @@ def repeat(world: str, out: Path, count: int, workers: int) -> list[Repeat]:
           "--count", str(len(chosen)), "--cores", str(workers))  # fmt: skip
     _call("truck_blowout_sim", "prove", "--cases", str(cases), "-o", str(run), "--workers",
           str(workers), "--no-baselines", "--renew", "--manifest",
-          str(ROOT / "proving_ground" / "sealed" / f"sealed_{world}.json"))  # fmt: skip
-    return repeats(run / "cases.csv", published(world), CHANGED)
+          str(Places(ROOT, world).manifest))  # fmt: skip
+    return repeats(run / "cases.csv", Places(ROOT, world).cases, CHANGED)
 
 
 def _call(module: str, *words: str) -> None:

@@ -15,22 +15,22 @@ from pathlib import Path
 
 from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.proof.archive import read_entries, score_entries
+from truck_blowout_sim.proof.places import WORLDS, Places
 from truck_blowout_sim.proof.prove import Figures
 from truck_blowout_sim.proof.worlds import draw_power_by_world, rivals_table, worlds_table
 from truck_blowout_sim.report.marked import put_on_page
 
 ROOT = Path(__file__).resolve().parents[1]
-WORLDS = ("w1", "w2", "w3", "w4")
 PICTURE = "proof_power.png"
 CAPTION = "Share of concealed effects that were named, against what an ideal detector sees"
 
 
 def counted(world: str, out: Path) -> Figures:
     """Figures of one world."""
-    path = ROOT / "docs" / f"proof_{world}_answers.jsonl.xz"
-    manifest = ROOT / "proving_ground" / "sealed" / f"sealed_{world}.json"
-    figures = score_entries(read_entries(path), manifest, out / world, path)
-    shutil.copy(out / world / "cases.csv", ROOT / "docs" / f"proof_{world}_cases.csv")
+    places = Places(ROOT, world)
+    figures = score_entries(read_entries(places.answers), places.manifest, out / world,
+                            places.answers)
+    shutil.copy(out / world / "cases.csv", places.cases)
     return figures
 
 

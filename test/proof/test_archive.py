@@ -21,13 +21,13 @@ from truck_blowout_sim.proof.archive import (
     write_entries,
 )
 from truck_blowout_sim.proof.cases import SIGMA_B, find_cases
+from truck_blowout_sim.proof.places import WORLDS, Places
 from truck_blowout_sim.proof.prove import score_run
 from truck_blowout_sim.proof.seal import folder_hash
 from truck_blowout_sim.proof.worlds import worlds_table
 
 Maker = Callable[..., dict[str, Any]]
 ROOT = Path(__file__).parents[2]
-WORLDS = ("w1", "w2", "w3", "w4")
 
 
 @pytest.fixture
@@ -87,15 +87,13 @@ def test_a_damaged_file_is_refused_in_one_line(tmp_path: Path, content: bytes) -
 def test_the_pages_say_what_the_published_answers_say(tmp_path: Path) -> None:
     figures = {}
     for world in WORLDS:
-        path = ROOT / "docs" / f"proof_{world}_answers.jsonl.xz"
+        places, path = Places(ROOT, world), Places(ROOT, world).answers
         if not path.is_file():
             pytest.skip("the answers of the present draw were published as tables only")
-        sealed = ROOT / "proving_ground" / "sealed" / f"sealed_{world}.json"
-        figures[world] = score_entries(read_entries(path), sealed, tmp_path / world, path)
+        figures[world] = score_entries(read_entries(path), places.manifest, tmp_path / world, path)
         assert not figures[world]["seals"]["broken"]
         assert not figures[world]["seals"]["remade"]
-        assert (tmp_path / world / "cases.csv").read_text() == (
-            ROOT / "docs" / f"proof_{world}_cases.csv").read_text()
+        assert (tmp_path / world / "cases.csv").read_text() == places.cases.read_text()
     for page in ("README.md", "docs/proof.md"):
         assert worlds_table(figures) in (ROOT / page).read_text(encoding="utf-8")
 

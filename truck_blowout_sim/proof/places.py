@@ -1,0 +1,39 @@
+"""Where a repository keeps what it publishes of the proof.
+
+Validated with: test/proof/test_archive.py (the published answers are where the pages come from).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+WORLDS = ("w1", "w2", "w3", "w4")
+
+
+@dataclass(frozen=True)
+class Places:
+    """Of one world below the repository's ``root``.
+
+    Attributes:
+        root: folder with ``docs`` and ``proving_ground``.
+        world: one of ``WORLDS``.
+    """
+
+    root: Path
+    world: str
+
+    @property
+    def manifest(self) -> Path:
+        """Seals of the present draw."""
+        return self.root / "proving_ground" / "sealed" / f"sealed_{self.world}.json"
+
+    @property
+    def answers(self) -> Path:
+        """Raw answers, see `archive.py`."""
+        return self.root / "docs" / f"proof_{self.world}_answers.jsonl.xz"
+
+    @property
+    def cases(self) -> Path:
+        """Table of cases and what was answered."""
+        return self.root / "docs" / f"proof_{self.world}_cases.csv"
