@@ -28,6 +28,7 @@ from truck_blowout_sim.physics.places import brake_line
 from truck_blowout_sim.physics.scalar import clip
 
 Floats = NDArray[np.float64]
+_LEAST_LAG_S = 1e-6  # a chamber without a lag follows at once
 Integers = NDArray[np.int64]
 
 
@@ -65,7 +66,7 @@ def advance_chamber(x: Floats, s: int, p: Floats, circuit: int, control_pa: floa
     """First-order lag of a chamber towards the control pressure, or zero while released."""
     at = CIRCUIT_AT + circuit * CIRCUIT_SIZE
     target = where(x[s + HUB_S.released] > 0.0, 0.0, control_pa)
-    lag = max(p[at + CIRCUIT.lag_s] + p[at + CIRCUIT.lag_extra_s], 1e-6)
+    lag = max(p[at + CIRCUIT.lag_s] + p[at + CIRCUIT.lag_extra_s], _LEAST_LAG_S)
     x[s + HUB_S.chamber_pa] += (target - x[s + HUB_S.chamber_pa]) * dt / (lag + dt)
 
 

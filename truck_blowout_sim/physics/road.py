@@ -25,6 +25,9 @@ Floats = NDArray[np.float64]
 _WAVES = 8
 _LONGEST_M = 20.0
 _RATIO = 0.62
+_TURN_RAD = 2.399963  # golden angle: phases of no two waves meet
+_ACROSS_RADPM = 1.7  # how fast a wave's phase turns across the road
+_LEAST_RAMP_S = 1e-3  # a ramp of no length is a step
 # norm of the amplitudes _RATIO**k for unit rms
 _NORM = math.sqrt(2.0 * (1.0 - _RATIO**2) / (1.0 - _RATIO ** (2 * _WAVES)))
 
@@ -40,7 +43,7 @@ def height(p: Floats, x_m: float, y_m: float) -> float:
     amplitude = rms * _NORM
     wavelength = _LONGEST_M
     for k in range(_WAVES):
-        phase = 2.399963 * (k + 1) * (1.0 + seed) + 1.7 * y_m
+        phase = _TURN_RAD * (k + 1) * (1.0 + seed) + _ACROSS_RADPM * y_m
         total += amplitude * heading(2.0 * math.pi * x_m / wavelength + phase)[1]
         amplitude *= _RATIO
         wavelength *= _RATIO
@@ -62,7 +65,7 @@ def friction(p: Floats, time_s: float, x_m: float, y_m: float) -> float:
 @core
 def _eased(since_s: float, ramp_s: float) -> float:
     """Share of a change that has come about after a time, 0 before it begins."""
-    return where(since_s <= 0.0, 0.0, min(since_s / max(ramp_s, 1e-3), 1.0))
+    return where(since_s <= 0.0, 0.0, min(since_s / max(ramp_s, _LEAST_RAMP_S), 1.0))
 
 
 @core
