@@ -88,8 +88,6 @@ def test_the_pages_say_what_the_published_answers_say(tmp_path: Path) -> None:
     figures = {}
     for world in WORLDS:
         places, path = Places(ROOT, world), Places(ROOT, world).answers
-        if not path.is_file():
-            pytest.skip("the answers of the present draw were published as tables only")
         figures[world] = score_entries(read_entries(path), places.manifest, tmp_path / world, path)
         assert not figures[world]["seals"]["broken"]
         assert not figures[world]["seals"]["remade"]
