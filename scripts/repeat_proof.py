@@ -17,9 +17,9 @@ from pathlib import Path
 from rich.console import Console
 from rich.table import Table
 
-from proving_ground.worlds import FIRST_SEED
+from proving_ground.worlds import FIRST_SEED, WORLDS
 from truck_blowout_sim.errors import InputError
-from truck_blowout_sim.proof.places import WORLDS, Places
+from truck_blowout_sim.proof.places import Places
 from truck_blowout_sim.proof.published import Repeat, cases_in, repeats
 
 ROOT = Path(__file__).resolve().parents[1]

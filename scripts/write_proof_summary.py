@@ -13,9 +13,10 @@ import shutil
 import sys
 from pathlib import Path
 
+from proving_ground.worlds import WORLDS
 from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.proof.archive import read_entries, score_entries
-from truck_blowout_sim.proof.places import WORLDS, Places
+from truck_blowout_sim.proof.places import Places
 from truck_blowout_sim.proof.prove import Figures
 from truck_blowout_sim.proof.worlds import draw_power_by_world, rivals_table, worlds_table
 from truck_blowout_sim.report.marked import put_on_page

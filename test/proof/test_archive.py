@@ -12,6 +12,7 @@ from typing import Any
 
 import pytest
 
+from proving_ground.worlds import WORLDS
 from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.proof.archive import (
     entries_of,
@@ -21,7 +22,7 @@ from truck_blowout_sim.proof.archive import (
     write_entries,
 )
 from truck_blowout_sim.proof.cases import SIGMA_B, find_cases
-from truck_blowout_sim.proof.places import WORLDS, Places
+from truck_blowout_sim.proof.places import Places
 from truck_blowout_sim.proof.prove import score_run
 from truck_blowout_sim.proof.seal import folder_hash
 from truck_blowout_sim.proof.worlds import worlds_table

@@ -28,8 +28,8 @@ from truck_blowout_sim.physics.places import brake_line
 from truck_blowout_sim.physics.scalar import clip
 
 Floats = NDArray[np.float64]
-_LEAST_LAG_S = 1e-6  # a chamber without a lag follows at once
 Integers = NDArray[np.int64]
+_LEAST_LAG_S = 1e-6  # a chamber without a lag follows at once
 
 
 @core

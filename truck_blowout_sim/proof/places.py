@@ -8,8 +8,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 from pathlib import Path
 
-WORLDS = ("w1", "w2", "w3", "w4")
-
 
 @dataclass(frozen=True)
 class Places:
@@ -17,7 +15,7 @@ class Places:
 
     Attributes:
         root: folder with ``docs`` and ``proving_ground``.
-        world: one of ``WORLDS``.
+        world: its name, as ``w1``.
     """
 
     root: Path

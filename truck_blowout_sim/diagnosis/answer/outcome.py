@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -81,6 +82,11 @@ class Material:
     posture: Posture | None = None
     unrest: Unrest = field(default_factory=Unrest)
 
+    @cached_property
+    def squares(self) -> tuple[float, ...]:
+        """Squares a row that each run keeps with everything named in force."""
+        return mean_squares(self.study, [r.hypothesis for r in self.found.named])
+
     @property
     def signs(self) -> tuple[words.Sign, ...]:
         """What shows beside a force."""
@@ -139,12 +145,11 @@ def chance_of_all(material: Material, verdict: Verdict) -> float:
     Each counts by its share of the false alarms (Bonferroni with weights), so what is stated comes
     out below ``false_alarms``. Of a sign beside a force only that it passed is known.
     """
-    study, settings = material.study, material.study.settings
+    settings = material.study.settings
     every = [material.found.p_value / settings.alarms_by_name]
     if not material.gate.findings:
-        named = [r.hypothesis for r in material.found.named]
         every += [material.unrest.chance / settings.alarms_by_rest,
-                  chance_of_more(study, mean_squares(study, named)) / settings.alarms_by_rest]
+                  chance_of_more(material.study, material.squares) / settings.alarms_by_rest]
     if verdict in ("unknown", "sensor_artefact"):
         every.append(1.0)
     return min(min(every) * settings.false_alarms, 1.0)
@@ -183,8 +188,7 @@ def unexplained(material: Material) -> bool:
     """
     if material.gate.findings:
         return False
-    study, bought = material.study, _bought(material)
-    squares = mean_squares(study, [r.hypothesis for r in material.found.named])
+    study, squares, bought = material.study, material.squares, _bought(material)
     usual = expected_squares(study, squares)
     if not keeps_more(study, squares):
         return False
