@@ -20,6 +20,7 @@ import json
 import shutil
 from collections.abc import Collection, Mapping
 from pathlib import Path
+from statistics import median
 from typing import Any
 
 import typer
@@ -81,14 +82,31 @@ def oracle_table(figures: Mapping[str, tuple[Mapping[str, Any], Mapping[str, Any
     Args:
         figures: of ``proof.json``, whole and told, by world.
     """
-    made = Table("effects beyond six spreads", "named", "named, the true name told")
+    made = Table("effects beyond six spreads", "named", "named, the true name told",
+                 "error on unseen runs", "the true name told", "sheet values")
     for world, pair in figures.items():
-        made.row(world.upper(), *(_count(one) for one in pair))
+        made.row(world.upper(), *(_count(one) for one in pair), *_errors(*pair))
     return made
 
 
 def _count(figures: Mapping[str, Any]) -> str:
     return of(next(row for row in figures["rows"] if row["row"] == ROW))
+
+
+def _errors(whole: Mapping[str, Any], told: Mapping[str, Any]) -> list[str]:
+    """Medians over the cases of both: as diagnosed, the name told, before either."""
+    one, other = (_holdout(figures) for figures in (whole, told))
+    both = sorted(one.keys() & other.keys())
+    columns = ([one[case][1] for case in both], [other[case][1] for case in both],
+               [one[case][0] for case in both])
+    return [f"{median(values):.3g}" if values else "–" for values in columns]
+
+
+def _holdout(figures: Mapping[str, Any]) -> dict[str, tuple[float, float]]:
+    """Mean square on unseen runs before and after, by case, where an effect stands out."""
+    plain = {one["case"] for one in figures["causes"] if one["kind"] == "physics"}
+    return {each["case"]: (each["holdout"]["before"], each["holdout"]["after"])
+            for each in figures["each"] if each["holdout"] and each["case"] in plain}
 
 
 if __name__ == "__main__":

@@ -16,6 +16,7 @@ from pathlib import Path
 from proving_ground.worlds import WORLDS
 from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.proof.archive import read_entries, score_entries
+from truck_blowout_sim.proof.causes import causes_table
 from truck_blowout_sim.proof.places import Places
 from truck_blowout_sim.proof.prove import Figures
 from truck_blowout_sim.proof.worlds import draw_power_by_world, rivals_table, worlds_table
@@ -49,9 +50,10 @@ def main(words: list[str]) -> int:
     if measured:
         (ROOT / "docs" / PICTURE).write_bytes(draw_power_by_world(figures).png())
     caption = CAPTION if measured else f"{CAPTION} (an earlier draw)"
-    table = worlds_table(figures)
     for page, picture in (("README.md", f"docs/{PICTURE}"), ("docs/proof.md", PICTURE)):
+        table = worlds_table(figures, short=page == "README.md")
         put_on_page(ROOT / page, "proof", f"{table}\n\n![{caption}]({picture})")
+    put_on_page(ROOT / "docs/proof.md", "causes", causes_table(figures))
     if rivals := rivals_table(figures):
         put_on_page(ROOT / "docs/proof.md", "rivals", rivals)
     return 0

@@ -36,8 +36,13 @@ def test_all_names_but_the_true_one_are_excluded(tmp_path: Path) -> None:
 
 
 def test_both_counts_stand_side_by_side() -> None:
-    def figures(hits: int) -> dict[str, Any]:
-        return {"rows": [{"row": ROW, "hits": hits, "trials": 24}]}
+    def figures(hits: int, *after: float) -> dict[str, Any]:
+        """The last case has an effect that does not stand out."""
+        each = [{"case": f"{k}", "holdout": {"before": 500.0, "after": error}}
+                for k, error in enumerate(after)]
+        causes = [{"case": one["case"], "kind": "physics"} for one in each[:-1]]
+        return {"rows": [{"row": ROW, "hits": hits, "trials": 24}], "each": each, "causes": causes}
 
-    table = oracle_table({"w3": (figures(16), figures(19))})
-    assert table.lines[-1] == "| W3 | 16 of 24 | 19 of 24 |"
+    table = oracle_table({"w3": (figures(16, 9.0, 5.0, 4.0, 1e6), figures(19, 3.0, 2.0, 1e6))})
+    assert table.lines[-1] == "| W3 | 16 of 24 | 19 of 24 | 7 | 2.5 | 500 |"
+    assert oracle_table({"w3": (figures(0), figures(0))}).lines[-1].endswith("| – | – | – |")

@@ -22,6 +22,7 @@ from truck_blowout_sim.proof.archive import (
     write_entries,
 )
 from truck_blowout_sim.proof.cases import SIGMA_B, find_cases
+from truck_blowout_sim.proof.causes import causes_table
 from truck_blowout_sim.proof.places import Places
 from truck_blowout_sim.proof.prove import score_run
 from truck_blowout_sim.proof.seal import folder_hash
@@ -93,8 +94,11 @@ def test_the_pages_say_what_the_published_answers_say(tmp_path: Path) -> None:
         assert not figures[world]["seals"]["broken"]
         assert not figures[world]["seals"]["remade"]
         assert (tmp_path / world / "cases.csv").read_text() == places.cases.read_text()
-    for page in ("README.md", "docs/proof.md"):
-        assert worlds_table(figures) in (ROOT / page).read_text(encoding="utf-8")
+    proof, readme = ((ROOT / page).read_text(encoding="utf-8")
+                     for page in ("docs/proof.md", "README.md"))
+    assert worlds_table(figures) in proof
+    assert causes_table(figures) in proof
+    assert worlds_table(figures, short=True) in readme
 
 
 def test_the_sealed_text_is_kept_to_the_byte(tmp_path: Path, run: dict[str, dict[str, Any]]

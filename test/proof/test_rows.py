@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from truck_blowout_sim.proof.cases import Cause, read_truth
-from truck_blowout_sim.proof.rows import rows, uniformity, wrong_name
+from truck_blowout_sim.proof.rows import rows, uniformity, wrong_names
 from truck_blowout_sim.proof.score import CaseScore, score_case
 from truck_blowout_sim.proof.short import WORDS
 from truck_blowout_sim.proof.summary import naming, verdicts
@@ -89,8 +89,8 @@ def test_a_name_beside_the_true_one_is_wrong_unless_aliased(
     excused = scored(tmp_path, write_case, "b", line(
         "b", effects=(effect("crosswind"),), alias_sets=(("crosswind", "brake_lag"),)),
         "single", (cause(),))
-    assert wrong_name(*both)
-    assert not wrong_name(*excused)
+    assert wrong_names(*both) == ["crosswind"]
+    assert wrong_names(*excused) == []
 
 
 def test_false_alarms_are_names_and_unknown(

@@ -3,8 +3,10 @@ from __future__ import annotations
 import math
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
-from truck_blowout_sim.proof.statistics import Proportion, proportion, quantile, wilson
+from truck_blowout_sim.proof.statistics import Proportion, clustered, proportion, quantile, wilson
 
 
 @pytest.mark.parametrize(
@@ -39,6 +41,26 @@ def test_what_was_not_asked_is_no_trial() -> None:
 def test_impossible_counts_are_refused(hits: int, trials: int) -> None:
     with pytest.raises(ValueError, match="no proportion"):
         wilson(hits, trials)
+
+
+def test_trials_that_differ_inside_their_clusters_count_each() -> None:
+    mixed = [(name, k < 5) for name in "abcd" for k in range(10)]
+    assert clustered(mixed) == wilson(20, 40)
+    assert clustered([("a", True)] * 3) == wilson(3, 3)
+
+
+def test_clusters_that_are_all_or_none_count_as_one_trial_each() -> None:
+    """The limit of the design effect; m / (m - 1) is the correction for few clusters."""
+    blocks = [(f"{k}", k < 10) for k in range(20) for _ in range(7)]
+    assert clustered(blocks) == pytest.approx(wilson(9.5, 19.0))
+
+
+@given(st.lists(st.tuples(st.sampled_from("abcde"), st.booleans()), min_size=1, max_size=40))
+def test_clusters_never_narrow_the_interval(trials: list[tuple[str, bool]]) -> None:
+    low, high = clustered(trials)
+    plain = wilson(sum(hit for _, hit in trials), len(trials))
+    assert 0.0 <= low <= plain[0] + 1e-12
+    assert plain[1] - 1e-12 <= high <= 1.0
 
 
 def test_quantile() -> None:

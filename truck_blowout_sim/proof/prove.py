@@ -11,6 +11,7 @@ from truck_blowout_sim.comparison.plain_json import json_text
 from truck_blowout_sim.proof.baselines.sparse_regression import optimizer_name
 from truck_blowout_sim.proof.case_tables import cases_csv, parameters_csv
 from truck_blowout_sim.proof.cases import Case, Truth, read_truth
+from truck_blowout_sim.proof.causes import causes_told, wrongly_told
 from truck_blowout_sim.proof.figures import pictures
 from truck_blowout_sim.proof.rows import as_json, rows, rows_table, uniformity
 from truck_blowout_sim.proof.score import score_case
@@ -54,6 +55,8 @@ def score_answers(truths: Mapping[str, Truth], lines: Mapping[str, Mapping[str, 
         for scored, cause in zip(score.causes, truths[score.case].causes, strict=True)
         if cause.kind == "physics" and score.group in ("single", "pair")
         and cause.sigma_b is not None])
+    figures["causes"] = causes_told(scores, truths)
+    figures["wrongly_told"] = wrongly_told(scores, truths)
     figures["each"] = [asdict(score) for score in scores]
     out.mkdir(parents=True, exist_ok=True)
     _write(out / "proof.json", json_text(figures))

@@ -47,13 +47,14 @@ def rows(scores: Sequence[CaseScore], truths: Mapping[str, Truth]) -> list[Row]:
               and t.beyond_spread is not None and t.beyond_spread >= VISIBLE]
     intervals = [c.parameter.covered for s in scores for c in s.causes if c.parameter]
     onsets = [c.onset_covered for s in scores for c in s.causes]
+    strong = [s for s in physics if strongest(truths[s.case]) >= VISIBLE]
     return [
         ("false alarms, nothing missing", share(of("null"), lambda s: s.detected)),
         ("effects seen by an ideal detector, among the causes named", proportion(visible)),
         ("effects beyond six spreads of fault-free vehicles, among the causes named",
          proportion(beyond)),
         ("a wrong name stated, something missing",
-         share(missing, lambda s: wrong_name(s, truths[s.case]))),
+         share(missing, lambda s: bool(wrong_names(s, truths[s.case])))),
         ("of no list: unknown", share([s for s in of("unknown") if seen(s)],
                                       lambda s: s.verdict == "unknown")),
         ("both of a pair", share([s for s in of("pair") if seen(s)],
@@ -68,6 +69,9 @@ def rows(scores: Sequence[CaseScore], truths: Mapping[str, Truth]) -> list[Row]:
         ("holdout better", share(physics, better)),
         ("holdout better, where physics was named",
          share([s for s in physics if s.verdict == "missing_physics" and s.named], better)),
+        ("holdout better, an effect beyond six spreads", share(strong, better)),
+        ("cases with physics missing that have an effect beyond six spreads",
+         share(physics, lambda s: s in strong)),
         ("p-value of 0.1 or less, nothing missing",
          share(of("null"), lambda s: None if s.p_value is None else s.p_value <= 0.1)),
     ]
@@ -78,11 +82,16 @@ def better(score: CaseScore) -> bool | None:
     return score.holdout.after < score.holdout.before if score.holdout else None
 
 
-def wrong_name(score: CaseScore, truth: Truth) -> bool:
-    """Whether some name stated has no true cause in its alias set."""
+def strongest(truth: Truth) -> float:
+    """Visibility of the effect that is seen best, the spread of fault-free vehicles included."""
+    return max((c.beyond_spread or 0.0 for c in truth.causes), default=0.0)
+
+
+def wrong_names(score: CaseScore, truth: Truth) -> list[str]:
+    """Names stated whose alias set holds no true cause."""
     true = {cause.name for cause in truth.causes if cause.kind in ("physics", "sensor")}
-    return any(not true & {name, *aliases}
-               for name, aliases in zip(score.named, score.aliases, strict=True))
+    return [name for name, aliases in zip(score.named, score.aliases, strict=True)
+            if not true & {name, *aliases}]
 
 
 def uniformity(scores: Sequence[CaseScore]) -> float | None:

@@ -5,16 +5,17 @@ Validated with: test/proof/test_worlds.py.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
 
-from truck_blowout_sim.proof.statistics import Proportion, proportion
+from truck_blowout_sim.proof.statistics import Proportion, clustered, proportion
 from truck_blowout_sim.proof.table import RIVAL_WORDS, counted, number
 from truck_blowout_sim.report.style import CYCLE, Picture, new_axes, styled
 
 Figures = Mapping[str, Any]
+Trials = list[tuple[str, bool]]
 BINS = (2.0, 6.0, 15.0, 40.0)  # of sigma_b; the last has no end
 # sought in W1, W2, W3 and W4, by the words of `rows.py`
 SOUGHT: Mapping[str, tuple[str, str, str, str]] = {
@@ -30,28 +31,39 @@ SOUGHT: Mapping[str, tuple[str, str, str, str]] = {
     "holdout better": ("≥ 97 %", "≥ 95 %", "≥ 95 %", "≥ 90 %"),
 }
 _UNIFORM = "p-values of nulls uniform (Kolmogorov-Smirnov)"
+_TIME = "CPU time of an answer, median"
 
 
-def worlds_table(figures: Mapping[str, Figures]) -> str:
+def worlds_table(figures: Mapping[str, Figures], short: bool = False) -> str:
     """What was sought and reached in each world, a Markdown row each.
 
-    ``figures``: of ``proof.json``, by world (``w1`` to ``w4``).
+    Args:
+        figures: of ``proof.json``, by world (``w1`` to ``w4``).
+        short: only rows in which something is sought.
     """
     names = list(figures)
     reached = {world: {row["row"]: row for row in one["rows"]} for world, one in figures.items()}
-    lines = ["| | " + " | ".join(f"{w.upper()} sought | reached" for w in names) + " |",
-             "|---" * (1 + 2 * len(names)) + "|"]
+    lines = ["| | " + " | ".join(f"{w.upper()} sought | reached" for w in names) + " | all |",
+             "|---" * (2 + 2 * len(names)) + "|"]
     for row in next(iter(reached.values()), {}):
-        cells = []
-        for world in names:
-            entry = reached[world].get(row, {"hits": 0, "trials": 0})
-            cells += [SOUGHT.get(row, ("",) * 4)[int(world[1]) - 1],
-                      counted(entry)]
-        lines.append(f"| {row} | " + " | ".join(cells) + " |")
-    told = [one["null_p_values_uniform"] for one in figures.values()]
-    lines.append(f"| {_UNIFORM} | " + " | ".join(
-        f" | {'–' if p is None else f'{p:.2g}'}" for p in told) + " |")
+        if short and row not in SOUGHT:
+            continue
+        entries = [reached[world].get(row, {"hits": 0, "trials": 0}) for world in names]
+        cells = [f"{SOUGHT.get(row, ('',) * 4)[int(world[1]) - 1]} | {counted(entry)}"
+                 for world, entry in zip(names, entries, strict=True)]
+        whole = Proportion(*(sum(one[key] for one in entries) for key in ("hits", "trials")))
+        lines.append(f"| {row} | " + " | ".join(cells) + f" | {whole} |")
+    if not short:
+        every = figures.values()
+        lines += [_plain(_UNIFORM, (number(one["null_p_values_uniform"], digits=2)
+                                    for one in every)),
+                  _plain(_TIME, (number(one["cpu_s"]["median"], " s", 2) for one in every))]
     return "\n".join(lines)
+
+
+def _plain(name: str, values: Iterable[str]) -> str:
+    """A row of which nothing is sought."""
+    return f"| {name} | " + " | ".join(f" | {value}" for value in values) + " | |"
 
 
 def rivals_table(figures: Mapping[str, Figures]) -> str:
@@ -73,15 +85,13 @@ def rivals_table(figures: Mapping[str, Figures]) -> str:
     return "\n".join(lines)
 
 
-def power(figures: Mapping[str, Figures]) -> dict[str, list[tuple[float, Proportion]]]:
-    """Of each world, for each bin of sigma_b its lower end and how many effects were named."""
-    found = {}
-    for world, one in figures.items():
-        seen = [(float(e["sigma_b"]), bool(e["named"])) for e in one["seen"]]
-        ends = (*BINS[1:], np.inf)
-        found[world] = [(low, proportion(named for size, named in seen if low <= size < high))
-                        for low, high in zip(BINS, ends, strict=True)]
-    return found
+def power(figures: Mapping[str, Figures]) -> dict[str, list[tuple[float, Trials]]]:
+    """Of each world, for each bin of sigma_b its lower end and the effects: name, if named."""
+    ends = (*BINS[1:], np.inf)
+    return {world: [(low, [(str(e["name"]), bool(e["named"])) for e in one["seen"]
+                           if low <= e["sigma_b"] < high])
+                    for low, high in zip(BINS, ends, strict=True)]
+            for world, one in figures.items()}
 
 
 @styled
@@ -90,19 +100,20 @@ def draw_power_by_world(figures: Mapping[str, Figures]) -> Picture:
     figure, axes = new_axes(x="sigma_b: what an ideal detector sees", y="share of effects named")
     place = np.arange(len(BINS), dtype=np.float64)
     for k, (world, bins) in enumerate(power(figures).items()):
-        there = [(j, p) for j, (_, p) in enumerate(bins) if p.trials]
+        there = [(j, trials) for j, (_, trials) in enumerate(bins) if trials]
         if not there:
             continue
         at = place[[j for j, _ in there]] + 0.08 * (k - 0.5 * (len(figures) - 1))
-        values = np.array([p.hits / p.trials for _, p in there])
-        ends = np.array([p.interval for _, p in there]).reshape(-1, 2)
+        values = np.array([proportion(hit for _, hit in trials).value for _, trials in there])
+        ends = np.array([clustered(trials) for _, trials in there]).reshape(-1, 2)
         arms = np.maximum(np.stack([values - ends[:, 0], ends[:, 1] - values]), 0.0)
         axes.errorbar(at, values, yerr=arms, marker="o", capsize=3, color=CYCLE[k],
-                      label=f"{world.upper()} ({sum(p.trials for _, p in there)} effects)")
+                      label=f"{world.upper()} ({sum(len(trials) for _, trials in there)} effects)")
     axes.set_xticks(place, [_words(k) for k in range(len(BINS))])
     axes.set_ylim(-0.03, 1.03)
     axes.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=len(figures))
-    return Picture("power", "Power", "Bars: 95 % Wilson intervals.", figure)
+    words = "Bars: 95 % Wilson intervals; effects of one name are a cluster."
+    return Picture("power", "Power", words, figure)
 
 
 def _words(k: int) -> str:
