@@ -32,12 +32,19 @@ def numbers(world: str, count: int) -> list[int]:
     return sorted(int(case.partition("-")[2]) - FIRST_SEED[world] for case in cases)[:count]
 
 
+def spans(numbers: list[int]) -> list[tuple[int, int]]:
+    """First number and length of each unbroken stretch."""
+    starts = [one for one in numbers if one - 1 not in numbers]
+    ends = [one for one in numbers if one + 1 not in numbers]
+    return [(first, last - first + 1) for first, last in zip(starts, ends, strict=True)]
+
+
 def repeat(world: str, out: Path, count: int, workers: int) -> list[Repeat]:
     """Cases of one world, made, diagnosed and compared."""
     cases, run = out / world / "cases", out / world / "run"
-    for number in numbers(world, count):
-        _call("proving_ground", "world", world, "-o", str(cases), "--first", str(number),
-              "--count", "1", "--cores", "1")  # fmt: skip
+    for first, many in spans(numbers(world, count)):
+        _call("proving_ground", "world", world, "-o", str(cases), "--first", str(first),
+              "--count", str(many), "--cores", str(workers))  # fmt: skip
     _call("truck_blowout_sim", "prove", "--cases", str(cases), "-o", str(run), "--workers",
           str(workers), "--no-baselines", "--renew", "--manifest",
           str(Places(ROOT, world).manifest))  # fmt: skip
