@@ -4,10 +4,10 @@
     truck-blowout prove --cases OUT -o TOLD --no-baselines
     python -m benchmarks.oracle table w1=WHOLE,TOLD w3=WHOLE,TOLD … [-o docs/proof.md]
 
-`make` copies the cases with an effect of the library; in each, every other name is excluded, as by
-`--without`. Place, amount, instant, and the chance that nothing is missing stay open. What the
-diagnosis then does not name, a better search among names would not have found. WHOLE is what
-`prove` wrote for all cases.
+`make` copies the cases with an effect of the library that the table counts; in each, every other
+name is excluded, as by `--without`. Place, amount, instant, and the chance that nothing is missing
+stay open. What the diagnosis then does not name, a better search among names would not have found.
+WHOLE is what `prove` wrote for all cases.
 
 Known limits: no strict bound, as the scatter of amounts is learned from fewer hypotheses.
 
@@ -30,6 +30,7 @@ from benchmarks.proved import figures_of, of
 from truck_blowout_sim.diagnosis.effects import LIBRARY as EFFECTS
 from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.proof.cases import LIBRARY, SIGMA_B, find_cases, read_truth
+from truck_blowout_sim.proof.rows import VISIBLE
 from truck_blowout_sim.report.marked import put_on_page
 
 ROW = "effects beyond six spreads of fault-free vehicles, among the causes named"
@@ -43,11 +44,15 @@ def others(names: Collection[str]) -> list[str]:
 
 @app.command()
 def make(cases: Path, out: Path) -> None:
-    """Copy the cases with an effect of the library; all but its name are excluded."""
+    """Copy the cases with an effect of the library; all but its name are excluded.
+
+    Where it is known to be less than six spreads of fault-free vehicles, no row counts it.
+    """
     count = 0
     for case in find_cases(cases):
-        names = {cause.name for cause in read_truth(case.answer).causes if cause.kind == "physics"}
-        if not names:
+        causes = [one for one in read_truth(case.answer).causes if one.kind == "physics"]
+        names = {one.name for one in causes}
+        if all(one.beyond_spread is not None and one.beyond_spread < VISIBLE for one in causes):
             continue
         folder, count = out / "cases" / case.id, count + 1
         shutil.copytree(case.folder, folder)

@@ -26,6 +26,9 @@ def a_case(root: Path, name: str, kind: str, effect: str) -> None:
 def test_all_names_but_the_true_one_are_excluded(tmp_path: Path) -> None:
     a_case(tmp_path / "all", "w3-1", "physics", "crosswind")
     a_case(tmp_path / "all", "w3-2", "sensor", "yaw_rate_gain")
+    a_case(tmp_path / "all", "w3-3", "physics", "roll_steer")
+    (tmp_path / "all" / "sigma_b.json").write_text(
+        '{"w3-3": {"sigma_b": [90.0], "individual": [2.0]}}', encoding="utf-8")
     done = CliRunner().invoke(app, ["make", str(tmp_path / "all"), str(tmp_path / "told")],
                               catch_exceptions=False)
     (case,) = find_cases(tmp_path / "told")
