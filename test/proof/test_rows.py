@@ -122,6 +122,23 @@ def test_unseen_runs_are_counted_apart_where_physics_was_named(
     assert (where.hits, where.trials) == (1, 2)
 
 
+def test_what_could_become_better_is_counted(
+        tmp_path: Path, write_case: Callable[..., Path], line: Maker, cause: Maker, effect: Maker
+) -> None:
+    """Of what exceeds six spreads, how much became better; how many cases have such an effect."""
+    plain = scored(tmp_path, write_case, "a", line("a", effects=(effect(),)), "single", (cause(),),
+                   100.0, 50.0)
+    missed = scored(tmp_path, write_case, "b", line("b", "consistent", holdout=(2.0, 2.0)),
+                    "single", (cause(),), 100.0, 50.0)
+    faint = scored(tmp_path, write_case, "c", line("c", "consistent", holdout=(2.0, 2.0)),
+                   "single", (cause(),), 100.0, 2.0)
+    found = dict(rows([s for s, _ in (plain, missed, faint)],
+                      {s.case: t for s, t in (plain, missed, faint)}))
+    strong = found["holdout better, an effect beyond six spreads"]
+    share = found["cases with physics missing that have an effect beyond six spreads"]
+    assert (strong.hits, strong.trials, share.hits, share.trials) == (1, 2, 2, 3)
+
+
 def test_a_pair_counts_where_both_exceed_what_sound_vehicles_differ_by(
         tmp_path: Path, write_case: Callable[..., Path], line: Maker, cause: Maker, effect: Maker
 ) -> None:

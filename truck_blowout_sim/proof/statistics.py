@@ -67,7 +67,7 @@ def clustered(trials: Sequence[tuple[str, bool]]) -> tuple[float, float]:
     """Wilson interval of trials that come in clusters, each given by its cluster's name.
 
     Hits and trials are divided by the design effect, how many times the scatter between clusters
-    exceeds that of independent trials (Rao and Scott 1992, equation 2), at least 1.
+    exceeds that of independent trials (Rao and Scott 1992), at least 1.
 
     Raises:
         ValueError: no trials.
