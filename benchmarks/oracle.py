@@ -104,7 +104,11 @@ def _errors(whole: Mapping[str, Any], told: Mapping[str, Any]) -> list[str]:
     both = sorted(one.keys() & other.keys())
     columns = ([one[case][1] for case in both], [other[case][1] for case in both],
                [one[case][0] for case in both])
-    return [f"{median(values):.3g}" if values else "–" for values in columns]
+    return [_three_digits(median(values)) if values else "–" for values in columns]
+
+
+def _three_digits(value: float) -> str:
+    return f"{float(f'{value:.3g}'):,g}"
 
 
 def _holdout(figures: Mapping[str, Any]) -> dict[str, tuple[float, float]]:
