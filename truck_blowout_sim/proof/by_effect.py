@@ -12,7 +12,7 @@ from collections import Counter
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from truck_blowout_sim.proof.score import CaseScore
+from truck_blowout_sim.proof.score import CaseScore, CauseScore
 from truck_blowout_sim.proof.statistics import Proportion, proportion
 
 SIGMA_EDGES = (0.0, 7.0, 14.0, 28.0, 64.0, float("inf"))
@@ -43,9 +43,12 @@ def _within(score: CaseScore, k: int) -> bool:
 
 def found(score: CaseScore) -> bool:
     """Whether the one cause of a case was found."""
-    if score.group == "unknown":
-        return score.verdict == "unknown"
-    return score.causes[0].aliased
+    return cause_found(score, score.causes[0])
+
+
+def cause_found(score: CaseScore, cause: CauseScore) -> bool:
+    """Whether a cause of a case was found."""
+    return score.verdict == "unknown" if score.group == "unknown" else cause.aliased
 
 
 def taken_for(score: CaseScore) -> str:

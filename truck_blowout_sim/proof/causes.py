@@ -13,23 +13,23 @@ from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
+from truck_blowout_sim.proof.by_effect import cause_found
 from truck_blowout_sim.proof.cases import Cause, Truth
 from truck_blowout_sim.proof.rows import VISIBLE, wrong_names
 from truck_blowout_sim.proof.score import CaseScore
 from truck_blowout_sim.proof.statistics import proportion
 
-ORDER = ("physics", "sensor", "taken_out", "unlisted")
 KIND_WORDS: Mapping[str, str] = {"physics": "", "sensor": " (instrument)",
                                  "taken_out": " (taken out of the library)",
                                  "unlisted": " (of no list)"}  # fmt: skip
-NOTHING, PAIR = "nothing", "two effects"
+ORDER = tuple(KIND_WORDS)
 Entry = dict[str, Any]
 
 
 def causes_told(scores: Sequence[CaseScore], truths: Mapping[str, Truth]) -> list[Entry]:
     """One plain object a concealed cause that stands out: case, name, kind, whether found."""
     return [{"case": score.case, "name": cause.name, "kind": cause.kind,
-             "found": score.verdict == "unknown" if score.group == "unknown" else told.aliased}
+             "found": cause_found(score, told)}
             for score in scores
             for told, cause in zip(score.causes, truths[score.case].causes, strict=True)
             if _stands_out(cause)]
@@ -41,15 +41,16 @@ def _stands_out(cause: Cause) -> bool:
 
 def wrongly_told(scores: Sequence[CaseScore], truths: Mapping[str, Truth]) -> list[Entry]:
     """One plain object a case with a wrong name: what was concealed, what was stated wrongly."""
-    return [{"case": score.case, "kind": truth.causes[0].kind if truth.causes else "",
-             "concealed": _concealed(truth), "stated": names}
-            for score in scores if (names := wrong_names(score, truth := truths[score.case]))]
+    stated = [(score, wrong_names(score, truths[score.case])) for score in scores]
+    return [{"case": score.case, **_concealed(truths[score.case]), "stated": names}
+            for score, names in stated if names]
 
 
-def _concealed(truth: Truth) -> str:
-    if not truth.causes:
-        return NOTHING
-    return truth.causes[0].name if len(truth.causes) == 1 else PAIR
+def _concealed(truth: Truth) -> Entry:
+    """Kind and name of the one cause; without a kind where there is none, or more than one."""
+    if len(truth.causes) == 1:
+        return {"kind": truth.causes[0].kind, "concealed": truth.causes[0].name}
+    return {"kind": "", "concealed": "two effects" if truth.causes else "nothing"}
 
 
 def causes_table(figures: Mapping[str, Mapping[str, Any]]) -> str:
@@ -61,22 +62,18 @@ def causes_table(figures: Mapping[str, Mapping[str, Any]]) -> str:
     told = {world: one["causes"] for world, one in figures.items()}
     wrong = [entry for one in figures.values() for entry in one["wrongly_told"]]
     keys = {(e["kind"], e["name"]) for every in told.values() for e in every}
-    keys |= {(_kind(e), e["concealed"]) for e in wrong}
+    keys |= {(e["kind"], e["concealed"]) for e in wrong}
     lines = ["| concealed | " + " | ".join(w.upper() for w in told) + " | wrong names stated |",
              "|---" * (len(told) + 2) + "|"]
     for kind, name in sorted(keys, key=_place):
         cells = [_found(e["found"] for e in every if (e["kind"], e["name"]) == (kind, name))
                  for every in told.values()]
-        stated = Counter(one for e in wrong if (_kind(e), e["concealed"]) == (kind, name)
+        stated = Counter(one for e in wrong if (e["kind"], e["concealed"]) == (kind, name)
                          for one in e["stated"])
         words = ", ".join(one if count == 1 else f"{one} {count}"
                           for one, count in stated.most_common())
         lines.append(f"| {name}{KIND_WORDS.get(kind, '')} | {' | '.join(cells)} | {words} |")
     return "\n".join(lines)
-
-
-def _kind(entry: Mapping[str, Any]) -> str:
-    return "" if entry["concealed"] in (NOTHING, PAIR) else str(entry["kind"])
 
 
 def _place(key: tuple[str, str]) -> tuple[int, str]:

@@ -47,7 +47,10 @@ def rows(scores: Sequence[CaseScore], truths: Mapping[str, Truth]) -> list[Row]:
               and t.beyond_spread is not None and t.beyond_spread >= VISIBLE]
     intervals = [c.parameter.covered for s in scores for c in s.causes if c.parameter]
     onsets = [c.onset_covered for s in scores for c in s.causes]
-    strong = [s for s in physics if strongest(truths[s.case]) >= VISIBLE]
+
+    def stands_out(score: CaseScore) -> bool:
+        return strongest(truths[score.case]) >= VISIBLE
+
     return [
         ("false alarms, nothing missing", share(of("null"), lambda s: s.detected)),
         ("effects seen by an ideal detector, among the causes named", proportion(visible)),
@@ -69,9 +72,10 @@ def rows(scores: Sequence[CaseScore], truths: Mapping[str, Truth]) -> list[Row]:
         ("holdout better", share(physics, better)),
         ("holdout better, where physics was named",
          share([s for s in physics if s.verdict == "missing_physics" and s.named], better)),
-        ("holdout better, an effect beyond six spreads", share(strong, better)),
+        ("holdout better, an effect beyond six spreads",
+         share([s for s in physics if stands_out(s)], better)),
         ("cases with physics missing that have an effect beyond six spreads",
-         share(physics, lambda s: s in strong)),
+         share(physics, stands_out)),
         ("p-value of 0.1 or less, nothing missing",
          share(of("null"), lambda s: None if s.p_value is None else s.p_value <= 0.1)),
     ]
