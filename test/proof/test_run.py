@@ -125,7 +125,7 @@ def test_one_thread_is_asked_for_only_while_processes_run(monkeypatch: pytest.Mo
         monkeypatch.delenv(name, raising=False)
     monkeypatch.setenv("OMP_NUM_THREADS", "3")
     before = dict(os.environ)
-    with run._one_thread():
+    with run.one_thread():
         assert (os.environ["NUMBA_NUM_THREADS"], os.environ["OMP_NUM_THREADS"]) == ("1", "3")
     assert dict(os.environ) == before
 

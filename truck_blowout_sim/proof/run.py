@@ -83,7 +83,7 @@ def run_cases(cases: Sequence[Case], out: Path, *, workers: int, step_s: float,
     if not todo:
         return
     out.mkdir(parents=True, exist_ok=True)
-    with _one_thread(), ProcessPoolExecutor(workers, get_context("spawn"),
+    with one_thread(), ProcessPoolExecutor(workers, get_context("spawn"),
                                             initializer=begin) as pool:
         jobs = [pool.submit(attempt, (case, step_s, with_baselines)) for case in mixed(todo)]
         try:
@@ -98,7 +98,7 @@ def run_cases(cases: Sequence[Case], out: Path, *, workers: int, step_s: float,
 
 
 @contextmanager
-def _one_thread() -> Iterator[None]:
+def one_thread() -> Iterator[None]:
     """Ask for one thread in processes that start now; as before afterwards.
 
     Numba reads its settings anew, and forgets where it caches, once such a variable has changed.

@@ -21,6 +21,7 @@ from truck_blowout_sim.proof.statistics import Proportion, proportion, quantile
 STRONG_SIGMA = 10.0
 P_LEVELS = (0.01, 0.05, 0.1, 0.5)
 INTERVAL_LEVELS = (0.5, 0.7, 0.8, 0.9, 0.95, 0.99)
+COMPARED = ("single", "pair", "unknown")  # groups of cases with physics missing
 RIVALS = ("no_change", "recalibrated", "gaussian_process", "sparse_regression", "diagnosed")
 Figures = dict[str, Any]
 
@@ -153,7 +154,7 @@ def improvement(scores: Sequence[CaseScore]) -> Figures:
 def rivals(scores: Sequence[CaseScore]) -> Figures:
     """Median holdout error of each rival, and how often the diagnosed model beats it."""
     rows = [s.baselines for s in scores
-            if s.group in ("single", "pair", "unknown") and set(RIVALS) <= set(s.baselines)]
+            if s.group in COMPARED and set(RIVALS) <= set(s.baselines)]
     return {name: {
         "count": len(rows),
         "median_mean_square": quantile([row[name] for row in rows], 0.5),

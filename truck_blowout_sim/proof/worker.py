@@ -8,7 +8,7 @@ from typing import Any
 
 from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.proof.blindfold import blindfolded
-from truck_blowout_sim.proof.cases import ROLES, VEHICLE, Case
+from truck_blowout_sim.proof.cases import ROLES, Case
 
 
 def diagnose_case(case: Case, *, step_s: float, with_baselines: bool) -> dict[str, Any]:
@@ -35,8 +35,8 @@ def diagnose_case(case: Case, *, step_s: float, with_baselines: bool) -> dict[st
                              without=case.without(), kept=memory, vehicle=case.vehicle())
         line["answer"] = answer.as_json()
         line["cpu_s"] = round(time.process_time() - cpu, 1)
-        if with_baselines and case.vehicle() == VEHICLE:
-            line["baselines"] = baseline_errors(train, baseline, holdout, step_s,
+        if with_baselines:
+            line["baselines"] = baseline_errors(train, baseline, holdout, case.vehicle(), step_s,
                                                 answer.holdout.after, memory)
     except (ArithmeticError, ValueError, LookupError, AssertionError, RuntimeError,
             InputError) as error:

@@ -36,19 +36,18 @@ from truck_blowout_sim.recordings import Recording
 from truck_blowout_sim.vehicle import load_vehicle, pack
 
 Floats = NDArray[np.float64]
-VEHICLE = "international_9400i_trailmobile"
 _WORST = 1e8  # mean square written where a rival ran away
 
 
 def baseline_errors(train: Sequence[Recording], baseline: Sequence[Recording],
-                    holdout: Sequence[Recording], step_s: float,
+                    holdout: Sequence[Recording], vehicle: str, step_s: float,
                     diagnosed: Mapping[str, float], memory: Memory | None = None
                     ) -> dict[str, float]:
     """Mean square on holdout of each rival, and of the diagnosed model from its rms by channel.
 
-    ``memory``: knows what the diagnosis has simulated already.
+    ``vehicle``: that of the diagnosis. ``memory``: knows what this has simulated already.
     """
-    packed = pack(load_vehicle(VEHICLE))
+    packed = pack(load_vehicle(vehicle))
     rules = load_settings(packed)
 
     quanta = seen_quanta([*train, *baseline, *holdout])
