@@ -86,6 +86,7 @@ def world(
     count: Annotated[int, typer.Option(help="how many; 24 hold every group")] = 24,
     group: Annotated[list[str] | None, typer.Option(help="only this group; repeatable")] = None,
     more: Annotated[int, typer.Option(help="more baseline and training runs of a case")] = 0,
+    alike: Annotated[int, typer.Option(help="more baseline runs, driven as training is")] = 0,
     cores: Annotated[int, typer.Option(help="processes")] = 1,
 ) -> None:
     """Make recordings and answers of cases `first` to `first + count - 1` of a world; resumes."""
@@ -93,7 +94,8 @@ def world(
         specs = world_cases(name, first, count)
     except (ImportError, ValueError) as error:
         raise _stop(str(error)) from error
-    chosen = [replace(spec, more=more) for spec in specs if not group or spec.group in group]
+    chosen = [replace(spec, more=more, alike=alike) for spec in specs
+              if not group or spec.group in group]
     _make(chosen, out, cores, name)
 
 

@@ -70,8 +70,8 @@ class CaseSpec:
 
     `without` names what the diagnosis must do without: effects taken out of its library. `truth`
     is the world whose truck is driven, `rough` whether it is recorded as roughly as real logs are.
-    `more` baseline and training runs of the same kinds are driven besides; severities stay those
-    that the case has without them.
+    `more` baseline and training runs of the same kinds are driven besides, and `alike` baseline
+    runs of the kinds of training; severities stay those that the case has without them.
     """
 
     id: str
@@ -88,6 +88,7 @@ class CaseSpec:
     truth: str = "w1"
     rough: bool = False
     more: int = 0
+    alike: int = 0
 
     def runs(self) -> list[tuple[str, str, int]]:
         """(name, manoeuvre kind, seed) of every run."""
@@ -100,6 +101,10 @@ class CaseSpec:
             for number in range(len(kinds), len(kinds) + self.more if kinds else 0):
                 rows.append((f"{role}_{number + 1}", kinds[number % len(kinds)],
                              self.seed * 100 + len(rows) + 1))
+        first = len(self.baseline) + (self.more if self.baseline else 0)
+        for number in range(self.alike):
+            rows.append((f"baseline_{first + number + 1}", self.train[number % len(self.train)],
+                         self.seed * 100 + len(rows) + 1))
         return rows
 
 
