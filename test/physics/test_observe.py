@@ -57,6 +57,26 @@ def test_roll_and_pitch_are_against_the_true_horizontal(truck: Packed, state: Fl
     assert turned["tractor_pitch_rad"] == pytest.approx(0.0, abs=1e-12)
 
 
+def test_gyros_feel_a_slope_begin(truck: Packed) -> None:
+    """Roll and pitch rates are the rates of roll and pitch, the road's part included."""
+    slope = truck.with_values({
+        "world.bank_change_rad": 0.04, "world.bank_change_time_s": 1.0,
+        "world.grade_change_rad": 0.03, "world.grade_change_time_s": 1.5,
+        "world.slope_change_ramp_s": 2.0})
+    run, rows = Truck(slope, initial=InitialState(speed_mps=20.0)), []
+    for _ in range(400):
+        run.advance(Inputs(), 10)
+        out = run.outputs()
+        rows.append([out[f"trailer_{name}"] for name in (
+            "roll_rad", "roll_rate_radps", "pitch_rad", "pitch_rate_radps")])
+    roll, roll_rate, pitch, pitch_rate = np.array(rows).T
+    assert (roll[-1], pitch[-1]) == pytest.approx((0.04, -0.03), abs=0.003)
+    dt = 10 * run.step_s
+    for angle, rate in ((roll, roll_rate), (pitch, pitch_rate)):
+        assert np.max(np.abs(rate)) > 0.02
+        np.testing.assert_allclose(np.gradient(angle, dt), rate, atol=1e-3)
+
+
 def test_steady_circle(truck: Packed, state: Floats, work: Floats) -> None:
     """Yaw rate and speed alone: centripetal at the instrument, velocity by the lever arm."""
     r, u = 0.2, 15.0

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from truck_blowout_sim.physics import road
+from truck_blowout_sim.physics.layout import GLOBAL_S
 from truck_blowout_sim.simulation import InitialState, Inputs, Truck
 from truck_blowout_sim.vehicle import Packed
 
@@ -31,10 +32,26 @@ def test_friction_of_a_patch_and_of_a_change(truck: Packed) -> None:
     patch = {"world.patch_x0_m": 10.0, "world.patch_x1_m": 20.0, "world.patch_y0_m": -5.0,
              "world.patch_y1_m": 0.0, "world.patch_scale": 0.4}
     p = truck.with_values(patch).params
-    assert [road.friction(p, 0.0, 15.0, y) for y in (-1.0, 1.0)] == [0.4, 1.0]
+    assert [road.friction(p, 0.0, 0.0, 15.0, y) for y in (-1.0, 1.0)] == [0.4, 1.0]
     p = truck.with_values({"world.friction_change_scale": 0.5,
                            "world.friction_change_time_s": 2.0}).params
-    assert [road.friction(p, t, 0.0, 0.0) for t in (1.9, 2.0)] == [1.0, 0.5]
+    assert [road.friction(p, t, 0.0, 0.0, 0.0) for t in (1.9, 2.0)] == [1.0, 0.5]
+    assert road.friction(p, 2.0, -1.0, 0.0, 0.0) == 1.0
+
+
+def test_axles_meet_another_friction_one_after_another(truck: Packed) -> None:
+    """The last axle is on ice when the truck has rolled its length since the first one met it."""
+    icy = truck.with_values({"world.friction_change_scale": 0.5,
+                             "world.friction_change_time_s": 1.0})
+    run = Truck(icy, initial=InitialState(speed_mps=20.0))
+    behind = [icy[f"axle.{axle}.behind_m"] for axle in ("steer", "drive_1", "trailer_2")]
+    assert behind == pytest.approx([0.0, 5.33, 17.35], abs=0.01)
+    run.advance(Inputs(), round(1.0 / run.step_s))
+    assert run.state[GLOBAL_S.over_m] == pytest.approx(0.0, abs=0.05)
+    run.advance(Inputs(), round(17.35 / 20.0 / run.step_s))
+    assert run.state[GLOBAL_S.over_m] == pytest.approx(17.35, rel=0.02)
+    assert [road.friction(icy.params, 2.0, run.state[GLOBAL_S.over_m] - at, 0.0, 0.0)
+            for at in (*behind, 20.0)] == [0.5, 0.5, 1.0, 1.0]
 
 
 def test_gravity_keeps_its_size_on_any_slope(truck: Packed) -> None:

@@ -31,9 +31,9 @@ class WorldParams(NamedTuple):
     road_roughness_m: int  # rms unevenness
     road_roughness_seed: int
     friction_scale: int  # whole road, all tires
-    friction_change_scale: int  # from the place or time below on
+    friction_change_scale: int  # from the place below on
     friction_change_x_m: int  # inf: never
-    friction_change_time_s: int  # inf: never
+    friction_change_time_s: int  # when the foremost axle meets it, elsewhere; inf: never
     patch_x0_m: int  # one friction patch, for split-friction roads
     patch_x1_m: int
     patch_y0_m: int
@@ -209,6 +209,7 @@ class AxleParams(NamedTuple):
     misalignment_rad: int
     peak_scale: int  # lateral saturation: scales peak lateral friction
     lateral_compliance_radpn: int  # 0; axle steer per lateral force
+    behind_m: int  # the foremost axle, on a straight truck
 
 
 class HubParams(NamedTuple):

@@ -50,6 +50,7 @@ class GlobalState(NamedTuple):
     coupling_roll_nm: int
     drive_force_n: int  # algebraic
     nonfinite: int  # 1 once a non-finite number was caught
+    over_m: int  # rolled since the foremost axle met another friction
 
 
 class UnitState(NamedTuple):

@@ -1,10 +1,10 @@
 """What instruments on the truck would read: one output vector from the state.
 
 References: INS strapdown equations; axes and positions in docs/recordings.md.
-Known limits: ideal instruments (noise and filters belong to recordings); gyros do
-not feel a slope begin (roll and pitch do).
+Known limits: ideal instruments (noise and filters belong to recordings); accelerometers do not feel
+the road turn while a slope begins (roll, pitch and gyros do).
 Validated with: test/physics/test_observe.py (at rest +g, circular motion, gravity through roll,
-roll of a banked road).
+roll of a banked road, gyros where a slope begins).
 """
 
 from __future__ import annotations
@@ -92,7 +92,9 @@ def _observe_unit(x: Floats, s: int, p: Floats, a: int, work: Floats, out: Float
     out[k + 2], out[k + 3], out[k + 4] = x[s + UNIT_S.yaw_rad], roll_rad, pitch_rad
     out[k + 5], out[k + 6] = v[0], v[1]
     wx, wy, wz = x[s + UNIT_S.p_radps], x[s + UNIT_S.q_radps], x[s + UNIT_S.r_radps]
-    out[k + 7], out[k + 8], out[k + 9] = p[a + UNIT.yaw_rate_gain] * wz, wx, wy
+    turning = road.turning(p, x[GLOBAL_S.time_s])
+    tx, ty, tz = to_body(work, 0, turning[0], turning[1], 0.0)
+    out[k + 7], out[k + 8], out[k + 9] = p[a + UNIT.yaw_rate_gain] * (wz + tz), wx + tx, wy + ty
     cx, cy, cz = wy * bz - wz * by, wz * bx - wx * bz, wx * by - wy * bx
     dx, dy, dz = x[s + UNIT_S.pdot_radps2], x[s + UNIT_S.qdot_radps2], x[s + UNIT_S.rdot_radps2]
     out[k + 10] = (x[s + UNIT_S.ax_mps2] + dy * bz - dz * by + wy * cz - wz * cy

@@ -4,8 +4,8 @@ The map's x-y plane is the road's mean plane; grade and bank tilt gravity agains
 
 References: roughness as a sum of eight sines, an ISO 8608-like slope of the spectrum (amplitude
 proportional to wavelength).
-Known limits: grade and bank each change once, at an instant; one friction patch.
-Validated with: test/physics/test_road.py (rms height, force balance on a grade).
+Known limits: grade and bank each change once, for the whole truck at a time; one friction patch.
+Validated with: test/physics/test_road.py (rms height, force balance on a grade, slopes that begin).
 """
 
 from __future__ import annotations
@@ -51,11 +51,15 @@ def height(p: Floats, x_m: float, y_m: float) -> float:
 
 
 @core
-def friction(p: Floats, time_s: float, x_m: float, y_m: float) -> float:
-    """Scale of tire-road friction at a place and time."""
+def friction(p: Floats, time_s: float, past_m: float, x_m: float, y_m: float) -> float:
+    """Scale of tire-road friction at a place and time.
+
+    ``past_m``: how far the tire is past the place where the foremost axle was when it met another
+    friction; those behind meet it later.
+    """
     scale = p[WORLD_AT + WORLD.friction_scale]
-    changed = ((x_m >= p[WORLD_AT + WORLD.friction_change_x_m])
-               | reached(time_s, p[WORLD_AT + WORLD.friction_change_time_s]))
+    met = reached(time_s, p[WORLD_AT + WORLD.friction_change_time_s]) & (past_m >= 0.0)
+    changed = (x_m >= p[WORLD_AT + WORLD.friction_change_x_m]) | met
     scale = where(changed, scale * p[WORLD_AT + WORLD.friction_change_scale], scale)
     patched = ((p[WORLD_AT + WORLD.patch_x0_m] <= x_m) & (x_m <= p[WORLD_AT + WORLD.patch_x1_m])
                & (p[WORLD_AT + WORLD.patch_y0_m] <= y_m) & (y_m <= p[WORLD_AT + WORLD.patch_y1_m]))
@@ -63,9 +67,34 @@ def friction(p: Floats, time_s: float, x_m: float, y_m: float) -> float:
 
 
 @core
+def _share(since_s: float, ramp_s: float) -> float:
+    """Share of its length that a ramp has run."""
+    return min(max(since_s / max(ramp_s, _LEAST_RAMP_S), 0.0), 1.0)
+
+
+@core
 def _eased(since_s: float, ramp_s: float) -> float:
-    """Share of a change that has come about after a time, 0 before it begins."""
-    return where(since_s <= 0.0, 0.0, min(since_s / max(ramp_s, _LEAST_RAMP_S), 1.0))
+    """Share of a change that has come about: smooth, as axles enter a slope one after another."""
+    s = _share(since_s, ramp_s)
+    return s * s * (3.0 - 2.0 * s)
+
+
+@core
+def _easing(since_s: float, ramp_s: float) -> float:
+    """Rate [1/s] of :func:`_eased`."""
+    s = _share(since_s, ramp_s)
+    return 6.0 * s * (1.0 - s) / max(ramp_s, _LEAST_RAMP_S)
+
+
+@core
+def turning(p: Floats, time_s: float) -> tuple[float, float]:
+    """Angular velocity [rad/s] of the road about the map's x and y axes while a slope begins."""
+    ramp_s = p[WORLD_AT + WORLD.slope_change_ramp_s]
+    grading = p[WORLD_AT + WORLD.grade_change_rad] * _easing(
+        time_s - p[WORLD_AT + WORLD.grade_change_time_s], ramp_s)
+    banking = p[WORLD_AT + WORLD.bank_change_rad] * _easing(
+        time_s - p[WORLD_AT + WORLD.bank_change_time_s], ramp_s)
+    return banking, -grading
 
 
 @core

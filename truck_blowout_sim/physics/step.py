@@ -39,6 +39,8 @@ from truck_blowout_sim.physics.layout import (
     UNIT,
     UNIT_AT,
     UNIT_S,
+    WORLD,
+    WORLD_AT,
 )
 from truck_blowout_sim.physics.places import (
     axle_state,
@@ -54,7 +56,7 @@ from truck_blowout_sim.physics.places import (
 )
 from truck_blowout_sim.physics.probe import add_probe
 from truck_blowout_sim.physics.rotation import angle_rates, fill_rotation, to_body, to_map
-from truck_blowout_sim.physics.scalar import finite
+from truck_blowout_sim.physics.scalar import finite, reached
 from truck_blowout_sim.physics.tires.lanes import N_LANES
 from truck_blowout_sim.physics.tires.tire import tire_pass
 
@@ -98,6 +100,8 @@ def step(x: Floats, p: Floats, topo: Integers, inputs: Floats, dt: float, work: 
         s = axle_state(topo, i)
         x[s + AXLE_S.z_m] += dt * x[s + AXLE_S.vz_mps]
         x[s + AXLE_S.roll_rad] += dt * x[s + AXLE_S.roll_rate_radps]
+    x[GLOBAL_S.over_m] += where(
+        reached(x[GLOBAL_S.time_s], p[WORLD_AT + WORLD.friction_change_time_s]), dt * speed, 0.0)
     x[GLOBAL_S.time_s] += dt
 
 

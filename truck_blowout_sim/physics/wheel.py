@@ -70,7 +70,8 @@ def place_tires(x: Floats, s: int, p: Floats, h: int, a: int, axle_s: int, topo:
         lanes[w + LANE.sink_mps] = -(x[axle_s + AXLE_S.vz_mps]
                                      + arm * x[axle_s + AXLE_S.roll_rate_radps])
         lanes[w + LANE.sin_camber] = sin_camber
-        lanes[w + LANE.friction] = road.friction(p, x[0], at_x, at_y)
+        lanes[w + LANE.friction] = road.friction(
+            p, x[GLOBAL_S.time_s], x[GLOBAL_S.over_m] - p[a + AXLE.behind_m], at_x, at_y)
         lanes[w + LANE.axle_peak] = p[a + AXLE.peak_scale]
         lanes[w + LANE.arm_m] = arm
         lanes[w + LANE.cos_steer], lanes[w + LANE.sin_steer] = cd, sd

@@ -49,6 +49,19 @@ def hitch_of(vehicle: Vehicle, unit: str) -> tuple[float, float, float]:
     return spec.base_link.x_m - spec.hitch.x_m, 0.0, spec.hitch.z_m - spec.base_link.z_m
 
 
+def behind_m(vehicle: Vehicle, axle: str) -> float:
+    """How far an axle stands behind the foremost one of a straight truck, m."""
+    origins, at = dict[str, float](), 0.0
+    for name, unit in vehicle.unit_specs.items():
+        if origins and unit.hitch is not None:
+            at -= unit.hitch.x_m
+        origins[name] = at
+        if unit.hitch is not None:
+            at += unit.hitch.x_m
+    places = {name: origins[spec.unit] + spec.x_m for name, spec in vehicle.spec.axles.items()}
+    return places[axle] - min(places.values())
+
+
 def _hub_place(vehicle: Vehicle, hub: str) -> HubPlace:
     axle = vehicle.spec.axles[vehicle.axle_of_hub(hub)]
     base = vehicle.unit_specs[axle.unit].base_link

@@ -105,6 +105,7 @@ OWN: dict[type[Any], dict[str, Rule]] = {
         "misalignment_rad": _AXLE_ANGLE,
         "peak_scale": _GRIP,
         "lateral_compliance_radpn": _either_way(1e-4, "a degree a newton would be 0.02"),
+        "behind_m": _PLACE,
     },
     layout.HubParams: {
         "y_m": _PLACE,

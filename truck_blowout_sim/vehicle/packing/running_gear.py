@@ -9,6 +9,7 @@ from truck_blowout_sim.vehicle.masses import unit_mass
 from truck_blowout_sim.vehicle.packing.blocks import fill
 from truck_blowout_sim.vehicle.packing.formula import loaded_radius_m
 from truck_blowout_sim.vehicle.packing.tables import Tables
+from truck_blowout_sim.vehicle.places import behind_m
 from truck_blowout_sim.vehicle.schema.axle import AxleSpec
 from truck_blowout_sim.vehicle.schema.tire import LAWS, MODELS, BlowoutSpec
 from truck_blowout_sim.vehicle.statics import StaticLoads
@@ -27,6 +28,7 @@ def axle_block(vehicle: Vehicle, name: str, loads: StaticLoads) -> list[float]:
         "half_track_m": 0.5 * axle.track_m,
         "half_spacing_m": 0.5 * axle.spring_spacing_m,
         "preload_n": 0.5 * loads.spring_n[name],
+        "behind_m": behind_m(vehicle, name),
     }
     return fill(layout.AxleParams, computed, [axle, suspension])
 
