@@ -11,6 +11,8 @@ from truck_blowout_sim.diagnosis.effects.base import (
     whole_truck,
 )
 
+_ENTERED_IN_S = 1.0  # at first; how long is fitted
+
 EFFECT = Effect(
     name="road_bank",
     amount=Amount("bank_rad", "rad", step=0.005, low=-0.12, high=0.12, material=0.0025,
@@ -29,8 +31,10 @@ FROM_AN_INSTANT = replace(
     amount=replace(EFFECT.amount, material=0.0012,
                    source="half of a crossfall: the same road before has shown the rest"),
     values=lambda packed, place, a: {"world.bank_change_rad": a},
-    timing="step",
-    timed=lambda packed, place, start, end: {"world.bank_change_time_s": start},
+    timing="ramp",
+    ramp_s=_ENTERED_IN_S,
+    timed=lambda packed, place, start, end: {
+        "world.bank_change_time_s": start, "world.slope_change_ramp_s": end - start},
     onset_form_s=0.5,
     variant=True,
     sentence="From {onset} on the road is banked by {percent} percent (positive: left side high).",

@@ -11,6 +11,8 @@ from truck_blowout_sim.diagnosis.effects.base import (
     whole_truck,
 )
 
+_ENTERED_IN_S = 1.0  # at first; how long is fitted
+
 EFFECT = Effect(
     name="road_grade",
     amount=Amount("grade_rad", "rad", step=0.003, low=-0.12, high=0.12, material=0.0012,
@@ -28,8 +30,10 @@ EFFECT = Effect(
 FROM_AN_INSTANT = replace(
     EFFECT,
     values=lambda packed, place, a: {"world.grade_change_rad": a},
-    timing="step",
-    timed=lambda packed, place, start, end: {"world.grade_change_time_s": start},
+    timing="ramp",
+    ramp_s=_ENTERED_IN_S,
+    timed=lambda packed, place, start, end: {
+        "world.grade_change_time_s": start, "world.slope_change_ramp_s": end - start},
     onset_form_s=0.5,
     variant=True,
     sentence="From {onset} on the road climbs by {percent} percent along its course.",
