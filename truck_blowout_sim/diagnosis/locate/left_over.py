@@ -35,7 +35,10 @@ Floats = NDArray[np.float64]
 _RUNS = 6.0  # as many runs is that prior worth: cases seldom have more
 _LEAST = 1e-6
 GUESSED = 1.0  # squares a row, where the widths are what two good models differ by
-_GUESS = 2.0 * np.log(1.5)  # 1 sigma of their logarithm: a guess errs by half (a judgement)
+# Noise that lasts: of ten samples in a bin, as at 100 Hz, one to all are new.
+_LASTING = np.log(10.0)
+# 1 sigma of their logarithm: a guess errs by half (a judgement), and how long noise lasts is open
+_GUESS = float(np.hypot(2.0 * np.log(1.5), _LASTING / np.sqrt(12.0)))
 NAMING_SHARE = 0.5  # of what training keeps more than usual: what explains less is no name for it
 
 
