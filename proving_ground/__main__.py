@@ -100,6 +100,26 @@ def world(
 
 
 @app.command()
+def severities(
+    name: Annotated[str, typer.Argument(help="w1, w2, w3 or w4")],
+    first: Annotated[int, typer.Option(help="number of the first case")],
+    count: Annotated[int, typer.Option(help="how many")] = 24,
+    nulls: Annotated[Path, typer.Option(help="folder where trucks with nothing missing are kept, "
+                                        "for all sets of the worlds")] = Path("out/nulls"),
+    trucks: Annotated[int, typer.Option(help="how many")] = 100,
+) -> None:
+    """Find severities for the drawn sigma_b of cases of a later draw; resumes."""
+    from proving_ground.settle import settle
+
+    try:
+        for case, found in settle(name, first, count, nulls, trucks):
+            typer.echo(f"{case}: severity {found['severity']}, sigma_b {found['sigma_b']}, "
+                       f"spreads {found['individual']}")
+    except ValueError as error:
+        raise _stop(str(error)) from error
+
+
+@app.command()
 def sigma(
     out: Out,
     nulls: Annotated[Path, typer.Option(help="folder where trucks with nothing missing are kept, "

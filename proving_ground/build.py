@@ -205,8 +205,8 @@ class CaseBuilder:
         if self.spec.truth == "w1" and not self.spec.rough and self.spec.id[:1] != "w":
             return {}
         rough = None if self.rough is None else asdict(self.rough)
-        kept = {"kept_back": asdict(KeptBack.of(self.spec.seed))} if sealed(self.spec.seed) else {}
-        return {"truth": self.spec.truth, "rough": rough, **kept,
+        kept = KeptBack.of(self.spec.seed).as_dict() if sealed(self.spec.seed) else None
+        return {"truth": self.spec.truth, "rough": rough, **({"kept_back": kept} if kept else {}),
                 "laws": [effect.law for effect in self.spec.effects]}
 
     def _answer(self, found: list[Calibrated], faulty: list[Calibrated],
@@ -218,7 +218,8 @@ class CaseBuilder:
             effects.append({
                 "name": spec.name, "kind": _kind(spec.name, self.spec.without),
                 "where": spec.where.as_dict(), "onset_s": when or None, "strength": strength,
-                "sign": spec.sign, "wanted_sigma": spec.sigma, **asdict(c)})
+                "sign": spec.sign, "wanted_sigma": spec.sigma, **asdict(c),
+                **({} if spec.sigma_b is None else {"wanted_sigma_b": spec.sigma_b})})
         for fault, c in zip(self.spec.faults, faulty, strict=True):
             effects.append(_fault_answer(fault, c))
         verdicts = {"null": ["consistent", "miscalibrated"], "sensor": ["sensor_artefact"],

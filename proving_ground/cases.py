@@ -25,7 +25,8 @@ GROUPS = ("null", "single", "pair", "sensor", "unknown")
 class EffectSpec:
     """One effect of a case. `sigma` is the wanted detectability; None takes `severity` as it is.
 
-    `law` chooses among the laws that the effect follows.
+    `law` chooses among the laws that the effect follows. `sigma_b` is what its severity was found
+    for (`worlds/severities.py`), if it was.
     """
 
     name: str
@@ -34,6 +35,7 @@ class EffectSpec:
     sigma: float | None = None
     severity: float = 0.3
     law: int = 0
+    sigma_b: float | None = None
 
     @property
     def kind(self) -> EffectKind:

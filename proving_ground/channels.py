@@ -58,19 +58,31 @@ def ideal(truth: Truth) -> dict[str, FloatArray]:
     return {name: out[name] for name in columns()}
 
 
+def road_rates(grade: FloatArray, bank: FloatArray, yaw: FloatArray
+               ) -> tuple[FloatArray, FloatArray]:
+    """How fast the road itself turns along and across a vehicle that enters a slope, rad/s.
+
+    A gyro feels that; it does not feel that a vehicle turns on a slope which stays as it is.
+    """
+    grading, banking = np.gradient(grade) * RATE_HZ, np.gradient(bank) * RATE_HZ
+    return (grading * np.cos(yaw) + banking * np.sin(yaw),
+            banking * np.cos(yaw) - grading * np.sin(yaw))
+
+
 def _unit(s: FloatArray, unit: str, grade: FloatArray, bank: FloatArray) -> dict[str, FloatArray]:
     """Pose and motion of one unit; tilt is against the true horizontal, so slopes add to it."""
     roll, pitch, yaw = quaternion_angles(s[:, 3:7])
     motion = smooth(s[:, 7:16], 20.0)
     along = grade * np.cos(yaw) + bank * np.sin(yaw)
     across = bank * np.cos(yaw) - grade * np.sin(yaw)
+    along_rate, across_rate = road_rates(grade, bank, yaw)
     values = {
         "x_m": s[:, 0], "y_m": s[:, 1], "yaw_rad": yaw,
         "roll_rad": roll + across, "pitch_rad": pitch - along,
         "vx_mps": motion[:, 0], "vy_mps": motion[:, 1],
         "yaw_rate_radps": motion[:, 5],
-        "roll_rate_radps": motion[:, 3] + np.gradient(across) * RATE_HZ,
-        "pitch_rate_radps": motion[:, 4] - np.gradient(along) * RATE_HZ,
+        "roll_rate_radps": motion[:, 3] + across_rate,
+        "pitch_rate_radps": motion[:, 4] - along_rate,
         "ax_mps2": motion[:, 6], "ay_mps2": motion[:, 7], "az_mps2": motion[:, 8],
     }
     return {f"{unit}_{name}": np.array(value) for name, value in values.items()}

@@ -10,7 +10,7 @@ import math
 
 from proving_ground.compiled import compiled
 from proving_ground.contact import add_force
-from proving_ground.laws import LEAF, SMOOTH
+from proving_ground.laws import BLOW_OFF, LEAF, SMOOTH
 from proving_ground.layout import Commands, State, Truck, Views
 from proving_ground.switches import Switches
 
@@ -55,9 +55,13 @@ def springs(v: Views, truck: Truck, state: State, sw: Switches) -> None:
 
 @compiled
 def damper_force(truck: Truck, axle: int, rate: float) -> float:
-    """Damper force of one side, N: stiffer one way than the other, degressive or linear."""
+    """Damper force of one side, N: stiffer one way, degressive, linear, or with a valve."""
     laws = truck.laws
     side = laws.rebound if rate > 0.0 else laws.bump
+    if laws.damper_law == BLOW_OFF:
+        over = max(abs(rate) - laws.blow_off_mps, 0.0)
+        felt = abs(rate) - (1.0 - laws.blow_off_share) * over
+        return side * truck.damper[axle] * math.copysign(felt, rate)
     if laws.damper_exponent == 1.0:
         return side * truck.damper[axle] * rate
     size = 0.1 * (abs(rate) / 0.1 + 1.0e-3) ** (laws.damper_exponent - 1.0) * (rate / 0.1)

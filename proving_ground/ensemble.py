@@ -6,17 +6,16 @@ commands of that run; the channels' cosine coefficients up to 5 Hz are kept, one
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 
 import numpy as np
 from scipy.fft import dct
 
-from proving_ground.build import CaseBuilder, Run, Values
-from proving_ground.cases import CaseSpec
+from proving_ground.build import CaseBuilder, Run, Values, onset
+from proving_ground.cases import CaseSpec, EffectSpec
 from proving_ground.channels import COMMANDS
-from proving_ground.effects.base import Active
 from proving_ground.generate import builder
 from proving_ground.layout import FloatArray
 
@@ -84,16 +83,25 @@ class Nulls:
         np.savez_compressed(path, names=np.array(names), values=np.array(rows, dtype=np.float32))
         return names, np.array(rows)
 
-    def signature(self, case: CaseSpec, kind: str, severities: list[float]) -> list[FloatArray]:
-        """What each effect of a case changes in the run of a kind, channels x coefficients."""
-        from proving_ground.build import onset
-
+    def course(self, case: CaseSpec, kind: str) -> Course:
+        """A case's own truck in the run of a kind."""
         made, leader = builder(replace(case, rough=False)), self.leader(kind)
-        manoeuvre = leader.manoeuvre
-        plain = coefficients(made.clean(made._replay(leader, [])), manoeuvre.duration_s)[1]
-        found = []
-        for effect, severity in zip(case.effects, severities, strict=True):
-            active: Active = effect.at(severity, onset(manoeuvre, effect, case.seed))
-            other = made.clean(made._replay(leader, [active]))
-            found.append(coefficients(other, manoeuvre.duration_s)[1] - plain)
-        return found
+        plain = coefficients(made.clean(made._replay(leader, [])), leader.manoeuvre.duration_s)[1]
+        return Course(case, made, leader, plain)
+
+
+@dataclass(frozen=True)
+class Course:
+    """A case's truck on the commands of a leader: `plain` is what it does with nothing missing."""
+
+    case: CaseSpec
+    made: CaseBuilder
+    leader: Run
+    plain: FloatArray
+
+    def signature(self, effect: EffectSpec, severity: float) -> FloatArray:
+        """What an effect changes, channels x coefficients."""
+        manoeuvre = self.leader.manoeuvre
+        active = effect.at(severity, onset(manoeuvre, effect, self.case.seed))
+        other = self.made.clean(self.made._replay(self.leader, [active]))
+        return np.asarray(coefficients(other, manoeuvre.duration_s)[1] - self.plain)

@@ -12,16 +12,17 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-TMEASY, MAGIC, BRUSH, DUGOFF = 0, 1, 2, 3
+TMEASY, MAGIC, BRUSH, DUGOFF, BURCKHARDT = 0, 1, 2, 3, 4
 QUADRATIC, POWER, SINE = 0, 1, 2
 STRETCH, LENGTH, LOADED = 0, 1, 2
 DAHL, SMOOTH, LEAF = 0, 1, 2
+POWERED, BLOW_OFF = 0, 1
 
 
 class Laws(NamedTuple):
     """Laws and their numbers, SI. Loads are newtons, slips radians or relative."""
 
-    family: int                    # TMEASY, MAGIC, BRUSH, DUGOFF
+    family: int                    # TMEASY, MAGIC, BRUSH, DUGOFF, BURCKHARDT
     reference_n: float             # load at which the shares below hold
     slope_law: int                 # cornering stiffness over load: QUADRATIC, POWER, SINE
     slope: float                   # 1/rad: QUADRATIC load * (slope - drop * load)
@@ -70,6 +71,9 @@ class Laws(NamedTuple):
     rebound: float                 # damper in rebound and in bump, over the sheet's
     bump: float
     damper_exponent: float         # force over speed to this power, as the sheet at 0.1 m/s
+    damper_law: int                # POWERED so; BLOW_OFF: a valve opens beyond a speed
+    blow_off_mps: float
+    blow_off_share: float          # of the slope that is left then
     friction_law: int              # DAHL over a travel, SMOOTH over a speed, LEAF: DAHL that
                                    # grows with the load on the spring
     friction_travel_m: float
@@ -94,6 +98,7 @@ def usual() -> Laws:
         rim_radius_m=0.375, rim=1.39e7, rolling=0.0047, rolling_rise=2.8e-6, rolling_soft=1.2,
         flat_drag=0.15, flat_drag_exponent=0.0, flat_keeps=0.08, flat_grip_lost=0.35,
         polytropic=1.25, hole_m2=0.0026, hole_growth_s=0.0, leaf_hardening=8.0, air_exponent=1.3,
-        rebound=0.75, bump=1.25, damper_exponent=1.0, friction_law=DAHL, friction_travel_m=0.0028,
+        rebound=0.75, bump=1.25, damper_exponent=1.0, damper_law=POWERED,
+        blow_off_mps=0.1, blow_off_share=0.3, friction_law=DAHL, friction_travel_m=0.0028,
         friction_speed_mps=0.02, unequal=0.08, linkage_hardening=0.0, brake_linear=158.0,
         brake_drop=0.12, drag_exponent=2.0)

@@ -63,27 +63,30 @@ def noise_variance(channel: str, level: float, count: int, duration_s: float,
     return np.asarray(out)
 
 
-def separation(stack: Stack, signatures: list[FloatArray]) -> list[float]:
-    """sigma_b of each signature, measured on trucks left out."""
-    trucks = len(stack.nulls)
-    rows = stack.nulls - stack.nulls.mean(axis=0)
-    folds = [np.arange(trucks) % FOLDS == k for k in range(FOLDS)]
-    share = max(SHRINKAGES, key=lambda s: sum(
-        _fit(stack, rows[~fold], s).likelihood(rows[fold]) for fold in folds))
-    found = []
-    for signature in signatures:
+class Detector:
+    """The linear detector of a stack of runs, of each signature alike."""
+
+    def __init__(self, stack: Stack) -> None:
+        self.stack, self.trucks = stack, len(stack.nulls)
+        rows = stack.nulls - stack.nulls.mean(axis=0)
+        folds = [np.arange(self.trucks) % FOLDS == k for k in range(FOLDS)]
+        share = max(SHRINKAGES, key=lambda s: sum(
+            _fit(stack, rows[~fold], s).likelihood(rows[fold]) for fold in folds))
+        self.parts = [(rows[fold], _fit(stack, rows[~fold], share)) for fold in folds]
+
+    def separation(self, signature: FloatArray) -> float:
+        """sigma_b of a signature, measured on trucks left out."""
         signal, spread = 0.0, 0.0
-        for fold in folds:
-            weight = _fit(stack, rows[~fold], share).solve(signature)
+        for left_out, fit in self.parts:
+            weight = fit.solve(signature)
             scale = float(signature @ weight)
             if scale <= 0.0:
                 continue
             weight = weight / np.sqrt(scale)
             signal += float(signature @ weight) / FOLDS
-            spread += (float(np.sum((rows[fold] @ weight) ** 2)) / trucks
-                       + float(weight**2 @ stack.noise) / FOLDS)
-        found.append(signal / np.sqrt(spread) if spread > 0.0 else 0.0)
-    return found
+            spread += (float(np.sum((left_out @ weight) ** 2)) / self.trucks
+                       + float(weight**2 @ self.stack.noise) / FOLDS)
+        return float(signal / np.sqrt(spread)) if spread > 0.0 else 0.0
 
 
 @dataclass(frozen=True)

@@ -1,8 +1,9 @@
-"""Tire forces: four families over a generalized slip, first-order dynamics.
+"""Tire forces: five families over a generalized slip, first-order dynamics.
 
 References: Rill, Road Vehicle Dynamics (2012), ch. 3 (TMeasy); Pacejka, Tire and Vehicle Dynamics
 (2012), ch. 3 (brush), 4.3 (Magic Formula, similarity); Dugoff, Fancher, Segel, SAE 700377 (1970);
-cornering stiffness after the spec sheet.
+Burckhardt, Fahrwerktechnik: Radschlupf-Regelsysteme (1993), dry asphalt (c1, c2, c3); cornering
+stiffness after the spec sheet.
 Known differences from a real tire: no temperature, no tread wear, no turn slip.
 """
 
@@ -11,8 +12,22 @@ from __future__ import annotations
 import math
 
 from proving_ground.compiled import compiled
-from proving_ground.laws import DUGOFF, LENGTH, LOADED, MAGIC, POWER, SINE, TMEASY, Laws
+from proving_ground.laws import (
+    BURCKHARDT,
+    DUGOFF,
+    LENGTH,
+    LOADED,
+    MAGIC,
+    POWER,
+    SINE,
+    TMEASY,
+    Laws,
+)
 
+C1, C2, C3 = 1.2801, 23.99, 0.52   # Burckhardt, dry asphalt
+_TOP_SLIP = math.log(C1 * C2 / C3) / C2
+TOP = C1 * (1.0 - math.exp(-C2 * _TOP_SLIP)) - C3 * _TOP_SLIP
+START = C1 * C2 - C3               # slope of that curve at no slip
 STATED_LOAD_N = 26.5e3       # load at which POWER and SINE have their reference slope
 
 
@@ -77,7 +92,7 @@ def steady_forces(load: float, sx: float, sy: float, slope_y: float, friction: f
 @compiled
 def similar(sx: float, sy: float, slope_x: float, slope_y: float, peak_x: float, peak_y: float,
             laws: Laws) -> tuple[float, float]:
-    """Magic Formula, Dugoff or brush over the slip that similarity makes of both directions, N."""
+    """Any other family over the slip that similarity makes of both directions, N."""
     kx = slope_x * sx / max(peak_x, 1.0)
     ky = slope_y * sy / max(peak_y, 1.0)
     k = math.sqrt(kx * kx + ky * ky)
@@ -88,6 +103,9 @@ def similar(sx: float, sy: float, slope_x: float, slope_y: float, peak_x: float,
         share = math.sin(laws.shape * math.atan(b - laws.curvature * (b - math.atan(b))))
     elif laws.family == DUGOFF:
         share = k if k < 0.5 else 1.0 - 0.25 / k
+    elif laws.family == BURCKHARDT:
+        slip = min(k * TOP / START, 1.0)
+        share = (C1 * (1.0 - math.exp(-C2 * slip)) - C3 * slip) / TOP
     elif k < 3.0:
         share = k - k * k / 3.0 + k * k * k / 27.0
     else:

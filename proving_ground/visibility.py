@@ -12,16 +12,18 @@ from typing import Any
 
 import numpy as np
 
-from proving_ground.cases import CaseSpec
-from proving_ground.ensemble import HIGHEST_HZ, RATE_HZ, Nulls
+from proving_ground.cases import CaseSpec, EffectSpec
+from proving_ground.ensemble import HIGHEST_HZ, RATE_HZ, Course, Nulls
+from proving_ground.kept_back import later
 from proving_ground.representative import representative
 from proving_ground.roughness import Roughness
-from proving_ground.sigma_b import Stack, noise_variance, separation
+from proving_ground.sigma_b import Detector, Stack, noise_variance
 from proving_ground.spreads import individual
 from proving_ground.worlds import FIRST_SEED, world_cases
+from proving_ground.worlds.severities import known
 
 RESULT = "sigma_b.json"
-_MOST = 1e9  # of what no sound vehicle has
+MOST = 1e9  # of what no sound vehicle has
 
 
 def measure(out: Path, nulls: Path, trucks: int) -> Iterator[tuple[str, list[float]]]:
@@ -37,9 +39,11 @@ def measure(out: Path, nulls: Path, trucks: int) -> Iterator[tuple[str, list[flo
         spec = spec_of(answer.stem)
         if not spec.effects or "sigma_b" in done[answer.stem]:
             continue
-        # A detector does not know the form of W1's truth: for it, too, forms are drawn.
-        spread = "w3" if spec.truth == "w3" else "w2"
-        world = worlds.setdefault(spread, Nulls(spread, nulls, trucks))
+        if later(spec.seed):
+            done[answer.stem] |= known(answer.stem.partition("-")[0])[answer.stem]
+            _write(out, done)
+            continue
+        world = worlds.setdefault(world_of(spec), Nulls(world_of(spec), nulls, trucks))
         found = visibility(spec, [e["severity"] for e in told["effects"][:len(spec.effects)]],
                            world)
         done[answer.stem] |= {"sigma_b": found, "trucks": trucks}
@@ -61,7 +65,7 @@ def count_spreads(out: Path) -> dict[str, Any]:
             counts = [individual(effect["strength"], spec.truth == "w3")
                       for effect in told["effects"][:len(spec.effects)]]
             done[answer.stem] = {**done.get(answer.stem, {}), "individual": [
-                float(f"{min(count, _MOST):.3g}") for count in counts]}
+                float(f"{min(count, MOST):.3g}") for count in counts]}
     _write(out, done)
     return done
 
@@ -82,32 +86,51 @@ def spec_of(name: str) -> CaseSpec:
     return world_cases(world, int(seed) - FIRST_SEED[world], 1)[0]
 
 
+def world_of(spec: CaseSpec) -> str:
+    """Whose fault-free vehicles a case is compared with.
+
+    A detector does not know the form of W1's truth: for it, too, forms are drawn.
+    """
+    return "w3" if spec.truth == "w3" else "w2"
+
+
 def visibility(spec: CaseSpec, severities: list[float], nulls: Nulls) -> list[float]:
     """sigma_b of each effect of a case."""
-    rough = Roughness.draw(spec.seed) if spec.rough else None
-    rows, noise, shapes = [], [], []
-    signatures: list[list[np.ndarray[Any, Any]]] = [[] for _ in spec.effects]
-    for role, kinds in (("baseline", spec.baseline), ("train", spec.train)):
-        for name in kinds:
-            kind = representative(name, spec.truth == "w3")
-            channels, values = nulls.spread(kind)
-            use = [k for k, channel in enumerate(channels)
-                   if not channel.startswith(spec.missing or ("-",))
-                   and (rough is None or rough.keeps(channel))]
-            kept = values[:, use, :]
-            count = kept.shape[2]
-            duration_s = count / (2.0 * HIGHEST_HZ)
-            level = np.abs(kept[:, :, 0]).mean(axis=0) / np.sqrt(duration_s * RATE_HZ)
-            rows.append(kept.reshape(len(kept), -1))
-            noise.append(np.concatenate([
-                noise_variance(channels[k], float(level[i]), count, duration_s, rough)
-                for i, k in enumerate(use)]))
-            shapes.append((len(use), count))
-            made = ([row[use].ravel() for row in nulls.signature(spec, kind, severities)]
-                    if role == "train" else [np.zeros(kept[0].size)] * len(spec.effects))
-            for own, part in zip(signatures, made, strict=True):
-                own.append(part)
-    stack = Stack(np.concatenate(rows, axis=1).astype(float), np.concatenate(noise),
-                  tuple(shapes))
-    found = separation(stack, [np.concatenate(parts) for parts in signatures])
-    return [float(f"{value:.3g}") for value in found]
+    seen = Seen(spec, nulls)
+    return [float(f"{seen.sigma_b(effect, severity):.3g}")
+            for effect, severity in zip(spec.effects, severities, strict=True)]
+
+
+class Seen:
+    """What a detector of a case's world sees of its effects, at any severity."""
+
+    def __init__(self, spec: CaseSpec, nulls: Nulls) -> None:
+        rough = Roughness.draw(spec.seed) if spec.rough else None
+        rows, noise, shapes = [], [], []
+        self._parts: list[tuple[list[int], Course | None, int]] = []
+        for role, kinds in (("baseline", spec.baseline), ("train", spec.train)):
+            for name in kinds:
+                kind = representative(name, spec.truth == "w3")
+                channels, values = nulls.spread(kind)
+                use = [k for k, channel in enumerate(channels)
+                       if not channel.startswith(spec.missing or ("-",))
+                       and (rough is None or rough.keeps(channel))]
+                kept = values[:, use, :]
+                count = kept.shape[2]
+                duration_s = count / (2.0 * HIGHEST_HZ)
+                level = np.abs(kept[:, :, 0]).mean(axis=0) / np.sqrt(duration_s * RATE_HZ)
+                rows.append(kept.reshape(len(kept), -1))
+                noise.append(np.concatenate([
+                    noise_variance(channels[k], float(level[i]), count, duration_s, rough)
+                    for i, k in enumerate(use)]))
+                shapes.append((len(use), count))
+                course = nulls.course(spec, kind) if role == "train" else None
+                self._parts.append((use, course, kept[0].size))
+        self._detector = Detector(Stack(np.concatenate(rows, axis=1).astype(float),
+                                        np.concatenate(noise), tuple(shapes)))
+
+    def sigma_b(self, effect: EffectSpec, severity: float) -> float:
+        """How visible one effect is."""
+        return self._detector.separation(np.concatenate([
+            np.zeros(size) if course is None else course.signature(effect, severity)[use].ravel()
+            for use, course, size in self._parts]))

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from proving_ground.car.rig import CarTruth
-from proving_ground.channels import smooth
+from proving_ground.channels import road_rates, smooth
 from proving_ground.layout import FloatArray
 
 WHEELS = ("front_left", "front_right", "rear_left", "rear_right")
@@ -35,7 +35,9 @@ def ideal(truth: CarTruth) -> dict[str, FloatArray]:
     ax = f[:, 3] - rate * vy - 9.81 * np.sin(pitch)
     ay = -f[:, 10] + rate * vx + 9.81 * np.sin(roll)
     az = -f[:, 12] + 9.81 * np.cos(roll) * np.cos(pitch)
-    turning = gyros(roll, pitch, s[:, 7] - along * rate, -s[:, 9] - across * rate, rate)
+    along_rate, across_rate = road_rates(grade, bank, yaw)
+    turning = gyros(roll, pitch, s[:, 7] - along * rate + across_rate,
+                    -s[:, 9] - across * rate - along_rate, rate)
     motion = smooth(np.stack([vx, vy, *turning, ax, ay, az], axis=1), 20.0)
     parts = [s[:, 0], -s[:, 1], yaw, roll, pitch, *motion.T]
     hubs = [smooth(s[:, 23 + k], 10.0) for k in range(4)]

@@ -14,6 +14,7 @@ CYCLE = "nsnsnfnsnsnpnsnsntnsfuss"
 GROUP = {"n": "null", "s": "single", "p": "pair", "f": "sensor", "u": "unknown", "t": "unknown"}
 WHOLE_NAMES = tuple(kind.name for kind in WHOLE)
 SIGMAS = (4.0, 150.0)
+SIGMAS_B = (2.0, 30.0)
 ENDS = 0.1                        # share of single effects at their physical end
 
 
@@ -42,3 +43,8 @@ def walk(names: tuple[str, ...], number: int) -> str:
 def wanted_sigma(rng: Rng) -> float:
     """A wanted detectability, uniform in its logarithm."""
     return float(f"{np.exp(rng.uniform(*np.log(SIGMAS))):.3g}")
+
+
+def wanted_sigma_b(rng: Rng) -> float:
+    """A wanted sigma_b, uniform."""
+    return float(f"{rng.uniform(*SIGMAS_B):.3g}")

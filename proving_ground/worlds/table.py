@@ -29,6 +29,7 @@ from proving_ground.worlds.draws import (
     wanted_sigma,
 )
 from proving_ground.worlds.runs import KINDS, choose_runs
+from proving_ground.worlds.severities import settled
 
 WORLDS = ("w1", "w2", "w3", "w4")
 ORDINARY = (10, 13)               # numbers in the cycle of w4 with ordinary driving
@@ -37,6 +38,15 @@ FIRST_SEED = {"w1": 2_000_000, "w2": 3_000_000, "w3": 4_000_000, "w4": 5_000_000
 
 def world_cases(world: str, first: int = 0, count: int = len(CYCLE)) -> list[CaseSpec]:
     """Cases `first` to `first + count - 1` of a world.
+
+    Raises:
+        ValueError: no world of that name; severities of a later draw were not found yet.
+    """
+    return [settled(spec) for spec in open_cases(world, first, count)]
+
+
+def open_cases(world: str, first: int, count: int) -> list[CaseSpec]:
+    """The same; effects of later draws still without the severity that their sigma_b asks for.
 
     Raises:
         ValueError: no world of that name.

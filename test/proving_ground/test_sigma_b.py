@@ -7,7 +7,7 @@ import pytest
 
 from proving_ground.manoeuvres import MANOEUVRES
 from proving_ground.representative import representative
-from proving_ground.sigma_b import Stack, separation
+from proving_ground.sigma_b import Detector, Stack
 from proving_ground.worlds.runs import KINDS
 
 
@@ -20,7 +20,7 @@ def stack(trucks: int, strong: np.ndarray, seed: int = 1) -> Stack:
 
 def test_without_spread_it_is_the_signal_over_the_noise() -> None:
     signature = np.full(40, 0.5)
-    (found,) = separation(stack(60, np.zeros(40)), [signature])
+    found = Detector(stack(60, np.zeros(40))).separation(signature)
     assert found == pytest.approx(np.linalg.norm(signature), rel=0.05)
 
 
@@ -29,7 +29,7 @@ def test_what_trucks_differ_by_hides_an_effect_that_looks_like_it() -> None:
     along[:8] = 1.0 / np.sqrt(8.0)
     across = np.zeros(40)
     across[20:28] = 1.0 / np.sqrt(8.0)
-    hidden, seen = separation(stack(120, along), [10.0 * along, 10.0 * across])
+    hidden, seen = map(Detector(stack(120, along)).separation, (10.0 * along, 10.0 * across))
     assert hidden < 0.6
     assert seen == pytest.approx(10.0, rel=0.1)
 
@@ -39,8 +39,8 @@ def test_a_baseline_run_shows_what_the_truck_is() -> None:
     both = np.concatenate([np.full(20, 1.0), np.full(20, 1.0)]) / np.sqrt(40.0)
     alone = np.concatenate([np.zeros(20), both[20:]])
     effect = np.concatenate([np.zeros(20), np.full(20, 2.0)])
-    (with_baseline,) = separation(stack(120, both), [effect])
-    (without,) = separation(stack(120, alone), [effect])
+    with_baseline = Detector(stack(120, both)).separation(effect)
+    without = Detector(stack(120, alone)).separation(effect)
     assert with_baseline > 3.0 * without
 
 
