@@ -16,11 +16,16 @@ from truck_blowout_sim.proof.cases import NOTHING_MISSING, Cause, Truth
 from truck_blowout_sim.proof.comparable import ParameterScore, compare_parameter
 
 ABRUPT = ("secondary_blowout", "payload_shift")
+# Map position and heading add up what speed and yaw rate are off by: seen there already.
+_SUMS = ("_x_m", "_y_m", "_yaw_rad")
 
 
 @dataclass(frozen=True)
 class Fitted:
-    """Mean over channels of the mean square residual on holdout, in instrument noise squared."""
+    """Mean over channels of the mean square residual on holdout, in instrument noise squared.
+
+    Map position and heading are left out.
+    """
 
     before: float
     after: float
@@ -165,7 +170,7 @@ def _onset_covered(cause: Cause, effect: Mapping[str, Any] | None) -> bool | Non
 def fitted(fit: Mapping[str, Mapping[str, float]], floor: Mapping[str, float] | None
            ) -> Fitted | None:
     """Mean squares of a fit over the channels that both have; None without holdout."""
-    names = [n for n in fit["before"] if n in fit["after"]]
+    names = [n for n in fit["before"] if n in fit["after"] and not n.endswith(_SUMS)]
     if not names:
         return None
     left = [floor[n] for n in names if floor and n in floor]
