@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
-from typing import Any
 
 import pytest
 from typer.testing import CliRunner
@@ -53,9 +52,9 @@ def test_the_line_keeps_its_answer_and_gets_the_errors(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """They are found for the vehicle, the step and the errors of the diagnosis."""
-    asked: list[Any] = []
+    asked: list[object] = []
 
-    def errors(*words: Any) -> dict[str, float]:
+    def errors(*words: object) -> dict[str, float]:
         asked.extend(words)
         return ERRORS
 

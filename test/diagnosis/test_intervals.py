@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -26,8 +27,10 @@ def event(truck: Packed, name: str, amount: float, start_s: float, end_s: float)
 
 
 def bank(truck: Packed, amount: float, start_s: float) -> Ranked:
-    """A road that is banked from an instant on."""
-    effect = next(e for e in LIBRARY if e.name == "road_bank" and e.timed)
+    """A road that is banked from an instant on, all at once as other events that stay."""
+    effect = replace(
+        next(e for e in LIBRARY if e.name == "road_bank" and e.timed), timing="step",
+        timed=lambda packed, place, start, end: {"world.bank_change_time_s": start})
     place, = effect.places(truck.vehicle)
     return Ranked(Hypothesis(effect, place, amount, {"run 1": (start_s, np.inf)}), 500.0, 0.1)
 

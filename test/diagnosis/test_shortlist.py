@@ -23,9 +23,9 @@ def grade(timing: str, delta: float, support: float, *, refitted: bool = True) -
 
 
 @pytest.mark.parametrize(("event", "chosen"), [
-    (grade("step", 270.0, 7.0), "always"),  # its free instants explain more and support nothing
-    (grade("step", 270.0, 12.0), "step"),
-    (grade("step", 270.0, 12.0, refitted=False), "always"),
+    (grade("ramp", 270.0, 7.0), "always"),  # its free instants explain more and support nothing
+    (grade("ramp", 270.0, 12.0), "ramp"),
+    (grade("ramp", 270.0, 12.0, refitted=False), "always"),
 ])  # fmt: skip
 def test_a_form_that_is_not_supported_hides_no_other(event: Ranked, chosen: str) -> None:
     found = best_forms([event, grade("always", 180.0, 22.0)], ASKED)
@@ -33,7 +33,7 @@ def test_a_form_that_is_not_supported_hides_no_other(event: Ranked, chosen: str)
 
 
 def test_where_none_is_supported_the_one_that_explains_more_is_kept() -> None:
-    found = best_forms([grade("always", 30.0, 3.0), grade("step", 60.0, 1.0)], ASKED)
+    found = best_forms([grade("always", 30.0, 3.0), grade("ramp", 60.0, 1.0)], ASKED)
     assert [one.delta for one in found] == [60.0]
 
 

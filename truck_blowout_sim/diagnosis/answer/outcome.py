@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from scipy.stats import chi2
 
 from truck_blowout_sim.diagnosis.answer import evidence, words
+from truck_blowout_sim.diagnosis.answer.further_baseline import further_baseline
 from truck_blowout_sim.diagnosis.answer.told import alias_set, physics_effect, sensor_effects
 from truck_blowout_sim.diagnosis.case.study import Study
 from truck_blowout_sim.diagnosis.fit.quantiles import NINETY
@@ -111,7 +112,8 @@ def answer(material: Material) -> Diagnosis:
     recorded = {c for run in material.study.runs for c in run.recording.channels}
     aliases += [alias_set(rivals, recorded) for _, rivals in named]
     next_test = (words.next_look(material.law, material.signs) if verdict == "unknown"
-                 else words.next_test(found, gate, material.separation))
+                 else words.next_test(found, gate, material.separation,
+                                      further_baseline(material.study)))
     return Diagnosis(
         verdict=verdict, sentence=words.verdict_sentence(
             verdict, effects, pulled(material), material.law if unexplained(material) else None,

@@ -82,8 +82,13 @@ def next_look(law: Law, signs: Sequence[Sign]) -> str:
             f"{law.body} follows speed, load or the place on the road tells what makes it.")
 
 
-def next_test(found: Found, gate: GateResult, best: Separation | None = None) -> str:
-    """The run or channel that would decide, or confirm; ``best``: what simulation found."""
+def next_test(found: Found, gate: GateResult, best: Separation | None = None,
+              baseline: str = "") -> str:
+    """The run or channel that would decide, or confirm.
+
+    ``best``: what simulation found. ``baseline``: which run in order would show more, if nothing
+    is named.
+    """
     if best is not None:
         return f"To tell {_names(best.pair)}: {best.pair[0].effect.splits}. {best}"
     for rivals in found.rivals:
@@ -94,7 +99,8 @@ def next_test(found: Found, gate: GateResult, best: Separation | None = None) ->
         return finding.next_test
     if found.named:
         return f"To confirm: {found.named[0].hypothesis.effect.splits}."
-    return "None is needed for these maneuvers; a harder one would test more of the model."
+    return baseline or (
+        "None is needed for these maneuvers; a harder one would test more of the model.")
 
 
 def _names(pair: Sequence[Hypothesis]) -> str:
