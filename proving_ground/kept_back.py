@@ -7,8 +7,8 @@ instrument set of its own. A method that learned from a sealed draw has seen its
 
 References: Dugoff, Fancher, Segel, SAE 700377 (1970), and Burckhardt, Fahrwerktechnik:
 Radschlupf-Regelsysteme (1993) (tires); Fancher, Ervin, MacAdam, Winkler, SAE 800905 (1980) (leaf
-springs whose friction grows with the load); Dixon, The Shock Absorber Handbook (2007), ch. 5 (a
-valve that opens); SAE J1939-71 (resolutions and rates on a truck's bus).
+springs whose friction grows with the load); Dixon, The Shock Absorber Handbook (2007) (a valve
+that opens); SAE J1939-71 (resolutions on a truck's bus; rates and noise are judgement).
 Known limits: the truck of W1 and the car of W3 keep their tires and suspension, rough logs their
 instruments; the answer of a case states what was drawn.
 """

@@ -84,7 +84,7 @@ def run_cases(cases: Sequence[Case], out: Path, *, workers: int, step_s: float,
         return
     out.mkdir(parents=True, exist_ok=True)
     with one_thread(), ProcessPoolExecutor(workers, get_context("spawn"),
-                                            initializer=begin) as pool:
+                                           initializer=begin) as pool:
         jobs = [pool.submit(attempt, (case, step_s, with_baselines)) for case in mixed(todo)]
         try:
             for job in as_completed(jobs):
