@@ -142,6 +142,22 @@ def sigma(
         raise _stop(str(error)) from error
 
 
+@app.command("apart")
+def measure_how_far_apart(
+    out: Out,
+    nulls: Annotated[Path, typer.Option(help="as for `sigma`")] = Path("out/nulls"),
+    trucks: Annotated[int, typer.Option(help="as for `sigma`")] = 100,
+) -> None:
+    """Measure how far effects of no list, and of a pair, are from what others imitate; resumes."""
+    from proving_ground.apart import measure_apart
+
+    try:
+        for case, found in measure_apart(out, nulls, trucks):
+            typer.echo(f"{case}: " + ", ".join(f"{size:.3g} beside {name}" for size, name in found))
+    except ValueError as error:
+        raise _stop(str(error)) from error
+
+
 @app.command("list")
 def list_cases(name: SetName = "dev",
                out: Annotated[Path | None, typer.Option("--out", "-o", help="write the cases as "

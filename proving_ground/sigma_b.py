@@ -26,6 +26,7 @@ from proving_ground.roughness import Roughness
 SHRINKAGES = (0.02, 0.05, 0.1, 0.2, 0.4, 0.7)
 FOLDS = 5
 SMOOTH = 9
+TINY = 1e-300   # power of a signature that is none
 
 
 @dataclass(frozen=True)
@@ -74,11 +75,26 @@ class Detector:
             _fit(stack, rows[~fold], s).likelihood(rows[fold]) for fold in folds))
         self.parts = [(rows[fold], _fit(stack, rows[~fold], share)) for fold in folds]
 
-    def separation(self, signature: FloatArray) -> float:
-        """sigma_b of a signature, measured on trucks left out."""
+    def amount(self, signature: FloatArray, of: FloatArray) -> float:
+        """How much `of` another signature explains this one best, mean over the folds."""
+        shares = []
+        for _, fit in self.parts:
+            weight = fit.solve(of)
+            shares.append(float(signature @ weight) / max(float(of @ weight), TINY))
+        return float(np.mean(shares))
+
+    def separation(self, signature: FloatArray, beside: FloatArray | None = None) -> float:
+        """sigma_b of a signature, measured on trucks left out.
+
+        Where another signature may be there, too, in any amount (`beside`): of what it leaves.
+        """
         signal, spread = 0.0, 0.0
         for left_out, fit in self.parts:
             weight = fit.solve(signature)
+            if beside is not None:
+                other = fit.solve(beside)
+                weight = weight - other * (float(beside @ weight) / max(float(beside @ other),
+                                                                        TINY))
             scale = float(signature @ weight)
             if scale <= 0.0:
                 continue

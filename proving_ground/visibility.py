@@ -15,6 +15,7 @@ import numpy as np
 from proving_ground.cases import CaseSpec, EffectSpec
 from proving_ground.ensemble import HIGHEST_HZ, RATE_HZ, Course, Nulls
 from proving_ground.kept_back import later
+from proving_ground.layout import FloatArray
 from proving_ground.representative import representative
 from proving_ground.roughness import Roughness
 from proving_ground.sigma_b import Detector, Stack, noise_variance
@@ -126,11 +127,15 @@ class Seen:
                 shapes.append((len(use), count))
                 course = nulls.course(spec, kind) if role == "train" else None
                 self._parts.append((use, course, kept[0].size))
-        self._detector = Detector(Stack(np.concatenate(rows, axis=1).astype(float),
+        self.detector = Detector(Stack(np.concatenate(rows, axis=1).astype(float),
                                         np.concatenate(noise), tuple(shapes)))
 
     def sigma_b(self, effect: EffectSpec, severity: float) -> float:
         """How visible one effect is."""
-        return self._detector.separation(np.concatenate([
+        return self.detector.separation(self.signature(effect, severity))
+
+    def signature(self, effect: EffectSpec, severity: float) -> FloatArray:
+        """What one effect changes in all runs, one behind the other."""
+        return np.concatenate([
             np.zeros(size) if course is None else course.signature(effect, severity)[use].ravel()
-            for use, course, size in self._parts]))
+            for use, course, size in self._parts])

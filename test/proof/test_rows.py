@@ -21,14 +21,15 @@ BEYOND = "effects beyond six spreads of fault-free vehicles, among the causes na
 
 def scored(tmp_path: Path, write_case: Callable[..., Path], name: str, line: dict[str, Any],
            group: str = "null", effects: tuple[dict[str, Any], ...] = (),
-           sigma_b: float | None = None, individual: float | None = None
-           ) -> tuple[CaseScore, Any]:
+           sigma_b: float | None = None, individual: float | None = None,
+           apart: float | None = None) -> tuple[CaseScore, Any]:
     answer = write_case(tmp_path, name, group, effects)
     if sigma_b is not None or individual is not None:
         path, known = tmp_path / "sigma_b.json", {}
         if path.is_file():
             known = json.loads(path.read_text())
-        measured = {"sigma_b": [sigma_b] * len(effects), "individual": [individual] * len(effects)}
+        measured = {"sigma_b": [sigma_b] * len(effects),
+                    "individual": [individual] * len(effects), "apart": [apart] * len(effects)}
         path.write_text(json.dumps({**known, name: {
             key: one for key, one in measured.items() if one[0]}}))
     truth = read_truth(answer)
@@ -150,6 +151,21 @@ def test_a_pair_counts_where_both_exceed_what_sound_vehicles_differ_by(
     found = dict(rows([faint[0], plain[0]], {s.case: t for s, t in (faint, plain)}))
     both = found["both of a pair"]
     assert (both.hits, both.trials) == (0, 1)
+
+
+@pytest.mark.parametrize(("group", "row", "all_of_them"), [
+    ("unknown", "of no list, and no listed effect imitates it: unknown", "of no list: unknown"),
+    ("pair", "both of a pair, neither imitates the other", "both of a pair"),
+])
+def test_what_another_effect_imitates_is_left_out_of_a_row(
+        tmp_path: Path, write_case: Callable[..., Path], line: Maker, cause: Maker, group: str,
+        row: str, all_of_them: str) -> None:
+    """Both are as visible, but of one an effect of another name leaves two spreads."""
+    cases = [scored(tmp_path, write_case, name, line(name, "unknown"), group, (cause(),), 20.0,
+                    50.0, apart) for name, apart in (("a", 2.0), ("b", 12.0), ("c", None))]
+    found = dict(rows([s for s, _ in cases], {s.case: t for s, t in cases}))
+    assert found[all_of_them].trials == 3
+    assert found[row].trials == 1
 
 
 def test_the_words_of_a_row_say_what_it_counts(

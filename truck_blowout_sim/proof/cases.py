@@ -20,6 +20,7 @@ from truck_blowout_sim.errors import InputError
 LIBRARY = "library.json"  # beside the recordings: the model's vehicle, what it must do without
 VEHICLE = "international_9400i_trailmobile"
 SIGMA_B = "sigma_b.json"   # beside cases/ and answers/
+MEASURED = ("sigma_b", "individual", "apart")
 ROLES = ("train", "baseline", "holdout")
 NOTHING_MISSING = ("consistent", "miscalibrated")
 
@@ -76,6 +77,7 @@ class Cause:
         sigma: how visible it is in the training runs; None if not calibrated.
         sigma_b: how visible to an ideal detector of its world; None if not measured.
         individual: its strength in standard deviations of what fault-free vehicles differ by in it.
+        apart: sigma_b of what the nearest listed effect, or the other of a pair, leaves of it.
         onset_s: instant in each run, empty for what is always there.
         strength: (name, value, unit).
     """
@@ -88,6 +90,7 @@ class Cause:
     strength: tuple[str, float, str]
     sigma_b: float | None = None
     individual: float | None = None
+    apart: float | None = None
 
     @property
     def beyond_spread(self) -> float | None:
@@ -170,7 +173,7 @@ def truth_of(text: str, visibility: Mapping[str, Sequence[float]], file: Path) -
         group = str(tree["group"])
         verdicts = tree["verdicts"] if "verdicts" in tree else [tree["verdict"]]
         right = NOTHING_MISSING if group == "null" else tuple(map(str, verdicts))
-        seen = [list(map(float, visibility.get(key, ()))) for key in ("sigma_b", "individual")]
+        seen = [list(map(float, visibility.get(key, ()))) for key in MEASURED]
         causes = tuple(_cause(entry, *(one[k] if k < len(one) else None for one in seen))
                        for k, entry in enumerate(tree["effects"]))
         return Truth(group, right, causes, tuple(tree.get("missing_channels", ())))
@@ -180,7 +183,7 @@ def truth_of(text: str, visibility: Mapping[str, Sequence[float]], file: Path) -
 
 
 def visibility_of(answer: Path) -> dict[str, list[float]]:
-    """`sigma_b` of each effect of a case of a world, and its `individual`, where measured."""
+    """`sigma_b`, `individual` and `apart` of each effect of a case of a world, where measured."""
     path = answer.parents[1] / SIGMA_B
     if not path.is_file():
         return {}
@@ -188,10 +191,10 @@ def visibility_of(answer: Path) -> dict[str, list[float]]:
 
 
 def _cause(entry: Mapping[str, Any], sigma_b: float | None = None,
-           individual: float | None = None) -> Cause:
+           individual: float | None = None, apart: float | None = None) -> Cause:
     strength = entry["strength"] or {"name": "", "value": 0.0, "unit": ""}
     sigma = entry.get("sigma")
     return Cause(str(entry["name"]), str(entry["kind"]), dict(entry["where"]),
                  None if sigma is None else float(sigma), dict(entry.get("onset_s") or {}),
                  (str(strength["name"]), float(strength["value"]), str(strength["unit"])),
-                 sigma_b, individual)
+                 sigma_b, individual, apart)

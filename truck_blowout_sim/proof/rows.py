@@ -3,7 +3,8 @@
 An effect counts where an ideal detector sees it: sigma_b of at least 6, from ``sigma_b.json``
 beside the cases (`python -m proving_ground sigma`); without that file every effect counts. What
 fault-free vehicles differ by in the effect's own number is included: on a road that banks by no
-more than roads do, nothing is missing. One row leaves that out. An interval of an amount holds the
+more than roads do, nothing is missing. One row leaves that out. Two rows count what is as visible
+beside what imitates it best (`python -m proving_ground apart`). An interval of an amount holds the
 truth on a side that is open; an interval of an onset that is open is not counted.
 
 Validated with: test/proof/test_rows.py.
@@ -33,8 +34,10 @@ def rows(scores: Sequence[CaseScore], truths: Mapping[str, Truth]) -> list[Row]:
         return [s for s in scores if s.group == group]
 
     def seen(score: CaseScore) -> bool:
-        return all(c.visibility is None or c.visibility >= VISIBLE
-                   for c in truths[score.case].causes)
+        return all_seen(truths[score.case])
+
+    def alone(score: CaseScore) -> bool:
+        return seen(score) and none_imitated(truths[score.case])
 
     def share(chosen: Sequence[CaseScore], holds: Callable[[CaseScore], bool | None]
               ) -> Proportion:
@@ -60,8 +63,12 @@ def rows(scores: Sequence[CaseScore], truths: Mapping[str, Truth]) -> list[Row]:
          share(missing, lambda s: bool(wrong_names(s, truths[s.case])))),
         ("of no list: unknown", share([s for s in of("unknown") if seen(s)],
                                       lambda s: s.verdict == "unknown")),
+        ("of no list, and no listed effect imitates it: unknown",
+         share([s for s in of("unknown") if alone(s)], lambda s: s.verdict == "unknown")),
         ("both of a pair", share([s for s in of("pair") if seen(s)],
                                  lambda s: all(c.aliased for c in s.causes))),
+        ("both of a pair, neither imitates the other",
+         share([s for s in of("pair") if alone(s)], lambda s: all(c.aliased for c in s.causes))),
         ("instrument told from truck", share(missing, lambda s: s.kind_right)),
         ("instrument fault named", share(of("sensor"), lambda s: all(c.aliased for c in s.causes))),
         ("90 % intervals of amounts hold the truth", proportion(intervals)),
@@ -79,6 +86,16 @@ def rows(scores: Sequence[CaseScore], truths: Mapping[str, Truth]) -> list[Row]:
         ("p-value of 0.1 or less, nothing missing",
          share(of("null"), lambda s: None if s.p_value is None else s.p_value <= 0.1)),
     ]
+
+
+def all_seen(truth: Truth) -> bool:
+    """Whether every cause is visible, or nothing is known of how visible it is."""
+    return all(c.visibility is None or c.visibility >= VISIBLE for c in truth.causes)
+
+
+def none_imitated(truth: Truth) -> bool:
+    """Whether every cause is as visible beside what imitates it best."""
+    return all(c.apart is not None and c.apart >= VISIBLE for c in truth.causes)
 
 
 def better(score: CaseScore) -> bool | None:
