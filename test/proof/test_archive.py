@@ -101,6 +101,22 @@ def test_the_pages_say_what_the_published_answers_say(tmp_path: Path) -> None:
     assert worlds_table(figures, short=True) in readme
 
 
+def test_a_case_that_ends_in_an_error_counts_as_a_miss_and_names_no_folder(
+    tmp_path: Path, run: dict[str, dict[str, Any]], manifest: Callable[[Path], Path]
+) -> None:
+    cases, sealed = find_cases(tmp_path), manifest(tmp_path)
+    why = f"{tmp_path / 'cases' / 's'}/train_1.csv, line 9: no number"
+    broken = {**run, "s": {**run["s"], "answer": None, "error": why}}
+    entries = entries_of(cases, broken)
+    figures = score_entries(entries, sealed, tmp_path / "out", tmp_path)
+    named = next(row for row in figures["rows"] if "beyond six spreads" in row["row"])
+    assert (named["hits"], named["trials"]) == (0, 1)
+    assert [one["found"] for one in figures["causes"]] == [False]
+    assert figures["failed"] == {"s": "train_1.csv, line 9: no number"}
+    assert str(tmp_path) not in repr(entries)
+    assert ",error," in (tmp_path / "out" / "cases.csv").read_text()
+
+
 def test_the_sealed_text_is_kept_to_the_byte(tmp_path: Path, run: dict[str, dict[str, Any]]
                                              ) -> None:
     for case, entry in zip(find_cases(tmp_path), entries_of(find_cases(tmp_path), run),

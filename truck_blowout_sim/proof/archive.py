@@ -33,7 +33,7 @@ class Entry:
     Attributes:
         case: its name.
         truth: text of its sealed answer.
-        visibility: `sigma_b` and `individual` of its effects, where measured.
+        visibility: `sigma_b`, `individual` and `apart` of its effects, where measured.
         line: what the diagnosis answered, as in `results.jsonl`.
     """
 
@@ -46,7 +46,7 @@ class Entry:
 def entries_of(cases: Sequence[Case], lines: Mapping[str, Mapping[str, Any]]) -> list[Entry]:
     """Entries of all cases that have a line of results."""
     return [Entry(case.id, case.answer.read_text(encoding="utf-8"), visibility_of(case.answer),
-                  _short(lines[case.id])) for case in cases if case.id in lines]
+                  _short(lines[case.id], case.folder)) for case in cases if case.id in lines]
 
 
 def joined(before: Iterable[Entry], further: Iterable[Entry]) -> list[Entry]:
@@ -89,10 +89,10 @@ def score_entries(entries: Sequence[Entry], manifest: Path, out: Path, origin: P
     return score_answers(truths, lines, check_hashes(hashes, manifest), out)
 
 
-def _short(line: Mapping[str, Any]) -> dict[str, Any]:
+def _short(line: Mapping[str, Any], folder: Path) -> dict[str, Any]:
     answer = line["answer"]
-    if not answer:
-        return dict(line)
+    if not answer:     # where the cases lay says nothing elsewhere
+        return {**line, "error": str(line["error"]).replace(f"{folder}/", "")}
     kept = {key: answer[key] for key in _KEPT if key in answer}
     return {**line, "answer": {**kept, "fit": {"holdout": {
         when: answer["fit"]["holdout"][when] for when in ("before", "after")}}}}

@@ -14,7 +14,7 @@ from truck_blowout_sim.proof.cases import Case, Truth, read_truth
 from truck_blowout_sim.proof.causes import causes_told, wrongly_told
 from truck_blowout_sim.proof.figures import pictures
 from truck_blowout_sim.proof.rows import as_json, rows, rows_table, uniformity
-from truck_blowout_sim.proof.score import score_case
+from truck_blowout_sim.proof.score import no_answer, score_case
 from truck_blowout_sim.proof.seal import SealCheck, check_seals
 from truck_blowout_sim.proof.short import short_table
 from truck_blowout_sim.proof.summary import null_floor, summarize
@@ -48,14 +48,16 @@ def score_answers(truths: Mapping[str, Truth], lines: Mapping[str, Mapping[str, 
     figures["seals"] = asdict(seals)
     figures["optimizer_of_sparse_regression"] = optimizer_name()
     figures["code"] = sorted({str(lines[case].get("code")) for case in truths})
-    found, uniform = rows(scores, truths), uniformity(scores)
+    every = sorted([*scores, *(no_answer(case, truths[case]) for case in failed)],
+                   key=lambda score: score.case)
+    found, uniform = rows(every, truths), uniformity(scores)
     figures["rows"], figures["null_p_values_uniform"] = as_json(found), uniform
     figures["seen"] = seen_effects([
-        (cause.name, cause.visibility, scored.aliased) for score in scores
+        (cause.name, cause.visibility, scored.aliased) for score in every
         for scored, cause in zip(score.causes, truths[score.case].causes, strict=True)
         if cause.kind == "physics" and score.group in ("single", "pair")
         and cause.sigma_b is not None])
-    figures["causes"] = causes_told(scores, truths)
+    figures["causes"] = causes_told(every, truths)
     figures["wrongly_told"] = wrongly_told(scores, truths)
     figures["each"] = [asdict(score) for score in scores]
     out.mkdir(parents=True, exist_ok=True)
@@ -64,7 +66,7 @@ def score_answers(truths: Mapping[str, Truth], lines: Mapping[str, Mapping[str, 
         "" if len(figures["code"]) < 2 else
         f" The lines were made by {len(figures['code'])} versions of the code.")
     _write(out / "proof.md", markdown(figures, head, rows_table(found, uniform)))
-    _write(out / "cases.csv", cases_csv(scores, truths))
+    _write(out / "cases.csv", cases_csv(every, truths))
     _write(out / "parameters.csv", parameters_csv(figures))
     _write(out / "summary.md", short_table(figures) + "\n")
     for picture in pictures(figures):

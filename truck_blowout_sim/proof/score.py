@@ -16,6 +16,7 @@ from truck_blowout_sim.proof.cases import NOTHING_MISSING, Cause, Truth
 from truck_blowout_sim.proof.comparable import ParameterScore, compare_parameter
 
 ABRUPT = ("secondary_blowout", "payload_shift")
+ERROR = "error"
 # Map position and heading add up what speed and yaw rate are off by: seen there already.
 _SUMS = ("_x_m", "_y_m", "_yaw_rad")
 
@@ -116,6 +117,15 @@ def score_case(line: Mapping[str, Any], truth: Truth, floor: Mapping[str, float]
         wheel_channels="hub_speed" not in truth.missing, p_value=answer["null_p_value"],
         holdout=fitted(answer["fit"]["holdout"], floor), baselines=line["baselines"] or {},
         cpu_s=float(line["cpu_s"]))
+
+
+def no_answer(case: str, truth: Truth) -> CaseScore:
+    """A case whose diagnosis ended in an error: nothing named, and not found free of faults."""
+    return CaseScore(
+        case=case, group=truth.group, verdict=ERROR, right=False, named=(), aliases=(), kinds=(),
+        causes=tuple(score_cause(cause, (), ()) for cause in truth.causes),
+        wheel_channels="hub_speed" not in truth.missing, p_value=None, holdout=None, baselines={},
+        cpu_s=0.0)
 
 
 def score_cause(cause: Cause, effects: Sequence[Mapping[str, Any]],

@@ -16,7 +16,7 @@ from truck_blowout_sim.report.style import CYCLE, Picture, new_axes, styled
 
 Figures = Mapping[str, Any]
 Trials = list[tuple[str, bool]]
-BINS = (2.0, 6.0, 15.0, 40.0)  # of sigma_b; the last has no end
+BINS = (2.0, 6.0, 12.0, 18.0, 24.0)  # of sigma_b; the last has no end
 # sought in W1, W2, W3 and W4, by the words of `rows.py`
 SOUGHT: Mapping[str, tuple[str, str, str, str]] = {
     "false alarms, nothing missing": ("≤ 2 %",) * 4,
