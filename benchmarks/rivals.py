@@ -1,10 +1,11 @@
 """What the rivals reach on cases that are diagnosed already.
 
-    python -m benchmarks.rivals CASES RUN [WORKERS]
+    python -m benchmarks.rivals CASES RUN [WORKERS] [--most 60]
 
 RUN is what `truck-blowout prove --cases CASES -o RUN --no-baselines` wrote. Each case with physics
 missing that was not compared yet gets another line there, with the errors of the rivals beside that
 of the answer; the same command goes on after an interruption. Lines of other recordings are left.
+`--most`: so many such cases of the whole set, evenly spread.
 
 Validated with: test/benchmarks/test_rivals.py.
 """
@@ -22,13 +23,18 @@ import typer
 from benchmarks.page import start
 from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.proof.baselines.compare import baseline_errors
-from truck_blowout_sim.proof.cases import ROLES, Case, find_cases, read_truth
+from truck_blowout_sim.proof.cases import ROLES, Case, find_cases, read_truth, spread
 from truck_blowout_sim.proof.run import RESULTS, append, mixed, one_thread, read_lines
 from truck_blowout_sim.proof.seal import folder_hash
 from truck_blowout_sim.proof.summary import COMPARED
 from truck_blowout_sim.recordings import read_recording
 
 app = typer.Typer(no_args_is_help=True, add_completion=False, help=__doc__)
+
+
+def some(cases: Sequence[Case], most: int) -> list[Case]:
+    """At most so many of the cases with physics missing, evenly spread; 0: all."""
+    return spread([case for case in cases if read_truth(case.answer).group in COMPARED], most)
 
 
 def uncompared(cases: Sequence[Case], lines: Mapping[str, Mapping[str, Any]]) -> list[Case]:
@@ -64,11 +70,13 @@ def compare(cases: Sequence[Case], run: Path, workers: int) -> Iterator[tuple[st
 
 @app.command()
 def main(cases: Path, run: Path,
-         workers: Annotated[int, typer.Argument(help="processes")] = 2) -> None:
+         workers: Annotated[int, typer.Argument(help="processes")] = 2,
+         most: Annotated[int, typer.Option(help="so many cases, evenly spread; 0: all")] = 0
+         ) -> None:
     """Try the rivals."""
     if not (run / RESULTS).is_file():
         raise InputError("no answers", file=run, expected="what `truck-blowout prove -o` wrote")
-    for case, error in compare(find_cases(cases), run, workers):
+    for case, error in compare(some(find_cases(cases), most), run, workers):
         print(case, error, flush=True)
 
 

@@ -46,6 +46,9 @@ def test_only_answered_cases_with_physics_missing_are_compared(tmp_path: Path) -
     a_case(tmp_path, run, "w1-7", "pair", recordings_sha256="of others")
     chosen = rivals.uncompared(find_cases(tmp_path), read_lines(run / RESULTS))
     assert [case.id for case in chosen] == ["w1-1", "w1-4"]
+    assert [case.id for case in rivals.some(find_cases(tmp_path), 0)] == [
+        "w1-1", "w1-4", "w1-5", "w1-6", "w1-7"]
+    assert [case.id for case in rivals.some(find_cases(tmp_path), 2)] == ["w1-4", "w1-6"]
 
 
 def test_the_line_keeps_its_answer_and_gets_the_errors(

@@ -36,9 +36,6 @@ def rows(scores: Sequence[CaseScore], truths: Mapping[str, Truth]) -> list[Row]:
     def seen(score: CaseScore) -> bool:
         return all_seen(truths[score.case])
 
-    def alone(score: CaseScore) -> bool:
-        return seen(score) and none_imitated(truths[score.case])
-
     def share(chosen: Sequence[CaseScore], holds: Callable[[CaseScore], bool | None]
               ) -> Proportion:
         return proportion(map(holds, chosen))
@@ -61,16 +58,14 @@ def rows(scores: Sequence[CaseScore], truths: Mapping[str, Truth]) -> list[Row]:
          proportion(beyond)),
         ("a wrong name stated, something missing",
          share(missing, lambda s: bool(wrong_names(s, truths[s.case])))),
-        ("of no list: unknown", share([s for s in of("unknown") if seen(s)],
-                                      lambda s: s.verdict == "unknown")),
+        ("of no list: unknown", share([s for s in of("unknown") if seen(s)], said_unknown)),
         ("of no list, and no listed effect imitates it: unknown",
-         share([s for s in of("unknown") if alone(s)], lambda s: s.verdict == "unknown")),
-        ("both of a pair", share([s for s in of("pair") if seen(s)],
-                                 lambda s: all(c.aliased for c in s.causes))),
+         share([s for s in of("unknown") if none_imitated(truths[s.case])], said_unknown)),
+        ("both of a pair", share([s for s in of("pair") if seen(s)], all_told)),
         ("both of a pair, neither imitates the other",
-         share([s for s in of("pair") if alone(s)], lambda s: all(c.aliased for c in s.causes))),
+         share([s for s in of("pair") if none_imitated(truths[s.case])], all_told)),
         ("instrument told from truck", share(missing, lambda s: s.kind_right)),
-        ("instrument fault named", share(of("sensor"), lambda s: all(c.aliased for c in s.causes))),
+        ("instrument fault named", share(of("sensor"), all_told)),
         ("90 % intervals of amounts hold the truth", proportion(intervals)),
         ("90 % intervals of onsets hold the truth", proportion(onsets)),
         ("one effect: truth in the alias set, where something was named",
@@ -88,14 +83,24 @@ def rows(scores: Sequence[CaseScore], truths: Mapping[str, Truth]) -> list[Row]:
     ]
 
 
+def all_told(score: CaseScore) -> bool:
+    """Whether every cause is in an alias set."""
+    return all(c.aliased for c in score.causes)
+
+
+def said_unknown(score: CaseScore) -> bool:
+    """Whether the verdict is ``unknown``."""
+    return score.verdict == "unknown"
+
+
 def all_seen(truth: Truth) -> bool:
     """Whether every cause is visible, or nothing is known of how visible it is."""
     return all(c.visibility is None or c.visibility >= VISIBLE for c in truth.causes)
 
 
 def none_imitated(truth: Truth) -> bool:
-    """Whether every cause is as visible beside what imitates it best."""
-    return all(c.apart is not None and c.apart >= VISIBLE for c in truth.causes)
+    """Whether every cause is visible, and as visible beside what imitates it best."""
+    return all_seen(truth) and all(c.apart is not None and c.apart >= VISIBLE for c in truth.causes)
 
 
 def better(score: CaseScore) -> bool | None:

@@ -97,7 +97,8 @@ def power(figures: Mapping[str, Figures]) -> dict[str, list[tuple[float, Trials]
 @styled
 def draw_power_by_world(figures: Mapping[str, Figures]) -> Picture:
     """Share of effects named against what an ideal detector sees, a curve for each world."""
-    figure, axes = new_axes(x="sigma_b, the spread of fault-free vehicles included", y="share of effects named")
+    figure, axes = new_axes(x="sigma_b, the spread of fault-free vehicles included",
+                            y="share of effects named")
     place = np.arange(len(BINS), dtype=np.float64)
     for k, (world, bins) in enumerate(power(figures).items()):
         there = [(j, trials) for j, (_, trials) in enumerate(bins) if trials]
