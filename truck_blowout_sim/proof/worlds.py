@@ -39,7 +39,7 @@ def worlds_table(figures: Mapping[str, Figures], short: bool = False) -> str:
 
     Args:
         figures: of ``proof.json``, by world (``w1`` to ``w4``).
-        short: only rows in which something is sought.
+        short: only rows in which something is sought. Others are left out where nothing counts.
     """
     names = list(figures)
     reached = {world: {row["row"]: row for row in one["rows"]} for world, one in figures.items()}
@@ -49,6 +49,8 @@ def worlds_table(figures: Mapping[str, Figures], short: bool = False) -> str:
         if short and row not in SOUGHT:
             continue
         entries = [reached[world].get(row, {"hits": 0, "trials": 0}) for world in names]
+        if row not in SOUGHT and not any(entry["trials"] for entry in entries):
+            continue
         cells = [f"{SOUGHT.get(row, ('',) * 4)[int(world[1]) - 1]} | {counted(entry)}"
                  for world, entry in zip(names, entries, strict=True)]
         whole = Proportion(*(sum(one[key] for one in entries) for key in ("hits", "trials")))
