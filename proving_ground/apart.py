@@ -24,7 +24,7 @@ from proving_ground.effects import LISTED
 from proving_ground.effects.base import EffectKind
 from proving_ground.ensemble import Nulls
 from proving_ground.layout import FloatArray
-from proving_ground.visibility import RESULT, Seen, spec_of, world_of
+from proving_ground.visibility import RESULT, Seen, spec_of, world_of, write_result
 
 Apart = tuple[float, str]     # sigma_b beside the nearest other effect, and its name
 
@@ -47,7 +47,7 @@ def measure_apart(out: Path, nulls: Path, trucks: int) -> Iterator[tuple[str, li
         world = worlds.setdefault(world_of(spec), Nulls(world_of(spec), nulls, trucks))
         found = apart(spec, [one["severity"] for one in told["effects"]], Seen(spec, world))
         done[name] |= {"apart": [size for size, _ in found], "nearest": [near for _, near in found]}
-        path.write_text(json.dumps(done, indent=1) + "\n", encoding="utf-8")
+        write_result(out, done)
         yield name, found
 
 
@@ -57,10 +57,8 @@ def apart(spec: CaseSpec, severities: Sequence[float], seen: Seen) -> list[Apart
            for effect, severity in zip(spec.effects, severities, strict=False)]
     if spec.group == "unknown":
         return [nearest(signature, seen, others(spec)) for signature in own]
-    return [(_three_digits(min(seen.detector.separation(signature, other)
-                               for k, other in enumerate(own) if k != number)),
-             next(one.name for k, one in enumerate(spec.effects) if k != number))
-            for number, signature in enumerate(own)]
+    return [(_three_digits(seen.detector.separation(signature, other)), effect.name)
+            for signature, other, effect in zip(own, own[::-1], spec.effects[::-1], strict=True)]
 
 
 def others(spec: CaseSpec) -> list[EffectSpec]:

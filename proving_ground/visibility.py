@@ -42,13 +42,13 @@ def measure(out: Path, nulls: Path, trucks: int) -> Iterator[tuple[str, list[flo
             continue
         if later(spec.seed):
             done[answer.stem] |= known(answer.stem.partition("-")[0])[answer.stem]
-            _write(out, done)
+            write_result(out, done)
             continue
         world = worlds.setdefault(world_of(spec), Nulls(world_of(spec), nulls, trucks))
         found = visibility(spec, [e["severity"] for e in told["effects"][:len(spec.effects)]],
                            world)
         done[answer.stem] |= {"sigma_b": found, "trucks": trucks}
-        _write(out, done)
+        write_result(out, done)
         yield answer.stem, found
 
 
@@ -67,11 +67,12 @@ def count_spreads(out: Path) -> dict[str, Any]:
                       for effect in told["effects"][:len(spec.effects)]]
             done[answer.stem] = {**done.get(answer.stem, {}), "individual": [
                 float(f"{min(count, MOST):.3g}") for count in counts]}
-    _write(out, done)
+    write_result(out, done)
     return done
 
 
-def _write(out: Path, done: dict[str, Any]) -> None:
+def write_result(out: Path, done: dict[str, Any]) -> None:
+    """Keep what is known of every case."""
     (out / RESULT).write_text(json.dumps(done, indent=1) + "\n", encoding="utf-8")
 
 

@@ -33,9 +33,6 @@ def rows(scores: Sequence[CaseScore], truths: Mapping[str, Truth]) -> list[Row]:
     def of(group: str) -> list[CaseScore]:
         return [s for s in scores if s.group == group]
 
-    def seen(score: CaseScore) -> bool:
-        return all_seen(truths[score.case])
-
     def share(chosen: Sequence[CaseScore], holds: Callable[[CaseScore], bool | None]
               ) -> Proportion:
         return proportion(map(holds, chosen))
@@ -58,10 +55,12 @@ def rows(scores: Sequence[CaseScore], truths: Mapping[str, Truth]) -> list[Row]:
          proportion(beyond)),
         ("a wrong name stated, something missing",
          share(missing, lambda s: bool(wrong_names(s, truths[s.case])))),
-        ("of no list: unknown", share([s for s in of("unknown") if seen(s)], said_unknown)),
+        ("of no list: unknown",
+         share([s for s in of("unknown") if all_seen(truths[s.case])], said_unknown)),
         ("of no list, and no listed effect imitates it: unknown",
          share([s for s in of("unknown") if none_imitated(truths[s.case])], said_unknown)),
-        ("both of a pair", share([s for s in of("pair") if seen(s)], all_told)),
+        ("both of a pair",
+         share([s for s in of("pair") if all_seen(truths[s.case])], all_told)),
         ("both of a pair, neither imitates the other",
          share([s for s in of("pair") if none_imitated(truths[s.case])], all_told)),
         ("instrument told from truck", share(missing, lambda s: s.kind_right)),
