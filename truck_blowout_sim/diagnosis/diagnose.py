@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from truck_blowout_sim.diagnosis.answer.outcome import Material, answer, as_told, unexplained
+from truck_blowout_sim.diagnosis.case.antilock import MODE, Lockup, as_braked
 from truck_blowout_sim.diagnosis.case.calibration import calibrate
 from truck_blowout_sim.diagnosis.case.fingerprints import case_parts
 from truck_blowout_sim.diagnosis.case.names import names_apart
@@ -93,7 +94,8 @@ def diagnose(recordings: Sequence[Recording], *, baseline: Sequence[Recording] =
     check_each_once({"fitted": recordings, "baseline": baseline, "only predicted": holdout})
     recordings, baseline, holdout = names_apart(recordings, baseline, holdout)
     loaded = load_vehicle(vehicle) if isinstance(vehicle, str) else vehicle
-    packed = pack(loaded)
+    given = pack(loaded)
+    packed, lockup = as_braked(given, [*recordings, *baseline])
     rules = replace(load_settings(packed, settings), without=known_names(without))
     gate = sensor_gate(list(recordings), list(baseline), vehicle_geometry(loaded),
                        rules.alarms_by_instrument)
@@ -101,7 +103,7 @@ def diagnose(recordings: Sequence[Recording], *, baseline: Sequence[Recording] =
     if kept is not None:
         kept.begin(case_parts({"train": recordings, "baseline": baseline, "holdout": holdout},
                               packed, rules, (effort, impose_speed)))
-    case = _Case(recordings, baseline, holdout, packed, rules, effort, impose_speed,
+    case = _Case(recordings, baseline, holdout, given, packed, lockup, rules, effort, impose_speed,
                  workers or os.cpu_count() or 1, kept)
 
     def searched(gate: GateResult) -> tuple[Study, Found]:
@@ -128,7 +130,9 @@ class _Case:
     recordings: Sequence[Recording]
     baseline: Sequence[Recording]
     holdout: Sequence[Recording]
+    given: Packed
     packed: Packed
+    lockup: Lockup | None
     rules: Settings
     effort: Effort
     impose_speed: bool | None
@@ -237,7 +241,9 @@ def _with_truck(told: Diagnosis, material: Material, case: _Case) -> tuple[Diagn
     The instant of an event differs from run to run and is no property of a vehicle: where one was
     named, the figures stay those of the prediction, which locates it anew.
     """
-    before, after = _diagnosed(material, case.packed)
+    before, after = _diagnosed(material, case.given)
+    if case.lockup is not None:
+        after = replace(after, sources={**after.sources, MODE: case.lockup.sentence})
     evidence = replace(
         told.evidence, sources=tuple(after.sources.items()), findings=material.gate.findings,
         blowouts=tuple((r.name, event.time_s, " + ".join(event.tires))
@@ -248,6 +254,8 @@ def _with_truck(told: Diagnosis, material: Material, case: _Case) -> tuple[Diagn
         told = replace(told, holdout=driven_fit(
             runs, before.packed, case.packed.with_values(after.values),
             impose_speed=case.impose_speed, quanta=case.quanta))
+    if case.lockup is not None:
+        told = replace(told, sentence=f"{told.sentence} {case.lockup.sentence}")
     return replace(told, evidence=evidence), after
 
 
