@@ -4,14 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 from truck_blowout_sim.diagnosis import USUAL, diagnose
+from truck_blowout_sim.diagnosis.calibrate import calibrate, write_calibrated_vehicle
 from truck_blowout_sim.diagnosis.case.antilock import MODE, as_braked, lockups, sensed_axles
+from truck_blowout_sim.diagnosis.settings import Settings
 from truck_blowout_sim.recordings import Blowout, Recording, Series
-from truck_blowout_sim.vehicle import Packed
+from truck_blowout_sim.vehicle import Packed, pack
 
 Drives = Callable[..., Recording]
 ICE, NO_CONTROL = ("world.friction_scale", 0.15), (MODE, 0.0)
@@ -97,3 +100,12 @@ def test_the_answer_says_so_and_the_vehicle_has_none(truck: Packed, locked: Reco
     assert "anti-lock control does not work" in answer.sentence
     assert values[MODE] == 0.0
     assert "anti-lock" in dict(answer.evidence.sources)[MODE]
+
+
+def test_a_calibrated_truck_goes_without_it_too(truck: Packed, locked: Recording, few: Settings,
+                                                tmp_path: Path) -> None:
+    found = calibrate([locked], vehicle=truck.vehicle, settings=few, workers=1)
+    assert found.lockup is not None
+    assert found.notes[0] == found.lockup.sentence
+    written = pack(write_calibrated_vehicle(tmp_path / "mine.yaml", truck.vehicle, found))
+    assert written[MODE] == 0.0

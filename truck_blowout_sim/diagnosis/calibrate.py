@@ -22,6 +22,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from truck_blowout_sim.comparison import rms_errors
+from truck_blowout_sim.diagnosis.case.antilock import MODE, Lockup, as_braked
 from truck_blowout_sim.diagnosis.case.calibration import apply_amounts
 from truck_blowout_sim.diagnosis.case.calibration import calibrate as settle
 from truck_blowout_sim.diagnosis.case.names import names_apart
@@ -112,6 +113,7 @@ class Calibration:
         packed: the calibrated truck.
         notes: what a user must know.
         share: of the way to where linear sensitivities point that was gone; 0: the sheet was kept.
+        lockup: a wheel that stood, so that the calibrated truck goes without anti-lock control.
     """
 
     vehicle: str
@@ -123,6 +125,7 @@ class Calibration:
     packed: Packed
     notes: tuple[str, ...] = ()
     share: float = 1.0
+    lockup: Lockup | None = None
 
     @property
     def told(self) -> tuple[SheetNumber, ...]:
@@ -176,7 +179,7 @@ def calibrate(
     recordings, holdout = names_apart(recordings, holdout)
     tell = progress or _silent
     loaded = load_vehicle(vehicle) if isinstance(vehicle, str) else vehicle
-    packed = pack(loaded)
+    packed, lockup = as_braked(pack(loaded), recordings)
     rules = load_settings(packed, settings) if isinstance(settings, str) else settings
     rules = replace(rules, nuisances=tuple(replace(n, step=_FINER * n.step)
                                            for n in rules.nuisances))  # fmt: skip
@@ -204,7 +207,8 @@ def calibrate(
     return Calibration(
         loaded.name, tuple(r.name for r in recordings), tuple(r.name for r in holdout),
         _numbers(packed, rules.nuisances, amounts, spread, told, share), changes, found,
-        truck if share else packed, _notes(rules.nuisances, amounts, share), share)  # fmt: skip
+        truck if share else packed, _notes(rules.nuisances, amounts, share, lockup), share,
+        lockup)  # fmt: skip
 
 
 def write_calibrated_vehicle(
@@ -233,6 +237,8 @@ def write_calibrated_vehicle(
     runs = ", ".join(calibration.runs)
     sources = {name: f"calibrated on {runs}: {'; '.join(said.get(name, ['with another number']))}"
                for name in values}  # fmt: skip
+    if calibration.lockup is not None:
+        sources[MODE] = calibration.lockup.sentence
     words = "calibrated" if calibration.share else "not calibrated: the sheet was kept"
     return write_vehicle(path, base, values, sources, title=f"{calibration.vehicle}, {words}")
 
@@ -299,9 +305,10 @@ def _numbers(
     return tuple(sorted(found, key=lambda n: -abs(n.change) / n.prior_sigma))
 
 
-def _notes(sheet: Sequence[Nuisance], amounts: Floats, share: float) -> tuple[str, ...]:
+def _notes(sheet: Sequence[Nuisance], amounts: Floats, share: float, lockup: Lockup | None
+           ) -> tuple[str, ...]:
     """What a user must know of the result."""
-    notes = []
+    notes = [] if lockup is None else [lockup.sentence]
     if share == 0.0:
         tried = " or ".join(f"{one:.0%}" for one in _SHARES)
         notes.append(f"nothing was calibrated, the sheet was kept: moved {tried} of the way to "
