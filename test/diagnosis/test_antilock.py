@@ -14,7 +14,7 @@ from truck_blowout_sim.diagnosis.calibrate import calibrate, write_calibrated_ve
 from truck_blowout_sim.diagnosis.case.antilock import MODE, as_braked, lockups, sensed_axles
 from truck_blowout_sim.diagnosis.settings import Settings
 from truck_blowout_sim.recordings import Blowout, Recording, Series
-from truck_blowout_sim.vehicle import Packed, pack
+from truck_blowout_sim.vehicle import Packed, pack, write_vehicle
 
 Drives = Callable[..., Recording]
 ICE, NO_CONTROL = ("world.friction_scale", 0.15), (MODE, 0.0)
@@ -91,15 +91,18 @@ def test_without_hub_speeds_the_sheet_is_believed(truck: Packed, locked: Recordi
     assert as_braked(truck, [few]) == (truck, None)
 
 
-def test_the_answer_says_so_and_the_vehicle_has_none(truck: Packed, locked: Recording,
-                                                     drive_of: Drives) -> None:
-    usual = drive_of(truck, (NO_CONTROL,), 2, 0.0, "usual", 1.5e5)
-    quick = replace(USUAL, next_run=False)
-    answer, values = diagnose([locked], baseline=[usual], vehicle=truck.vehicle, effort=quick,
-                              workers=1)
-    assert "anti-lock control does not work" in answer.sentence
+def test_nothing_else_is_wrong_with_a_truck_that_slides_as_its_model_does(
+    truck: Packed, locked: Recording, drive_of: Drives, tmp_path: Path
+) -> None:
+    on_ice = write_vehicle(tmp_path / "on_ice.yaml", truck.vehicle, dict([ICE]))
+    gentle = drive_of(pack(on_ice), (NO_CONTROL,), 2, 0.0, "gentle", 3e4)
+    answer, values = diagnose([locked], baseline=[gentle], vehicle=on_ice, workers=1,
+                              effort=replace(USUAL, next_run=False))
+    assert answer.verdict == "miscalibrated"
+    assert not answer.effects
+    assert "The anti-lock control does not work" in answer.sentence
     assert values[MODE] == 0.0
-    assert "anti-lock" in dict(answer.evidence.sources)[MODE]
+    assert "stood for" in dict(answer.evidence.sources)[MODE]
 
 
 def test_a_calibrated_truck_goes_without_it_too(truck: Packed, locked: Recording, few: Settings,

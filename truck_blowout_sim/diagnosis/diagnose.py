@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from truck_blowout_sim.diagnosis.answer.outcome import Material, answer, as_told, unexplained
-from truck_blowout_sim.diagnosis.case.antilock import MODE, Lockup, as_braked
+from truck_blowout_sim.diagnosis.case.antilock import MODE, as_braked
 from truck_blowout_sim.diagnosis.case.calibration import calibrate
 from truck_blowout_sim.diagnosis.case.fingerprints import case_parts
 from truck_blowout_sim.diagnosis.case.names import names_apart
@@ -103,7 +103,7 @@ def diagnose(recordings: Sequence[Recording], *, baseline: Sequence[Recording] =
     if kept is not None:
         kept.begin(case_parts({"train": recordings, "baseline": baseline, "holdout": holdout},
                               packed, rules, (effort, impose_speed)))
-    case = _Case(recordings, baseline, holdout, given, packed, lockup, rules, effort, impose_speed,
+    case = _Case(recordings, baseline, holdout, given, packed, rules, effort, impose_speed,
                  workers or os.cpu_count() or 1, kept)
 
     def searched(gate: GateResult) -> tuple[Study, Found]:
@@ -117,7 +117,7 @@ def diagnose(recordings: Sequence[Recording], *, baseline: Sequence[Recording] =
     if len(believed) < len(gate.findings) and not effort.coarse:
         gate = replace(gate, findings=believed)
         study, found = searched(gate)
-    material = _material(study, found, gate, loaded.name, effort, progress)
+    material = replace(_material(study, found, gate, loaded.name, effort, progress), lockup=lockup)
     told = answer(material)
     told, truck = _with_truck(told, material, case)
     return told, truck.values
@@ -132,7 +132,6 @@ class _Case:
     holdout: Sequence[Recording]
     given: Packed
     packed: Packed
-    lockup: Lockup | None
     rules: Settings
     effort: Effort
     impose_speed: bool | None
@@ -242,8 +241,8 @@ def _with_truck(told: Diagnosis, material: Material, case: _Case) -> tuple[Diagn
     named, the figures stay those of the prediction, which locates it anew.
     """
     before, after = _diagnosed(material, case.given)
-    if case.lockup is not None:
-        after = replace(after, sources={**after.sources, MODE: case.lockup.sentence})
+    if material.lockup is not None:
+        after = replace(after, sources={**after.sources, MODE: material.lockup.sentence})
     evidence = replace(
         told.evidence, sources=tuple(after.sources.items()), findings=material.gate.findings,
         blowouts=tuple((r.name, event.time_s, " + ".join(event.tires))
@@ -254,8 +253,6 @@ def _with_truck(told: Diagnosis, material: Material, case: _Case) -> tuple[Diagn
         told = replace(told, holdout=driven_fit(
             runs, before.packed, case.packed.with_values(after.values),
             impose_speed=case.impose_speed, quanta=case.quanta))
-    if case.lockup is not None:
-        told = replace(told, sentence=f"{told.sentence} {case.lockup.sentence}")
     return replace(told, evidence=evidence), after
 
 

@@ -13,6 +13,7 @@ from scipy.stats import chi2
 from truck_blowout_sim.diagnosis.answer import evidence, words
 from truck_blowout_sim.diagnosis.answer.further_baseline import further_baseline
 from truck_blowout_sim.diagnosis.answer.told import alias_set, physics_effect, sensor_effects
+from truck_blowout_sim.diagnosis.case.antilock import Lockup
 from truck_blowout_sim.diagnosis.case.study import Study
 from truck_blowout_sim.diagnosis.fit.quantiles import NINETY
 from truck_blowout_sim.diagnosis.locate.beat import Beat
@@ -66,6 +67,7 @@ class Material:
         arms: of each effect's amount by profile likelihood and jackknife, by key, if asked for.
         beat: a periodic force too fast for the bins; ``lag``: a wheel that a drag holds back;
             ``posture``: a body that stands turned; ``unrest``: a channel that nothing calms.
+        lockup: a wheel that stood, so that the model goes without anti-lock control.
     """
 
     study: Study
@@ -82,6 +84,7 @@ class Material:
     lag: Lag | None = None
     posture: Posture | None = None
     unrest: Unrest = field(default_factory=Unrest)
+    lockup: Lockup | None = None
 
     @cached_property
     def squares(self) -> tuple[float, ...]:
@@ -117,7 +120,7 @@ def answer(material: Material) -> Diagnosis:
     return Diagnosis(
         verdict=verdict, sentence=words.verdict_sentence(
             verdict, effects, pulled(material), material.law if unexplained(material) else None,
-            material.signs),
+            material.signs, material.lockup),
         effects=tuple(effects), alias_sets=tuple(aliases), location=locate(material),
         train=fit(told, "train"), holdout=fit(told, "holdout"),
         null_p_value=chance_of_all(material, verdict), next_test=next_test,
@@ -168,7 +171,7 @@ def decide(material: Material) -> Verdict:
         return "missing_physics"
     if gate.findings or found.named:
         return "sensor_artefact"
-    return "miscalibrated" if pulled(material) else "consistent"
+    return "miscalibrated" if pulled(material) or material.lockup else "consistent"
 
 
 def _beats(material: Material) -> bool:

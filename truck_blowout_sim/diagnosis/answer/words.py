@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from math import isfinite
 
+from truck_blowout_sim.diagnosis.case.antilock import Lockup
 from truck_blowout_sim.diagnosis.case.study import Study
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.locate.beat import Beat
@@ -49,14 +50,24 @@ def open_ends(ends: Interval) -> str:
 
 def verdict_sentence(verdict: Verdict, effects: Sequence[Effect],
                      pulled: Sequence[tuple[str, float]], law: Law | None,
-                     signs: Sequence[Sign] = ()) -> str:
-    """The verdict in words; ``law``: of a force left unexplained, ``signs``: what else shows."""
+                     signs: Sequence[Sign] = (), lockup: Lockup | None = None) -> str:
+    """The verdict in words.
+
+    ``law``: of a force left unexplained, ``signs``: what else shows; ``lockup``: of a wheel that
+    stood, whatever else is wrong.
+    """
+    said = _verdict(verdict, effects, pulled, law, signs)
+    return said if lockup is None else f"{said} {lockup.sentence}"
+
+
+def _verdict(verdict: Verdict, effects: Sequence[Effect], pulled: Sequence[tuple[str, float]],
+             law: Law | None, signs: Sequence[Sign]) -> str:
     if verdict == "consistent":
         return ("The model explains these recordings within what instruments and trucks of one "
                 "kind differ; nothing is missing that they could show.")
     if verdict == "miscalibrated":
         names = ", ".join(f"{n.replace('_', ' ')} ({a:+.1f} sigma)" for n, a in pulled[:3])
-        return f"No physics is missing, but the sheet is off: {names}."
+        return f"No physics is missing, but the sheet is off{': ' if names else ''}{names}."
     said = [] if verdict == "unknown" else [effect.sentence for effect in effects]
     if law is not None:
         said.append(f"Something acts on the {law.body} that no known effect explains; its plainest "
