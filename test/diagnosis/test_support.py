@@ -105,3 +105,18 @@ def test_instants_of_hundreds_of_runs_are_paid_for(study_of: Studies, truck: Pac
         gust) for count in (1, 400))
     assert one == pytest.approx(effect.edges * np.log(grid_of(run, effect).size))
     assert many == pytest.approx(400.0 * one)
+
+
+def test_an_unseen_run_that_nothing_explains_does_not_set_the_numbers_of_the_sheet(
+    study_of: Studies, truck: Packed
+) -> None:
+    """Its instruments swing by hundreds of their widths: the other runs still tell of the brake."""
+    joined = study_of(weak_brake(truck), holdout=weak_brake(truck), baseline=True)
+    spoiled = []
+    for run in joined.holdout:
+        swing = np.sin(np.arange(run.measured.shape[0]) / 5.0)[:, None]
+        spoiled.append(replace(run, measured=run.measured + 300.0 * run.sigma * swing))
+    found = support_of(replace(joined, holdout=tuple(spoiled)), "brake_imbalance", -0.5, HUB)
+    assert found > CHANCE.asked
+    assert found > 0.5 * support_of(study_of(weak_brake(truck), baseline=True),
+                                    "brake_imbalance", -0.5, HUB)

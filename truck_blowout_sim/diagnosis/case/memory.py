@@ -12,7 +12,7 @@ import numpy as np
 from truck_blowout_sim.diagnosis.case.study import Study, instrument_names
 from truck_blowout_sim.errors import InputError
 
-_COPIES = 3  # of the sensitivities: run by run, joined, and joined with the unseen runs
+_COPIES = 4  # of the sensitivities: run by run, joined, joined with the unseen runs, weighed
 _GB = 1e9
 
 

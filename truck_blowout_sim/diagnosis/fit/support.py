@@ -4,7 +4,8 @@ Runs of every role are asked how much of it each of them shows: baseline runs, w
 none of it, and unseen runs, which the amount was not fitted to.
 
 References, known limits: see `scatter.py`. What begins at an instant, or is met on the way, is
-asked of training only; wind, slope and load from an instant on by `windows.py`.
+asked of training only; wind, slope and load from an instant on by `windows.py`. What nothing
+explains weighs less: `run_weights.py`.
 Validated with: test/diagnosis/test_support.py.
 """
 
@@ -26,6 +27,7 @@ from truck_blowout_sim.diagnosis.fit.attribute import Ranked
 from truck_blowout_sim.diagnosis.fit.instants import grid_of
 from truck_blowout_sim.diagnosis.fit.linear import Projector
 from truck_blowout_sim.diagnosis.fit.models import models_at, with_effects
+from truck_blowout_sim.diagnosis.fit.run_weights import run_weights
 from truck_blowout_sim.diagnosis.fit.scatter import Chance
 from truck_blowout_sim.diagnosis.fit.shown import Part, Shown, parts_of
 from truck_blowout_sim.diagnosis.fit.width_error import degrees_of, most_supported
@@ -65,44 +67,83 @@ class Beside:
                       manners)
 
 
+@dataclass(frozen=True, eq=False)
+class _Asked:
+    """What all runs that are asked hold of a hypothesis.
+
+    Attributes:
+        projector: of the nuisances; ``residual``: [rows] before the hypothesis is in force.
+        column: [rows] of what it changes per unit, where it may act.
+        parts: the same run by run, of baseline runs too.
+    """
+
+    projector: Projector
+    residual: Floats
+    column: Floats
+    parts: tuple[Part, ...]
+
+    def weighed(self, study: Study, away: float) -> _Asked:
+        """Every run with its weight: less where it is left with more than its widths allow.
+
+        Else a run that nothing explains would set the nuisances of all.
+        """
+        size = np.sqrt(run_weights(study, self.projector, self.residual - away * self.column))
+        if not (size < 1.0).any():
+            return self
+        columns = self.projector.columns * size[:, None]
+        return _Asked(Projector.of(columns, self.projector.kept.tolist()), self.residual * size,
+                      self.column * size, tuple(replace(part, column=part.column * size[part.rows])
+                                                for part in self.parts))
+
+    def left(self, away: float) -> Floats:
+        """What remains of the rows with the hypothesis ``away`` from neutral."""
+        return self.projector.remove(self.residual - away * self.column)
+
+    def shown(self, strays: tuple[float, ...], away: float) -> Shown | None:
+        """What each run shows of amounts up to ``away``."""
+        return Shown.of(self.projector, self.projector.remove(self.residual), self.parts, strays,
+                        (min(away, 0.0), max(away, 0.0)), self.left(away))
+
+
 def supported(study: Study, one: Ranked, beside: Beside, chance: Chance) -> Ranked:
     """The same with its support, for amounts up to the one that was fitted.
 
     No more than what it explains supports where widths are estimates; see `width_error.py`.
     """
-    h, models = one.hypothesis, beside.models
+    h = one.hypothesis
     away = h.amount - h.effect.neutral(study.packed)
     if away == 0.0 or (one.refitted and one.delta <= 0.0):
         return replace(one, support=0.0)
-    changed = models_at(study, [h], beside.named)[0]
-    if not h.effect.timed:
-        changed |= dict(zip(study.baseline, study.simulate(
-            [(study.runs[i], h.apply(study.packed, "")) for i in study.baseline]), strict=True))
-    rows, residual = row_ranges(study), study.residual(dict(enumerate(models)))
-    columns = {i: study.runs[i].change(model, models[i]) / away for i, model in changed.items()}
-    parts = [part for i, column in columns.items() for part in parts_of(
-        study.runs[i], rows[i].start, column * _telling(study, study.runs[i], h),
-        i in study.train, study.settings.episode_s, None if h.effect.timed else beside.driven[i])]
-    projector, more, changes = study.projector([*beside.named, h]), list[Part](), list[Floats]()
-    if beside.unseen and asks_unseen(h, beside.named):
-        projector, residual, more, changes = _with_unseen(study, projector, residual, h, beside,
-                                                          away)
-    fitted = np.concatenate([study.stack({i: c for i, c in columns.items() if i in study.train}),
-                             *changes])
-    removed = projector.remove(residual)
-    left = removed - away * projector.remove(fitted)
-    shown = Shown.of(projector, removed, [*parts, *more],
-                     h.effect.strays(study.packed, study.grip_used),
-                     (min(away, 0.0), max(away, 0.0)), left)
+    asked = _asked(study, h, beside, away)
+    left = asked.left(away)
+    shown = asked.weighed(study, away).shown(h.effect.strays(study.packed, study.grip_used), away)
     if shown is None:
         return replace(one, support=0.0)
-    change = away * fitted[:study.columns.shape[0]]
+    change = away * asked.column[:study.columns.shape[0]]
     scatter = chance.beside(h.key, change, study.columns.T @ change, left)
     support = scatter.support(shown, _log_choices(study, h))
     if one.refitted:
         runs = len(study.baseline or study.train)
         support = min(support, most_supported(one.evidence, degrees_of(runs)))
     return replace(one, support=support)
+
+
+def _asked(study: Study, h: Hypothesis, beside: Beside, away: float) -> _Asked:
+    """What the fitted runs hold of a hypothesis, and the unseen ones where these are asked."""
+    models, rows = beside.models, row_ranges(study)
+    changed = models_at(study, [h], beside.named)[0]
+    if not h.effect.timed:
+        changed |= dict(zip(study.baseline, study.simulate(
+            [(study.runs[i], h.apply(study.packed, "")) for i in study.baseline]), strict=True))
+    columns = {i: study.runs[i].change(model, models[i]) / away for i, model in changed.items()}
+    parts = tuple(part for i, column in columns.items() for part in parts_of(
+        study.runs[i], rows[i].start, column * _telling(study, study.runs[i], h),
+        i in study.train, study.settings.episode_s, None if h.effect.timed else beside.driven[i]))
+    seen = _Asked(study.projector([*beside.named, h]), study.residual(dict(enumerate(models))),
+                  study.stack({i: c for i, c in columns.items() if i in study.train}), parts)
+    if beside.unseen and asks_unseen(h, beside.named):
+        return _with_unseen(study, seen, h, beside, away)
+    return seen
 
 
 def asks_unseen(h: Hypothesis, named: Sequence[Hypothesis]) -> bool:
@@ -130,11 +171,11 @@ def _at_lost_tire(study: Study, run: Run, h: Hypothesis) -> bool:
     return bool(lost & set(own))
 
 
-def _with_unseen(study: Study, seen: Projector, residual: Floats, h: Hypothesis, beside: Beside,
-                 away: float) -> tuple[Projector, Floats, list[Part], list[Floats]]:
-    """Nuisances and residual of the unseen runs too, and what the hypothesis changes in these."""
-    projector = Projector.of(beside.columns, seen.kept.tolist(), beside.gram)
-    first, parts, changes = residual.size, list[Part](), list[Floats]()
+def _with_unseen(study: Study, seen: _Asked, h: Hypothesis, beside: Beside, away: float) -> _Asked:
+    """The same with the unseen runs behind the fitted ones."""
+    kept = seen.projector.kept.tolist()
+    residuals, changes, parts = [seen.residual], [seen.column], list(seen.parts)
+    first = seen.residual.size
     for run, base, model, manner in zip(
             study.holdout, beside.unseen, _unseen(study, (*beside.named, h)),
             beside.driven[len(study.runs):], strict=True):
@@ -142,9 +183,10 @@ def _with_unseen(study: Study, seen: Projector, residual: Floats, h: Hypothesis,
         parts += parts_of(run, first, change * _telling(study, run, h), True,
                           study.settings.episode_s, manner)
         changes.append(change)
-        residual = np.concatenate([residual, run.residual(base)])
+        residuals.append(run.residual(base))
         first += change.size
-    return projector, residual, parts, changes
+    return _Asked(Projector.of(beside.columns, kept, beside.gram), np.concatenate(residuals),
+                  np.concatenate(changes), tuple(parts))
 
 
 def _unseen(study: Study, effects: Sequence[Hypothesis]) -> list[Floats]:
