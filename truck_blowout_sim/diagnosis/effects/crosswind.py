@@ -2,11 +2,9 @@
 
 Where the wind takes hold is known of no vehicle on the road: the centre of pressure of cars lies
 between the middle of the wheelbase and 0.3 wheelbases ahead of it, and a gust takes hold of one end
-first. So a wind is asked for at three places. The search ends at gusts that tear roofs off: tornado
-class EF2.
+first. So a wind is asked for at three places.
 
-References: Hucho 1998, ch. 5 (side force and yawing moment of road vehicles); enhanced Fujita scale
-(EF2: gusts of 50 to 60 m/s).
+References: Hucho 1998, ch. 5 (side force and yawing moment of road vehicles).
 """
 
 from __future__ import annotations
@@ -34,7 +32,7 @@ def _wind(packed: Packed, place: Place, amount: float, ahead: float) -> Values:
 
 EFFECT = Effect(
     name="crosswind",
-    amount=Amount("wind_speed_mps", "m/s", step=3.0, low=-60.0, high=60.0, material=4.5,
+    amount=Amount("wind_speed_mps", "m/s", step=3.0, low=-40.0, high=40.0, material=4.5,
                   source="turbulence of a fifth of a fresh breeze, 11 m/s: 2.2 m/s (1 sigma)"),
     places=each_unit,
     values=lambda packed, place, a: _wind(packed, place, a, 0.0),
