@@ -19,15 +19,16 @@ from dataclasses import dataclass
 import numpy as np
 
 from truck_blowout_sim.diagnosis.case.trust import BRAKES_ON_PA
+from truck_blowout_sim.diagnosis.sensors.hubs import TURNS_RADPS
 from truck_blowout_sim.recordings import Recording
 from truck_blowout_sim.vehicle import Packed, Vehicle
 from truck_blowout_sim.vehicle.schema.controls import ABS_MODES
+from truck_blowout_sim.vehicle.vehicle import hubs_of_axle
 
 MODE = "abs.mode"
 _OFF, _EACH_WHEEL = (float(ABS_MODES.index(mode)) for mode in ("off", "slip_threshold"))
 _FAST_MPS = 8.94  # 20 mph
 _MOMENT_S = 1.0
-_TURNS_RADPS = 1.0  # slower wheels stand, as far as their sensors tell
 
 
 @dataclass(frozen=True)
@@ -77,7 +78,7 @@ def lockups(packed: Packed, recording: Recording) -> Iterator[Lockup]:
     vehicle = packed.vehicle
     lost = {vehicle.hub_of_tire(tire) for event in recording.blowouts for tire in event.tires}
     for axle in sensed_axles(vehicle, each=packed[MODE] == _EACH_WHEEL):
-        for hub in (hub for hub in vehicle.hubs if vehicle.axle_of_hub(hub) == axle):
+        for hub in hubs_of_axle(axle):
             found = None if hub in lost else _longest(vehicle, recording, axle, hub)
             if found is not None:
                 yield found
@@ -102,8 +103,8 @@ def _longest(vehicle: Vehicle, recording: Recording, axle: str, hub: str) -> Loc
         return None
     spin = recording[names[0]]
     speed, pressure = (recording[name].at(spin.time_s) for name in names[1:])
-    turned = np.maximum.accumulate(np.abs(spin.value)) > _TURNS_RADPS
-    stands = ((np.abs(spin.value) < _TURNS_RADPS) & turned & (speed > _FAST_MPS)
+    turned = np.maximum.accumulate(np.abs(spin.value)) > TURNS_RADPS
+    stands = ((np.abs(spin.value) < TURNS_RADPS) & turned & (speed > _FAST_MPS)
               & (pressure > BRAKES_ON_PA))
     edges = np.flatnonzero(np.diff(np.concatenate(([0], stands.astype(np.int8), [0]))))
     first, last = edges[::2], edges[1::2] - 1

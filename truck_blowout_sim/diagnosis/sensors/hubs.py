@@ -32,7 +32,7 @@ _SLOWEST_MPS = 4.0
 _HARD_TURN_MPS2 = 2.0
 _TURN_S = 0.5
 _MODEL_SIGMA_MPS = 0.01
-_TURNS_RADPS = 1.0  # slower wheels stand, as far as their sensors tell
+TURNS_RADPS = 1.0  # slower wheels stand, as far as their sensors tell
 _FEWEST = 50  # samples for a radius
 
 
@@ -76,7 +76,7 @@ def rolling_radii(all_signals: Sequence[Signals], geometry: Geometry) -> Mapping
             for channel in hub_channels(signals, unit, geometry):
                 sound = free & _sound(signals, channel)
                 speed = signals[n["vx"]] - signals[n["r"]] * geometry.hub_left_m(hub_of(channel))
-                usable = sound & (signals[channel] > _TURNS_RADPS) & np.isfinite(speed)
+                usable = sound & (signals[channel] > TURNS_RADPS) & np.isfinite(speed)
                 if usable.sum() > _FEWEST:
                     ratio = speed[usable] / signals[channel][usable]
                     ratios.setdefault(channel, []).append(ratio)
@@ -127,7 +127,7 @@ def _axle_identity(signals: Signals, pair: tuple[str, str], geometry: Geometry) 
         return None
     track_m = geometry.hub_left_m(hub_of(left)) - geometry.hub_left_m(hub_of(right))
     both = 0.5 * (signals[left] + signals[right])
-    asked = _asked(signals, unit) & (both > _TURNS_RADPS) & np.isfinite(signals[n["vx"]])
+    asked = _asked(signals, unit) & (both > TURNS_RADPS) & np.isfinite(signals[n["vx"]])
     if asked.sum() <= _FEWEST:
         return None
     masked = np.where(asked, 0.0, np.nan)
