@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from truck_blowout_sim.comparison import Comparison
 from truck_blowout_sim.comparison.pairing import Pair
 from truck_blowout_sim.comparison.provenance import MARKS, Marks
+from truck_blowout_sim.recordings.stretches import unbroken
 from truck_blowout_sim.report.style import INK, MODEL, SOFT, in_legend, mark_events
 
 Floats = NDArray[np.float64]
@@ -93,5 +94,4 @@ def _unit(name: str) -> float:
 
 def _runs(chosen: NDArray[np.bool_]) -> list[tuple[int, int]]:
     """First and one past the last index of each unbroken run, one further so that lines join."""
-    edges = np.flatnonzero(np.diff(np.concatenate(([0], chosen.astype(np.int8), [0]))))
-    return [(int(a), min(int(b) + 1, chosen.size)) for a, b in edges.reshape(-1, 2)]
+    return [(first, min(end + 1, chosen.size)) for first, end in unbroken(chosen)]

@@ -21,6 +21,7 @@ import numpy as np
 from truck_blowout_sim.diagnosis.case.trust import BRAKES_ON_PA
 from truck_blowout_sim.diagnosis.sensors.hubs import TURNS_RADPS
 from truck_blowout_sim.recordings import Recording
+from truck_blowout_sim.recordings.stretches import unbroken
 from truck_blowout_sim.vehicle import Packed, Vehicle
 from truck_blowout_sim.vehicle.schema.controls import ABS_MODES
 from truck_blowout_sim.vehicle.vehicle import hubs_of_axle
@@ -106,12 +107,11 @@ def _longest(vehicle: Vehicle, recording: Recording, axle: str, hub: str) -> Loc
     turned = np.maximum.accumulate(np.abs(spin.value)) > TURNS_RADPS
     stands = ((np.abs(spin.value) < TURNS_RADPS) & turned & (speed > _FAST_MPS)
               & (pressure > BRAKES_ON_PA))
-    edges = np.flatnonzero(np.diff(np.concatenate(([0], stands.astype(np.int8), [0]))))
-    first, last = edges[::2], edges[1::2] - 1
-    if not first.size:
+    times = [(float(spin.time_s[first]), float(spin.time_s[end - 1]), first)
+             for first, end in unbroken(stands)]
+    if not times:
         return None
-    k = int(np.argmax(spin.time_s[last] - spin.time_s[first]))
-    start_s, end_s = float(spin.time_s[first[k]]), float(spin.time_s[last[k]])
+    start_s, end_s, first = max(times, key=lambda one: one[1] - one[0])
     if end_s - start_s <= _MOMENT_S:
         return None
-    return Lockup(recording.name, hub, start_s, end_s, float(speed[first[k]]))
+    return Lockup(recording.name, hub, start_s, end_s, float(speed[first]))

@@ -239,6 +239,11 @@ def instrument_columns(study: Study, run: Run) -> list[Floats]:
 
 def row_ranges(study: Study) -> list[slice]:
     """Rows of each run in the stack."""
-    ends = np.cumsum([run.measured.size for run in study.runs])
+    return rows_of(study.runs)
+
+
+def rows_of(runs: Sequence[Run]) -> list[slice]:
+    """Rows of each run where these are stacked."""
+    ends = np.cumsum([run.measured.size for run in runs])
     return [slice(int(end - run.measured.size), int(end))
-            for end, run in zip(ends, study.runs, strict=True)]
+            for end, run in zip(ends, runs, strict=True)]

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from truck_blowout_sim.diagnosis.case.runs import Run
-from truck_blowout_sim.diagnosis.case.study import Study
+from truck_blowout_sim.diagnosis.case.study import Study, rows_of
 from truck_blowout_sim.diagnosis.fit.linear import Projector
 
 Floats = NDArray[np.float64]
@@ -33,7 +33,9 @@ def run_weights(study: Study, projector: Projector, rest: Floats) -> Floats:
         rest: [rows] what they are to explain: of the fitted runs, and of the unseen ones behind
             these if there are so many rows.
     """
-    runs = _runs_and_rows(study, rest.size)
+    every = (*study.runs, *study.holdout)
+    runs = [(run, rows) for run, rows in zip(every, rows_of(every), strict=True)
+            if rows.start < rest.size]
     grams = np.stack([_gram(projector, rows) for _, rows in runs])
     common = np.stack([projector.reach(rest[rows], rows) for _, rows in runs])
     weights: Floats = np.ones(len(runs))
@@ -60,13 +62,3 @@ def _weight(run: Run, left: Floats) -> float:
     """By the mean square of what is left of the samples that there are."""
     seen = max(int(np.isfinite(run.measured).sum()), 1)
     return 1.0 / max(float(left @ left) / seen, 1.0)
-
-
-def _runs_and_rows(study: Study, size: int) -> list[tuple[Run, slice]]:
-    """Runs of so many rows, with theirs: unseen ones behind the others, if they are asked."""
-    found, first = list[tuple[Run, slice]](), 0
-    for run in (*study.runs, *study.holdout):
-        if first < size:
-            found.append((run, slice(first, first + run.measured.size)))
-            first += run.measured.size
-    return found
