@@ -13,6 +13,7 @@ import pytest
 from truck_blowout_sim.diagnosis.answer.outcome import (
     Material,
     answer,
+    cautions,
     decide,
     locate,
     pulled,
@@ -146,14 +147,19 @@ def test_what_a_corrected_instrument_leaves_is_nothing_unknown(pushed: Study) ->
     assert decide(material(pushed, faults=1)) == "sensor_artefact"
 
 
-def test_without_baseline_runs_only_a_gross_mismatch_is_unknown(
+def test_without_baseline_runs_a_gross_mismatch_is_said_and_blamed_on_nothing(
     study_of: Studies, truck: Packed
 ) -> None:
+    """Instruments that drift leave as much as a force does."""
     def pushed_by(fy_n: float) -> Study:
         return study_of({"unit.trailer.probe_fy_n": fy_n, "unit.trailer.probe_start_s": 2.0,
                          "unit.trailer.probe_end_s": 4.5})
     assert decide(material(pushed_by(200.0))) == "consistent"
-    assert decide(material(pushed_by(45000.0))) == "unknown"
+    assert cautions(material(pushed_by(200.0))) == ()
+    gross = material(pushed_by(45000.0))
+    assert decide(gross) == "miscalibrated"
+    (said,) = cautions(gross)
+    assert "Without baseline runs it cannot be told" in said
 
 
 def test_a_sheet_number_far_off_is_a_miscalibration_and_named(

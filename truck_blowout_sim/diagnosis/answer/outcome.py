@@ -13,6 +13,12 @@ from scipy.stats import chi2
 from truck_blowout_sim.diagnosis.answer import evidence, words
 from truck_blowout_sim.diagnosis.answer.further_baseline import further_baseline
 from truck_blowout_sim.diagnosis.answer.told import alias_set, physics_effect, sensor_effects
+from truck_blowout_sim.diagnosis.answer.unlisted import (
+    Unlisted,
+    listed,
+    mostly_unlisted,
+    unlisted,
+)
 from truck_blowout_sim.diagnosis.case.antilock import Lockup
 from truck_blowout_sim.diagnosis.case.study import Study
 from truck_blowout_sim.diagnosis.fit.quantiles import NINETY
@@ -93,8 +99,9 @@ class Material:
 
     @property
     def signs(self) -> tuple[words.Sign, ...]:
-        """What shows beside a force."""
-        shown = (self.new_beat, self.lag, self.posture, _moving_on(self))
+        """What shows beside a force that has a name."""
+        shown = (*(Unlisted.of(r) for r in unlisted(self.found.named)),
+                 self.new_beat, self.lag, self.posture, _moving_on(self))
         return tuple(one for one in shown if one is not None)
 
     @property
@@ -108,7 +115,8 @@ def answer(material: Material) -> Diagnosis:
     verdict, told, gate = decide(material), as_told(material), material.gate
     found = told.found
     effects = sensor_effects(gate.findings)
-    named = list(zip(found.named, found.rivals, strict=True))
+    named = [(r, rivals) for r, rivals in zip(found.named, found.rivals, strict=True)
+             if r.hypothesis.effect.listed]
     effects += [physics_effect(r, material.study, material.timings.get(r.hypothesis.key),
                                material.arms.get(r.hypothesis.key)) for r, _ in named]
     aliases = [AliasSet(f.aliases or (f.name,), splits=f.next_test) for f in gate.findings]
@@ -120,20 +128,27 @@ def answer(material: Material) -> Diagnosis:
     return Diagnosis(
         verdict=verdict, sentence=words.verdict_sentence(
             verdict, effects, pulled(material), material.law if unexplained(material) else None,
-            material.signs, material.lockup),
+            material.signs, cautions(material)),
         effects=tuple(effects), alias_sets=tuple(aliases), location=locate(material),
         train=fit(told, "train"), holdout=fit(told, "holdout"),
         null_p_value=chance_of_all(material, verdict), next_test=next_test,
         evidence=gather(material, told))
 
 
+def cautions(material: Material) -> tuple[str, ...]:
+    """Sentences beside the verdict, whatever it is."""
+    said = () if material.lockup is None else (material.lockup.sentence,)
+    return (*said, words.left_untold(material.squares)) if untold(material) else said
+
+
 def as_told(material: Material) -> Material:
     """The material with the effects that the answer names in force: none where it is `unknown`.
 
     What explains less than half of a mismatch is no name for it; it stays among the candidates.
+    What has no name to withhold stays in force.
     """
     study, found = material.study, material.found
-    if not found.named or decide(material) != "unknown":
+    if not listed(found.named) or decide(material) != "unknown":
         return material
     keys = {ranked.hypothesis.key for ranked in found.named}
     tried = [replace(trial, fate=Fate("withheld")) if trial.ranked.hypothesis.key in keys
@@ -152,7 +167,7 @@ def chance_of_all(material: Material, verdict: Verdict) -> float:
     """
     settings = material.study.settings
     every = [material.found.p_value / settings.alarms_by_name]
-    if not material.gate.findings:
+    if not material.gate.findings and material.study.baseline:
         every += [material.unrest.chance / settings.alarms_by_rest,
                   chance_of_more(material.study, material.squares) / settings.alarms_by_rest]
     if verdict in ("unknown", "sensor_artefact"):
@@ -163,15 +178,16 @@ def chance_of_all(material: Material, verdict: Verdict) -> float:
 def decide(material: Material) -> Verdict:
     """Which of the five verdicts the evidence supports."""
     found, gate = material.found, material.gate
-    physics = [r for r in found.named if r.hypothesis.effect.kind == "physics"]
+    physics = [r for r in listed(found.named) if r.hypothesis.effect.kind == "physics"]
     if (unexplained(material) or _beats(material) or material.posture
-            or _moving_on(material) or material.lag):
+            or _moving_on(material) or material.lag or mostly_unlisted(found.named)):
         return "unknown"
     if physics:
         return "missing_physics"
     if gate.findings or found.named:
         return "sensor_artefact"
-    return "miscalibrated" if pulled(material) or material.lockup else "consistent"
+    off = pulled(material) or material.lockup or untold(material)
+    return "miscalibrated" if off else "consistent"
 
 
 def _beats(material: Material) -> bool:
@@ -190,14 +206,25 @@ def unexplained(material: Material) -> bool:
     """Whether training keeps more than baseline, and what was named explains less than half.
 
     Not asked beside a faulty instrument: once corrected, it leaves more of itself than models do.
+    Nor without baseline runs, see `untold`.
     """
-    if material.gate.findings:
+    if material.gate.findings or not material.study.baseline:
         return False
     study, squares, bought = material.study, material.squares, _bought(material)
     usual = expected_squares(study, squares)
     if not keeps_more(study, squares):
         return False
     return bought < NAMING_SHARE * (excess(study, squares, usual) + bought)
+
+
+def untold(material: Material) -> bool:
+    """Whether far more is left than good models differ by, and no baseline run tells why.
+
+    Instruments that drift, or a sheet of another truck, leave as much as missing physics does.
+    """
+    study = material.study
+    return (not material.gate.findings and not study.baseline
+            and keeps_more(study, material.squares))
 
 
 def _bought(material: Material) -> float:
@@ -282,7 +309,7 @@ def gather(material: Material, told: Material) -> Evidence:
         beats=material.beat.scores if material.beat else None,
         calibrated=evidence.calibrated(study, joint_amounts(told)),
         equations=tuple(words.fill(r.hypothesis, r.hypothesis.effect.amount.report(
-            r.hypothesis.amount), None)[1] for r in found.named) + law + signs,
+            r.hypothesis.amount), None)[1] for r in listed(found.named)) + law + signs,
         assumptions=words.assumptions(study), missing_channels=words.missing_channels(study),
         notes=(*material.gate.notes, *old,
                *(note for r in study.runs

@@ -4,14 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from math import isfinite
+from typing import Protocol
 
-from truck_blowout_sim.diagnosis.case.antilock import Lockup
+import numpy as np
+
 from truck_blowout_sim.diagnosis.case.study import Study
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
-from truck_blowout_sim.diagnosis.locate.beat import Beat
-from truck_blowout_sim.diagnosis.locate.lagging import Lag
-from truck_blowout_sim.diagnosis.locate.posture import Posture
-from truck_blowout_sim.diagnosis.locate.restless import Restless
 from truck_blowout_sim.diagnosis.model.law import Law
 from truck_blowout_sim.diagnosis.name.judging import Found
 from truck_blowout_sim.diagnosis.prove.next_test import Separation
@@ -19,7 +17,6 @@ from truck_blowout_sim.diagnosis.result import Effect, Verdict
 from truck_blowout_sim.diagnosis.result.parts import Interval
 from truck_blowout_sim.diagnosis.sensors import GateResult
 
-Sign = Beat | Lag | Posture | Restless  # what shows beside a force
 _SPLITTERS = (
     ("hub_speed_", "wheel speeds", "which wheel drags, brakes or slips"),
     ("tire_pressure_", "tire pressures", "a failing tire from a moving load or a dragging brake"),
@@ -29,6 +26,22 @@ _SPLITTERS = (
     ("tractor_roll_rad", "roll angle", "roll steer from steering compliance"),
     ("throttle", "throttle", "driveline drag from drag of the truck"),
 )
+
+
+class Sign(Protocol):
+    """What shows beside a force that has a name: for a driver, for an engineer, what to try."""
+
+    @property
+    def sentence(self) -> str:
+        """For a driver."""
+
+    @property
+    def equation(self) -> str:
+        """For an engineer."""
+
+    @property
+    def next_test(self) -> str:
+        """What would show its cause."""
 
 
 def fill(hypothesis: Hypothesis, value: float, onset_s: float | None) -> tuple[str, str]:
@@ -50,14 +63,21 @@ def open_ends(ends: Interval) -> str:
 
 def verdict_sentence(verdict: Verdict, effects: Sequence[Effect],
                      pulled: Sequence[tuple[str, float]], law: Law | None,
-                     signs: Sequence[Sign] = (), lockup: Lockup | None = None) -> str:
+                     signs: Sequence[Sign] = (), cautions: Sequence[str] = ()) -> str:
     """The verdict in words.
 
-    ``law``: of a force left unexplained, ``signs``: what else shows; ``lockup``: of a wheel that
-    stood, whatever else is wrong.
+    ``law``: of a force left unexplained, ``signs``: what else shows; ``cautions``: sentences that
+    hold whatever else is wrong.
     """
-    said = _verdict(verdict, effects, pulled, law, signs)
-    return said if lockup is None else f"{said} {lockup.sentence}"
+    return " ".join((_verdict(verdict, effects, pulled, law, signs), *cautions))
+
+
+def left_untold(squares: Sequence[float]) -> str:
+    """Without baseline runs: that much is left, and what it can be."""
+    times = float(np.sqrt(np.exp(np.mean(np.log(squares)))))
+    return (f"The model leaves {times:.1f} times what good models of one truck differ by. Without "
+            "baseline runs it cannot be told whether the instruments drift, the sheet belongs to "
+            "another truck, or physics is missing.")
 
 
 def _verdict(verdict: Verdict, effects: Sequence[Effect], pulled: Sequence[tuple[str, float]],
@@ -67,7 +87,7 @@ def _verdict(verdict: Verdict, effects: Sequence[Effect], pulled: Sequence[tuple
                 "kind differ; nothing is missing that they could show.")
     if verdict == "miscalibrated":
         names = ", ".join(f"{n.replace('_', ' ')} ({a:+.1f} sigma)" for n, a in pulled[:3])
-        return f"No physics is missing, but the sheet is off{': ' if names else ''}{names}."
+        return f"No missing physics shows, but the sheet is off{': ' if names else ''}{names}."
     said = [] if verdict == "unknown" else [effect.sentence for effect in effects]
     if law is not None:
         said.append(f"Something acts on the {law.body} that no known effect explains; its plainest "

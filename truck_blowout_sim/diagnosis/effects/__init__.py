@@ -14,6 +14,7 @@ from truck_blowout_sim.diagnosis.effects import (
     driveline_drag,
     fifth_wheel_friction,
     friction_change,
+    one_sided_drag,
     payload_shift,
     road_bank,
     road_grade,
@@ -65,7 +66,9 @@ LIBRARY: tuple[Effect, ...] = (*(module.EFFECT for module in _MODULES),
                                brake_lag.LATE_AND_SLOW, road_grade.FROM_AN_INSTANT,
                                road_bank.FROM_AN_INSTANT, payload_shift.FOREMOST,
                                payload_shift.REARMOST,
-                               steering_ratio.BENT, crosswind.AHEAD, crosswind.BEHIND)
+                               steering_ratio.BENT, crosswind.AHEAD, crosswind.BEHIND,
+                               one_sided_drag.EFFECT, one_sided_drag.LEFT,
+                               one_sided_drag.RIGHT)
 """Every candidate, physics first."""
 
 __all__ = ["LIBRARY", "Amount", "Effect"]

@@ -73,6 +73,7 @@ class Effect:
         variant: another form of an effect of the same name. One with an onset is tried where the
             steady form, if there is one, explains something.
         drags: slows the truck without holding back a wheel more than its law says.
+        listed: a name that is promised; else what is explained by it is `unknown`.
         grows_with: what `material` is a share of; 1 where it is an amount.
         neutral: amount at which a vehicle is as given; 0 unless it lacks the part altogether.
         absorbs: calibration number that means the same as this amount; ``{hub}`` and ``{role}``
@@ -103,6 +104,7 @@ class Effect:
     met: bool = False
     variant: bool = False
     drags: bool = False
+    listed: bool = True
     grows_with: Callable[[Packed], float] = lambda packed: 1.0
     neutral: Callable[[Packed], float] = lambda packed: 0.0
 

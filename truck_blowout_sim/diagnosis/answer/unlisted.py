@@ -1,0 +1,50 @@
+"""What was found beyond the promised names: where it acts and how strongly, without a cause.
+
+Validated with: test/diagnosis/test_unlisted.py.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from truck_blowout_sim.diagnosis.answer.words import fill
+from truck_blowout_sim.diagnosis.fit.attribute import Ranked
+
+
+@dataclass(frozen=True)
+class Unlisted:
+    """A hypothesis that was accepted and has no name of the list.
+
+    Attributes:
+        body: unit on which it acts.
+        sentence: for a driver; ``equation``: for an engineer; ``next_test``: what would show it.
+    """
+
+    body: str | None
+    sentence: str
+    equation: str
+    next_test: str
+
+    @staticmethod
+    def of(ranked: Ranked) -> Unlisted:
+        """In words, with its amount."""
+        h = ranked.hypothesis
+        sentence, equation = fill(h, h.effect.amount.report(h.amount), None)
+        return Unlisted(h.place.body, sentence, equation, f"To confirm: {h.effect.splits}.")
+
+
+def listed(named: Sequence[Ranked]) -> list[Ranked]:
+    """Those whose name is promised."""
+    return [r for r in named if r.hypothesis.effect.listed]
+
+
+def unlisted(named: Sequence[Ranked]) -> list[Ranked]:
+    """All others."""
+    return [r for r in named if not r.hypothesis.effect.listed]
+
+
+def mostly_unlisted(named: Sequence[Ranked]) -> bool:
+    """Whether what has no name explains more than what has one."""
+    outside, inside = (sum(r.delta for r in one) for one in (unlisted(named), listed(named)))
+    return outside > inside
