@@ -15,7 +15,7 @@ from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.fit.attribute import Ranked
 from truck_blowout_sim.diagnosis.name import candidates
 from truck_blowout_sim.diagnosis.name.judging import ODDS, Found, excess_of, not_taken_back, slack
-from truck_blowout_sim.diagnosis.name.search import search
+from truck_blowout_sim.diagnosis.name.search import _rivals, search
 from truck_blowout_sim.diagnosis.name.shortlist import Round, shortlist
 from truck_blowout_sim.diagnosis.sensors import GateResult
 from truck_blowout_sim.vehicle import Packed
@@ -119,3 +119,14 @@ def test_little_left_leaves_room_for_rivals(study_of: Callable[..., Study]) -> N
     little, much = (slack(best, excess_of(study, Found(chi2_after=left))) for left in (0.0, 1e6))
     assert little == slack(best) == pytest.approx(ODDS * 800.0 / 20.0)
     assert much == pytest.approx(0.4 * 800.0)  # all that explain three fifths as much
+
+
+def test_what_is_supported_as_well_stays_an_alias_of_what_explains_more(truck: Packed) -> None:
+    turned, bank = (
+        Hypothesis(effect, effect.places(truck.vehicle)[0], 0.01) for effect in (
+            next(e for e in LIBRARY if e.name == name) for name in (
+                "axle_misalignment", "road_bank")))
+    best = Ranked(turned, 500.0, 1.0, refitted=True, support=9.0)
+    for support, aliases in ((18.0, 2), (8.0, 1)):
+        other = Ranked(bank, 250.0, 1.0, refitted=True, support=support)
+        assert len(_rivals(best, [other], slack(best))) == aliases

@@ -197,6 +197,11 @@ def _take(study: Study, found: Found, pair: Pair, chance: Chance) -> int:
 
 
 def _rivals(best: Ranked, ranked: Sequence[Ranked], room: float) -> tuple[Ranked, ...]:
-    """The alias set, best first: what is not named itself and explains nearly as much."""
-    others = [r for r in ranked if r.delta > best.delta - room and r.refitted]
+    """The alias set, best first: what is not named itself and explains nearly as much.
+
+    Also what is supported as well: a cause that explains more is named instead of one that is
+    supported better, which is as likely.
+    """
+    others = [r for r in ranked if r.refitted
+              and (r.delta > best.delta - room or r.support >= best.support)]
     return (best, *others)
