@@ -15,6 +15,7 @@ from truck_blowout_sim.diagnosis.result import (
     Place,
     amount_text,
     label_of,
+    plain,
     summarize,
 )
 
@@ -61,3 +62,11 @@ def test_effects_of_one_name_are_told_apart() -> None:
     answer = Diagnosis("sensor_artefact", "Two are late.", tuple(late),
                        (AliasSet(("channel_delay",)), AliasSet(("channel_delay",))))  # fmt: skip
     assert summarize(answer).wrong == "Two are late."
+
+
+@pytest.mark.parametrize(("name", "words"), [
+    ("extra_moment_nm", "extra moment"), ("extra_drag_area_m2", "extra drag area"),
+    ("torque_ratio", "torque ratio"), ("tractor_yaw_rate_radps", "tractor yaw rate"),
+])  # fmt: skip
+def test_a_name_is_read_without_its_unit(name: str, words: str) -> None:
+    assert plain(name) == words

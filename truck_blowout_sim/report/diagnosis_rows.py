@@ -15,6 +15,7 @@ from truck_blowout_sim.diagnosis.result import (
     Location,
     amount_text,
     label_of,
+    plain,
 )
 from truck_blowout_sim.diagnosis.result.evidence import FAR
 
@@ -38,7 +39,7 @@ def effect_row(effect: Effect, aliases: AliasSet, effects: Sequence[Effect]) -> 
         "kind": effect.kind,
         "sentence": effect.sentence,
         "equation": effect.equation,
-        "parameters": [(_plain(name), amount_text(name, p), p.note)
+        "parameters": [(plain(name), amount_text(name, p), p.note)
                        for name, p in effect.parameters.items()],
         "onset": _onset(onset, effect.onset_ci90_s),
         "aliases": ", ".join(others),
@@ -133,10 +134,6 @@ def _onset(onset_s: float | None, interval: Interval | None) -> str:
         return "always there"
     known = "" if interval is None else f" (90 %: {interval_text(interval, _hundredths)})"
     return f"{onset_s:.2f} s{known}"
-
-
-def _plain(name: str) -> str:
-    return name.replace("_", " ")
 
 
 def _hundredths(value: float) -> str:

@@ -19,6 +19,7 @@ from matplotlib.axes import Axes
 from truck_blowout_sim.comparison import Comparison, verdict
 from truck_blowout_sim.comparison.units import display_unit
 from truck_blowout_sim.comparison.words import labels_for
+from truck_blowout_sim.diagnosis.result import plain
 from truck_blowout_sim.report.comparison_lines import draw_measured, event_times, marks_for
 from truck_blowout_sim.report.page import render, write_text
 from truck_blowout_sim.report.style import AFTER, BEFORE, EVENT, Picture, new_figure, styled
@@ -94,7 +95,7 @@ def _place(where: Mapping[str, str | None]) -> str:
 def _parameter(name: str, value: Mapping[str, Any]) -> tuple[str, str, str]:
     low, high = (value["ci90"] or (None, None))
     interval = "" if low is None or high is None else f"{low:.3g} to {high:.3g}"
-    return name.replace("_", " "), f"{value['value']:.3g} {value['unit']}", interval
+    return plain(name), f"{value['value']:.3g} {value['unit']}", interval
 
 
 def _located(location: Mapping[str, Any], labels: Mapping[str, str]

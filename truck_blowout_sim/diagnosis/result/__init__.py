@@ -26,7 +26,13 @@ from truck_blowout_sim.diagnosis.result.parts import (
     Verdict,
     Wrench,
 )
-from truck_blowout_sim.diagnosis.result.summary import Summary, amount_text, label_of, summarize
+from truck_blowout_sim.diagnosis.result.summary import (
+    Summary,
+    amount_text,
+    label_of,
+    plain,
+    summarize,
+)
 
 __all__ = [
     "KINDS",
@@ -54,6 +60,7 @@ __all__ = [
     "Wrench",
     "amount_text",
     "label_of",
+    "plain",
     "summarize",
     "write_diagnosis",
 ]

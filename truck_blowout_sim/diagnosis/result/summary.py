@@ -22,7 +22,7 @@ _COMMON = 0.1  # a chance that no one would act on
 _SHOWN = {"rad/s": (180.0 / math.pi, " deg/s"), "rad": (180.0 / math.pi, " deg"),
           "s": (1.0, " s"), "m": (1.0, " m"), "1": (1.0, "")}  # fmt: skip
 _SHARES = ("scale_error", "roll_leak")
-_ENDS = ("_mps2", "_mps", "_radps", "_rad", "_pa", "_m")
+_ENDS = ("_mps2", "_mps", "_radps", "_rad", "_pa", "_m", "_m2", "_n", "_nm", "_s", "_prad2")
 
 
 @dataclass(frozen=True)
@@ -45,10 +45,10 @@ def summarize(diagnosis: Diagnosis, label: Label | None = None) -> Summary:
     return Summary(diagnosis.sentence, _sure(diagnosis), _changed(diagnosis, named))
 
 
-def plain(channel: str) -> str:
-    """A channel's name in words, without its unit."""
-    end = next((e for e in _ENDS if channel.endswith(e)), "")
-    return channel.removesuffix(end).replace("_", " ")
+def plain(name: str) -> str:
+    """A channel's or a parameter's name in words, without its unit."""
+    end = next((e for e in _ENDS if name.endswith(e)), "")
+    return name.removesuffix(end).replace("_", " ")
 
 
 def amount_text(name: str, parameter: Parameter) -> str:
@@ -86,7 +86,7 @@ def _sure(diagnosis: Diagnosis) -> str:
         what = label_of(effect, diagnosis.effects)
         if effect.parameters:
             name, first = next(iter(effect.parameters.items()))
-            said.append(f"{what}: {name.replace('_', ' ')} {amount_text(name, first)}")
+            said.append(f"{what}: {plain(name)} {amount_text(name, first)}")
         others = [n for n in aliases.names[1:] if n != effect.name]
         if others:
             said.append(f"these recordings cannot tell {what} from {_listed(others, ' or ')}")
