@@ -15,7 +15,7 @@ from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.fit.attribute import Ranked
 from truck_blowout_sim.diagnosis.name import candidates
 from truck_blowout_sim.diagnosis.name.judging import ODDS, Found, excess_of, not_taken_back, slack
-from truck_blowout_sim.diagnosis.name.search import _rivals, search
+from truck_blowout_sim.diagnosis.name.search import _Asked, search
 from truck_blowout_sim.diagnosis.name.shortlist import Round, shortlist
 from truck_blowout_sim.diagnosis.sensors import GateResult
 from truck_blowout_sim.vehicle import Packed
@@ -127,6 +127,7 @@ def test_what_is_supported_as_well_stays_an_alias_of_what_explains_more(truck: P
             next(e for e in LIBRARY if e.name == name) for name in (
                 "axle_misalignment", "road_bank")))
     best = Ranked(turned, 500.0, 1.0, refitted=True, support=9.0)
-    for support, aliases in ((18.0, 2), (8.0, 1)):
+    for support, asked, aliases in ((18.0, 14.0, 2), (8.0, 7.0, 1), (12.0, 14.0, 1)):
         other = Ranked(bank, 250.0, 1.0, refitted=True, support=support)
-        assert len(_rivals(best, [other], slack(best))) == aliases
+        found = _Asked([best, other], asked).rivals(best, {turned.key}, slack(best))
+        assert len(found) == aliases

@@ -259,7 +259,7 @@ def _with_truck(told: Diagnosis, material: Material, case: _Case) -> tuple[Diagn
 def write_diagnosed_vehicle(path: Path, base: str, values: Mapping[str, float],
                             diagnosis: Diagnosis) -> None:
     """Write ``vehicle.yaml``: the given vehicle, extended by what was found."""
-    nothing = "no listed name" if diagnosis.verdict == "unknown" else "calibration only"
+    nothing = "a cause of no list" if diagnosis.verdict == "unknown" else "calibration only"
     what = ", ".join(effect.name for effect in diagnosis.effects) or nothing
     write_vehicle(path, base, values, dict(diagnosis.evidence.sources),
                   title=f"{base}, diagnosed: {what}")

@@ -5,7 +5,7 @@ What a hypothesis must pass is in `judging.py`, what holds only together in `pai
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -53,7 +53,7 @@ def search(study: Study, progress: Progress | None = None, most: int = _MOST_EFF
     found.models_null = list(study.models)
     found.chi2_null = found.chi2_after = projector.chi2(residual)
     found.before = found.after = predict(study, residual, ())
-    rounds: list[Sequence[Ranked]] = []
+    rounds: list[_Asked] = []
     while len(found.named) < most:
         named = [r.hypothesis for r in found.named]
         # two defects at once are rarer than one, and neither laws nor corrections are exact
@@ -67,7 +67,7 @@ def search(study: Study, progress: Progress | None = None, most: int = _MOST_EFF
         if best is None and sound and not named:  # a law that is named leaves some of its own
             best = _accept_quieting(study, found, this)
         if best is not None:
-            rounds.append(ranked)
+            rounds.append(_Asked(ranked, this.chance.asked))
             settled(study, found)
             continue
         pair = pair_with(study, found, disbelieved, this.chance, most, progress)
@@ -75,13 +75,32 @@ def search(study: Study, progress: Progress | None = None, most: int = _MOST_EFF
             pair = masked_pair(study, found, ranked, this.chance)
         if pair is None:
             break
-        rounds += [ranked, pair.ranked][:_take(study, found, pair, this.chance)]
+        rounds += [_Asked(one, this.chance.asked) for one in (ranked, pair.ranked)
+                   ][:_take(study, found, pair, this.chance)]
     left = excess_of(study, found)
     taken = {r.hypothesis.key for r in found.named}
-    found.rivals = [_rivals(best, [r for r in ranked if r.hypothesis.key not in taken],
-                            slack(best, left))
-                    for best, ranked in zip(found.named, rounds, strict=True)]
+    found.rivals = [one.rivals(best, taken, slack(best, left))
+                    for best, one in zip(found.named, rounds, strict=True)]
     return found
+
+
+@dataclass(frozen=True, eq=False)
+class _Asked:
+    """What one round of the search tried, and the support that it asked for."""
+
+    ranked: Sequence[Ranked]
+    support: float
+
+    def rivals(self, best: Ranked, taken: Collection[tuple[str, str]], room: float
+               ) -> tuple[Ranked, ...]:
+        """The alias set of what was named, best first: what explains nearly as much.
+
+        Also what could have been named and is supported as well: a cause that explains more is
+        named instead of it. ``taken``: keys of all that is named.
+        """
+        least = max(best.support, self.support)
+        return (best, *(r for r in self.ranked if r.refitted and r.hypothesis.key not in taken
+                        and (r.delta > best.delta - room or r.support >= least)))
 
 
 @dataclass(frozen=True, eq=False)
@@ -194,14 +213,3 @@ def _take(study: Study, found: Found, pair: Pair, chance: Chance) -> int:
     for one in pair.named[-added:]:
         note(found, one, Fate("accepted", one.support, chance.asked))
     return added
-
-
-def _rivals(best: Ranked, ranked: Sequence[Ranked], room: float) -> tuple[Ranked, ...]:
-    """The alias set, best first: what is not named itself and explains nearly as much.
-
-    Also what is supported as well: a cause that explains more is named instead of one that is
-    supported better, which is as likely.
-    """
-    others = [r for r in ranked if r.refitted
-              and (r.delta > best.delta - room or r.support >= best.support)]
-    return (best, *others)
