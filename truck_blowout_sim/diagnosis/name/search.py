@@ -145,7 +145,8 @@ def _accept(study: Study, found: Found, this: Round, named: Sequence[Hypothesis]
             else:
                 passing.append(believed)
                 fate = Fate("predicts", believed.worth)
-        note(found, one, fate)
+        if not named:  # beside what is named, its look-alikes explain nothing more
+            note(found, one, fate)
     if not passing:
         return None, disbelieved
     passing += _explaining_more(study, found, this, named, passing)
