@@ -76,6 +76,8 @@ NOT_COMPARABLE: Mapping[str, str] = {
     "brake_fade": "loss over drum temperature against loss over energy",
     "payload_shift": "one block moves against the whole load",
     "steering_ratio": "another gear or one that bends with the angle: two laws of one name",
+    "wheel_drag": "has no name of the list: it stands for whatever drags a wheel",
+    "corner_drag": "has no name of the list: the verdict is unknown",
     "lever_arm": "multiple of a vector against its components",
 }
 
