@@ -29,8 +29,8 @@ EFFECT = Effect(
     values=lambda packed, place, a: {
         name: value for tire in packed.vehicle.tires_of_hub(place.hub or "")
         for name, value in added(packed, f"tire.{tire}.rolling_0", a).items()},
-    sentence="The wheels at {where} are held back by {value} of their load, as a dragging brake or "
-             "a seizing bearing would have it.",
+    sentence="The wheels at {where} are held back by {percent} percent of the load on them, as a "
+             "dragging brake or a seizing bearing would have it.",
     equation="F_x,{where} = -{value} F_z",
     splits="the temperature of the hub; its speed against that of the wheel on the other side",
     drags=True,
