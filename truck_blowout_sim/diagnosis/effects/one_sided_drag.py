@@ -33,7 +33,6 @@ EFFECT = Effect(
              "dragging brake or a seizing bearing would have it.",
     equation="F_x,{where} = -{value} F_z",
     splits="the temperature of the hub; its speed against that of the wheel on the other side",
-    drags=True,
     listed=False,
 )
 
@@ -55,7 +54,7 @@ def _at_side(side: float) -> Effect:
                  "{value} m^2, as a torn tarpaulin or an open door would have it.",
         equation=f"F_x = -0.5 rho {{value}} m^2 v^2 at the {where} side",
         splits="a look at that side; the pull of the hand wheel on a straight road",
-        grows_with=drag_area_m2, variant=side < 0.0)
+        drags=True, grows_with=drag_area_m2, variant=side < 0.0)
 
 
 def _half_width_m(packed: Packed, place: Place) -> float:
