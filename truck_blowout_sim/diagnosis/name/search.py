@@ -95,12 +95,13 @@ class _Asked:
                ) -> tuple[Ranked, ...]:
         """The alias set of what was named, best first: what explains nearly as much.
 
-        Also what could have been named and is supported as well: a cause that explains more is
-        named instead of it. ``taken``: keys of all that is named.
+        Also a steady cause that could have been named and is supported as well: one that explains
+        more is named instead of it. ``taken``: keys of all that is named.
         """
         least = max(best.support, self.support)
         return (best, *(r for r in self.ranked if r.refitted and r.hypothesis.key not in taken
-                        and (r.delta > best.delta - room or r.support >= least)))
+                        and (r.delta > best.delta - room
+                             or (r.support >= least and not r.hypothesis.times))))
 
 
 @dataclass(frozen=True, eq=False)
