@@ -81,6 +81,14 @@ def test_the_wheels_that_are_held_back_are_found_and_have_no_promised_name(
     assert HUB in said.equation
     assert said.body == "trailer"
     assert said.next_test.startswith("To confirm: ")
+    assert "cannot tell" not in said.sentence
+
+
+def test_names_that_explain_it_as_well_are_told(truck: Packed) -> None:
+    outside, inside = (Ranked(hypothesis(truck, name, where), 100.0, 1.0) for name, where in (
+        ("corner_drag", "trailer"), ("aerodynamic_drag", "tractor")))
+    said = Unlisted.of(outside, (outside, inside, inside)).sentence
+    assert said.endswith("These recordings cannot tell it from aerodynamic_drag.")
 
 
 def test_what_explains_most_decides_whether_a_name_is_told(truck: Packed) -> None:

@@ -17,7 +17,6 @@ from truck_blowout_sim.diagnosis.answer.unlisted import (
     Unlisted,
     listed,
     mostly_unlisted,
-    unlisted,
 )
 from truck_blowout_sim.diagnosis.case.antilock import Lockup
 from truck_blowout_sim.diagnosis.case.study import Study
@@ -100,7 +99,10 @@ class Material:
     @property
     def signs(self) -> tuple[words.Sign, ...]:
         """What shows beside a force that has a name."""
-        shown = (*(Unlisted.of(r) for r in unlisted(self.found.named)),
+        found = self.found
+        shown = (*(Unlisted.of(r, rivals)
+                   for r, rivals in zip(found.named, found.rivals, strict=True)
+                   if not r.hypothesis.effect.listed),
                  self.new_beat, self.lag, self.posture, _moving_on(self))
         return tuple(one for one in shown if one is not None)
 

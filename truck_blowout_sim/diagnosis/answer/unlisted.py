@@ -27,11 +27,18 @@ class Unlisted:
     next_test: str
 
     @staticmethod
-    def of(ranked: Ranked) -> Unlisted:
-        """In words, with its amount."""
+    def of(ranked: Ranked, rivals: Sequence[Ranked] = ()) -> Unlisted:
+        """In words, with its amount, and the names that explain it as well.
+
+        Args:
+            rivals: its alias set.
+        """
         h = ranked.hypothesis
         sentence, equation = fill(h, h.effect.amount.report(h.amount), None)
-        return Unlisted(h.place.body, sentence, equation, f"To confirm: {h.effect.splits}.")
+        names = " or ".join(dict.fromkeys(r.hypothesis.effect.name for r in listed(rivals)))
+        also = f" These recordings cannot tell it from {names}." if names else ""
+        return Unlisted(h.place.body, sentence + also, equation,
+                        f"To confirm: {h.effect.splits}.")
 
 
 def listed(named: Sequence[Ranked]) -> list[Ranked]:
