@@ -15,7 +15,7 @@ from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.fit.attribute import Ranked
 from truck_blowout_sim.diagnosis.name import candidates
 from truck_blowout_sim.diagnosis.name.judging import ODDS, Found, excess_of, not_taken_back, slack
-from truck_blowout_sim.diagnosis.name.search import _Asked, search
+from truck_blowout_sim.diagnosis.name.search import _Tried, search
 from truck_blowout_sim.diagnosis.name.shortlist import Round, shortlist
 from truck_blowout_sim.diagnosis.sensors import GateResult
 from truck_blowout_sim.vehicle import Packed
@@ -129,5 +129,5 @@ def test_what_is_supported_as_well_stays_an_alias_of_what_explains_more(truck: P
     best = Ranked(turned, 500.0, 1.0, refitted=True, support=9.0)
     for support, asked, aliases in ((18.0, 14.0, 2), (8.0, 7.0, 1), (12.0, 14.0, 1)):
         other = Ranked(bank, 250.0, 1.0, refitted=True, support=support)
-        found = _Asked([best, other], asked).rivals(best, {turned.key}, slack(best))
+        found = _Tried([best, other], asked).rivals(best, {turned.key}, slack(best))
         assert len(found) == aliases

@@ -53,7 +53,7 @@ def search(study: Study, progress: Progress | None = None, most: int = _MOST_EFF
     found.models_null = list(study.models)
     found.chi2_null = found.chi2_after = projector.chi2(residual)
     found.before = found.after = predict(study, residual, ())
-    rounds: list[_Asked] = []
+    rounds: list[_Tried] = []
     while len(found.named) < most:
         named = [r.hypothesis for r in found.named]
         # two defects at once are rarer than one, and neither laws nor corrections are exact
@@ -67,7 +67,7 @@ def search(study: Study, progress: Progress | None = None, most: int = _MOST_EFF
         if best is None and sound and not named:  # a law that is named leaves some of its own
             best = _accept_quieting(study, found, this)
         if best is not None:
-            rounds.append(_Asked(ranked, this.chance.asked))
+            rounds.append(_Tried(ranked, this.chance.asked))
             settled(study, found)
             continue
         pair = pair_with(study, found, disbelieved, this.chance, most, progress)
@@ -75,7 +75,7 @@ def search(study: Study, progress: Progress | None = None, most: int = _MOST_EFF
             pair = masked_pair(study, found, ranked, this.chance)
         if pair is None:
             break
-        rounds += [_Asked(one, this.chance.asked) for one in (ranked, pair.ranked)
+        rounds += [_Tried(one, this.chance.asked) for one in (ranked, pair.ranked)
                    ][:_take(study, found, pair, this.chance)]
     left = excess_of(study, found)
     taken = {r.hypothesis.key for r in found.named}
@@ -85,7 +85,7 @@ def search(study: Study, progress: Progress | None = None, most: int = _MOST_EFF
 
 
 @dataclass(frozen=True, eq=False)
-class _Asked:
+class _Tried:
     """What one round of the search tried, and the support that it asked for."""
 
     ranked: Sequence[Ranked]
