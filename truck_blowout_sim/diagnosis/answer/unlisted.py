@@ -17,11 +17,9 @@ class Unlisted:
     """A hypothesis that was accepted and has no name of the list.
 
     Attributes:
-        body: unit on which it acts.
         sentence: for a driver; ``equation``: for an engineer; ``next_test``: what would show it.
     """
 
-    body: str | None
     sentence: str
     equation: str
     next_test: str
@@ -37,7 +35,7 @@ class Unlisted:
         sentence, equation = fill(h, h.effect.amount.report(h.amount), None)
         names = " or ".join(dict.fromkeys(r.hypothesis.effect.name for r in listed(rivals)))
         also = f" These recordings cannot tell it from {names}." if names else ""
-        return Unlisted(h.place.body, sentence + also, equation,
+        return Unlisted(sentence + also, equation,
                         f"To confirm: {h.effect.splits}.")
 
 

@@ -17,6 +17,7 @@ from truck_blowout_sim.vehicle import Packed, Vehicle
 
 Values = Mapping[str, float]
 Timing = Literal["always", "step", "pulse", "ramp"]
+SLOPE_ENTERED_IN_S = 1.0  # at first; how long is fitted
 WRONG_SHEET = 4.0  # times what trucks of a kind differ by, where a sheet is wrong
 
 

@@ -5,13 +5,12 @@ from __future__ import annotations
 from dataclasses import replace
 
 from truck_blowout_sim.diagnosis.effects.base import (
+    SLOPE_ENTERED_IN_S,
     Amount,
     Effect,
     added,
     whole_truck,
 )
-
-_ENTERED_IN_S = 1.0  # at first; how long is fitted
 
 EFFECT = Effect(
     name="road_grade",
@@ -31,7 +30,7 @@ FROM_AN_INSTANT = replace(
     EFFECT,
     values=lambda packed, place, a: {"world.grade_change_rad": a},
     timing="ramp",
-    ramp_s=_ENTERED_IN_S,
+    ramp_s=SLOPE_ENTERED_IN_S,
     timed=lambda packed, place, start, end: {
         "world.grade_change_time_s": start, "world.slope_change_ramp_s": end - start},
     onset_form_s=0.5,
