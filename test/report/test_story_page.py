@@ -9,6 +9,7 @@ import pytest
 
 from truck_blowout_sim import Vehicle, compare
 from truck_blowout_sim.report.story_page import Story, write_story
+from truck_blowout_sim.report.story_variants import Variant
 from truck_blowout_sim.vehicle.document import Place
 from truck_blowout_sim.vehicle.vehicle import Effect
 
@@ -61,3 +62,19 @@ def test_a_consistent_record_has_a_page_too(story: Story, tmp_path: Path) -> Non
     assert "Verdict: consistent. The model explains this." in page
     assert "No effect was named; the verdict is “consistent”. Three of ten show as much." in page
     assert "with the named effects" not in page
+
+
+def test_other_models_of_the_run_are_told_if_there_are_any(story: Story, tmp_path: Path) -> None:
+    assert "7. The same run" not in write_story(story, tmp_path / "one.html").read_text()
+    three = tuple(Variant(words, story.before) for words in ("as given", "rigid", "published"))
+    told = replace(story, variants=three, lesson="The linkage gives way.")
+    page = write_story(told, tmp_path / "three.html").read_text()
+    assert page.index("6. The fit") < page.index("7. The same run") < page.index("gives way")
+
+
+def test_a_variant_is_measured_from_its_blowout_on(story: Story) -> None:
+    one = Variant("as given", story.before)
+    early, late = (one.after_event("tractor_yaw_rate_radps", *between)
+                   for between in ((-0.5, -0.1), (0.5, 0.8)))
+    assert abs(early) < 0.01 * late
+    assert 0.02 < late < 0.05  # 1 to 3 deg/s to the side of the flat tire

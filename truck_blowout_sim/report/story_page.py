@@ -22,12 +22,15 @@ from truck_blowout_sim.comparison.words import labels_for
 from truck_blowout_sim.diagnosis.result import plain
 from truck_blowout_sim.report.comparison_lines import draw_measured, event_times, marks_for
 from truck_blowout_sim.report.page import render, write_text
+from truck_blowout_sim.report.story_variants import Variant, variants_picture
 from truck_blowout_sim.report.style import AFTER, BEFORE, EVENT, Picture, new_figure, styled
 
 _SHOWN = (("tractor_yaw_rate_radps", "yaw rate of the tractor, left positive"),
           ("tractor_vx_mps", "speed"), ("tractor_across_m", "path, to the left"))
 _INPUTS = (("steering_wheel_angle_rad", "hand wheel, left positive"),
            ("throttle", "throttle"), ("brake_pressure_trailer_pa", "trailer brake pressure"))
+_VARIED = (("tractor_yaw_rate_radps", "yaw rate of the tractor, left positive"),
+           ("steer_left_steer_rad", "left road wheel, left positive"))
 
 
 @dataclass(frozen=True)
@@ -39,12 +42,15 @@ class Story:
         after: comparison with the diagnosed vehicle.
         diagnosis: plain data of ``diagnosis.json``.
         links: further pages: words and address relative to the page.
+        variants: the run with other models, and ``lesson``, what they teach; none: not told.
     """
 
     before: Comparison
     after: Comparison
     diagnosis: Mapping[str, Any]
     links: Sequence[tuple[str, str]] = ()
+    variants: Sequence[Variant] = ()
+    lesson: str = ""
 
 
 def write_story(story: Story, path: Path) -> Path:
@@ -83,7 +89,8 @@ def _content(story: Story) -> dict[str, object]:
         "next_test": found.get("next_test", ""),
         "added": _added(story), "links": list(story.links),
         "inputs": _inputs(story), "mismatch": _overlay(story, amended=False),
-        "amended": _overlay(story, amended=True),
+        "amended": _overlay(story, amended=True), "lesson": story.lesson,
+        "variants": variants_picture(story.variants, _VARIED) if story.variants else None,
     }  # fmt: skip
 
 
