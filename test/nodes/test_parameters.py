@@ -72,6 +72,14 @@ def test_a_car_has_no_trailer_topics(start: Any, client: Any) -> None:
     assert node.stop() == 0
 
 
+def test_reset_names_the_tires_that_begin_flat(start: Any, client: Any) -> None:
+    node = start("simulator", "--initial-flat", "steer_left@2.0")
+    node.wait_for("; ready")
+    reply = client.call(Trigger, "/truck/reset")
+    assert reply.message.startswith("initial state, steer_left flat; simulation time goes on")
+    assert node.stop() == 0
+
+
 @pytest.mark.parametrize("name", ["simulator.yaml", "slow_network.yaml"])
 def test_shipped_yaml_is_accepted(start: Any, name: str) -> None:
     node = start("simulator", "--ros-args", "--params-file", ROOT / "config" / "nodes" / name)

@@ -74,7 +74,7 @@ def test_plays_commands_measurements_and_the_event(start: Any, client: Any, log:
     assert len(pressure) == 30
     assert pressure[0].fluid_pressure == pytest.approx(801325.0)
     assert [m.data for m in blowout] == ["steer_left"]
-    assert "nobody serves blowout/steer_left at 1.000 s" in player.output
+    assert "nobody serves blowout/steer_left, 1.000 s into" in player.output
     assert "end of the recording: " in player.output
 
 

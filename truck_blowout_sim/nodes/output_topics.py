@@ -157,7 +157,7 @@ class OutputTopics:
                 missing.setdefault(str(error.name), []).append(topic)
         for package, absent in missing.items():
             self._log.info(
-                f"{package} is not installed: {' and '.join(absent)} stand in bags, but are not"
+                f"{package} is not installed: {' and '.join(absent)} are written to bags, but not"
                 " published"
             )
         return made

@@ -41,7 +41,7 @@ class Plant:
         self.applied: tuple[float, ...] = bank.applied(0)
 
     def build(self) -> None:
-        """Build the truck; where the model is not compiled yet, this takes a minute or two."""
+        """Build the truck; where the model is not compiled yet, this takes 20 to 40 s of a core."""
         truck = Truck(self.vehicle, step_s=self._step_s, initial=self._initial)
         # every compiled function once: none is to be compiled while time runs
         truck.advance(Inputs(*self.bank.applied(0)))

@@ -232,9 +232,9 @@ class Player:
             self.publishers[BLOWOUT_EVENT.topic].publish(template(STRING, data=tire))
             if self.simulator.blow(tire, self._say_reply):
                 self.blown.append(tire)
-                self.log.info(f"{tire} blown at {at_s:.3f} s of the recording")
+                self.log.info(f"{tire} blown, {at_s:.3f} s into the recording")
             else:
-                self.log.error(f"nobody serves blowout/{tire} at {at_s:.3f} s of the recording")
+                self.log.error(f"nobody serves blowout/{tire}, {at_s:.3f} s into the recording")
 
     def _say_reply(self, words: str) -> None:
         self.log.info(f"simulator: {words}")
@@ -274,13 +274,15 @@ class Player:
                 name = self.publishers[topic].topic_name
                 self.log.info(f"  {name} ({ros_type}): {count} messages")
         for blowout in recording.blowouts:
-            self.log.info(f"  blowout of {' and '.join(blowout.tires)} at {blowout.time_s:.3f} s")
+            into_s = blowout.time_s - recording.start_s
+            tires = " and ".join(blowout.tires)
+            self.log.info(f"  blowout of {tires}, {into_s:.3f} s into the recording")
         for note in recording.notes:
             self.log.info(f"  note: {note}")
 
     def _summary(self, stop: StopFlag) -> None:
         why = f"stopped by {stop.reason}" if stop else "end of the recording"
-        blown = ", ".join(self.blown) or "no tire"
+        blown = ", ".join(dict.fromkeys(self.blown)) or "no tire"
         self.log.info(f"{why}: {self.published} messages published, {blown} blown,"
                       f" worst lateness {self.time.worst_late_s * 1e3:.1f} ms")  # fmt: skip
         if self.pace and self.pace.warning:

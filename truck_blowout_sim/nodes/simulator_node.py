@@ -209,13 +209,14 @@ class Simulator:
         return not why, f"{words}: {why}" if why else words
 
     def reset(self) -> Reply:
-        """Initial state, whole tires; simulated time goes on."""
+        """Initial state, tires whole but for `initial_flat`; simulated time goes on."""
         self.restart("asked by service")
         if self.clock:
             self.clock.publish(self.plant.now_ns, always=True)
         self.outputs.publish(everything=True)
+        flat = " and ".join(self.plant.blown_ns)
         return True, (
-            "initial state, all tires whole;"
+            f"initial state, {f'{flat} flat' if flat else 'all tires whole'};"
             f" simulation time goes on at {self.plant.now_ns / NS:.3f} s"
         )
 
@@ -248,7 +249,7 @@ class Simulator:
     def _build(self, executor: Executor, stop: StopFlag) -> None:
         """Build the truck, compiling the model if need be, while topics and services exist."""
         name = self.plant.vehicle.name
-        self.log.info(f"loading {name} (the first start compiles the model: a minute or two)")
+        self.log.info(f"loading {name} (only the first start compiles the model, for 20 to 40 s)")
         work = Background(self.plant.build, COMPILER)
         while not work.done:
             if stop:

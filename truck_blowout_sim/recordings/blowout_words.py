@@ -8,6 +8,8 @@ from collections.abc import Sequence
 from truck_blowout_sim.errors import InputError, quoted
 from truck_blowout_sim.recordings.recording import Blowout
 
+_EXPECTED = "TIRE@SECONDS; tires that burst together are joined by +"
+
 
 def parse_blowouts(words: Sequence[str]) -> list[Blowout]:
     """``TIRE@SECONDS`` words as blowouts; tires that burst together are joined by ``+``.
@@ -19,7 +21,7 @@ def parse_blowouts(words: Sequence[str]) -> list[Blowout]:
     for word in words:
         tires, sign, text = word.partition("@")
         if not (tires and sign):
-            raise InputError(f"--blow {quoted(word)}", expected="TIRE@SECONDS")
+            raise InputError(f"--blow {quoted(word)}", expected=_EXPECTED)
         events.append(Blowout(_number(text, f"--blow {quoted(word)}"), tuple(tires.split("+"))))
     return events
 
@@ -28,7 +30,7 @@ def _number(text: str, where: str) -> float:
     try:
         value = float(text)
     except ValueError:
-        raise InputError(f"{where}: {quoted(text)} is not a number") from None
+        raise InputError(f"{where}: {quoted(text)} is not a number", expected=_EXPECTED) from None
     if not math.isfinite(value):
         raise InputError(f"{where}: {quoted(text)} is not finite", expected="a finite number")
     return value

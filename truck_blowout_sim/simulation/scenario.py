@@ -95,7 +95,8 @@ class Scenario:
             else:
                 problem = f"{quoted(word)} is no hub or tire of {vehicle.name}"
                 place = self.places.get(f"blowouts.{event}.tires", Place("blowout", 1, ""))
-                raise unknown(place, problem, word, (*vehicle.hubs, *vehicle.tires))
+                parts = tuple(dict.fromkeys((*vehicle.hubs, *vehicle.tires)))
+                raise unknown(place, problem, word, parts)
         return tuple(tires)
 
 
