@@ -195,15 +195,17 @@ def _brush(slip: Floats) -> Floats:
     return 3.0 * third - 3.0 * third**2 + third**3
 
 
+@pytest.mark.parametrize("name", ["tire_saturation", "friction_change"])
 @pytest.mark.parametrize("largest_slip", [0.35, 0.5, 0.8, 1.2])
-def test_a_tire_of_another_form_looks_like_one_of_a_lower_peak(largest_slip: float) -> None:
+def test_a_tire_of_another_form_looks_like_one_of_a_lower_peak(largest_slip: float, name: str
+                                                               ) -> None:
     """As the effect assumes: by 0.7 of what the runs leave to the limit of grip."""
     slip = np.linspace(0.0, largest_slip, 60)
     peaks = np.linspace(0.3, 1.2, 901)
     misfit = [float(np.sum((_magic_formula(slip, peak) - _brush(slip)) ** 2)) for peak in peaks]
     seems_lower = 1.0 - peaks[int(np.argmin(misfit))]
     used = float(_brush(slip)[-1])
-    effect = next(e for e in LIBRARY if e.name == "tire_saturation" and not e.variant)
+    effect = next(e for e in LIBRARY if e.name == name and not e.variant)
     assert seems_lower == pytest.approx(2.0 * effect.far_from_limit * (1.0 - used), abs=0.06)
 
 

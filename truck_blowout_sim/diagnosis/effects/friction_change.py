@@ -1,8 +1,14 @@
-"""The road is more or less slippery from some place or time on."""
+"""The road is more or less slippery from some place or time on.
+
+A tire of another form bends earlier. That shows only from the instant on at which the vehicle is
+driven hard, and looks like less friction from then on, by as much as it looks like a lower peak
+(`tire_saturation.py`).
+"""
 
 from __future__ import annotations
 
 from truck_blowout_sim.diagnosis.effects.base import (
+    TIRE_FORMS_DIFFER,
     Amount,
     Effect,
     whole_truck,
@@ -23,4 +29,5 @@ EFFECT = Effect(
     equation="mu(t >= {onset}) = {value} * mu",
     splits="hard braking: both axes feel it, and only near the limit",
     absorbs="peak_friction",
+    far_from_limit=TIRE_FORMS_DIFFER,
 )

@@ -13,6 +13,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from truck_blowout_sim.diagnosis.effects.base import (
+    TIRE_FORMS_DIFFER,
     Amount,
     Effect,
     Values,
@@ -25,8 +26,6 @@ from truck_blowout_sim.diagnosis.effects.base import (
 from truck_blowout_sim.diagnosis.effects.tire_saturation_linear import is_linear
 from truck_blowout_sim.diagnosis.result.parts import Place
 from truck_blowout_sim.vehicle import Packed, Vehicle
-
-_FORMS_DIFFER = 0.35  # half of 0.7: two published forms are taken to be two sigmas apart
 
 
 def _formula_axles(vehicle: Vehicle) -> Sequence[Place]:
@@ -60,5 +59,5 @@ EFFECT = Effect(
     equation="F_y = D' sin(C atan(B alpha)),  D' = {value} * D, B C D' unchanged",
     splits="a maneuver at high lateral acceleration",
     of_file=True,
-    far_from_limit=_FORMS_DIFFER,
+    far_from_limit=TIRE_FORMS_DIFFER,
 )
