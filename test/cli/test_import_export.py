@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import struct
 import subprocess
 import sys
 from collections.abc import Callable
@@ -161,6 +162,16 @@ def test_an_unfinished_bag_is_exported_with_a_note_and_recovered(
     assert saved.returncode == 0
     assert "messages" in saved.stdout
     assert cli("export", bag, "-o", tmp_path / "whole.csv").stderr == ""
+
+
+def test_recover_tells_what_is_lost(tmp_path: Path, log: Path, cli: Cli) -> None:
+    bag = tmp_path / "bag.mcap"
+    assert cli("import", log, "-o", bag).returncode == 0
+    data = bag.read_bytes()
+    data_end = data.index(b"\x0f" + struct.pack("<Q", 4))
+    begun_chunk = b"\x06" + struct.pack("<Q", 1000) + b"half"
+    bag.write_bytes(data[:data_end] + begun_chunk)
+    assert "lost: 1 chunk, 13 bytes in all" in cli("recover", bag).stdout
 
 
 def test_an_imported_bag_shows_the_truck_unless_told_not_to(

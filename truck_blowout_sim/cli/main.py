@@ -35,7 +35,7 @@ VERBS: dict[str, tuple[str, str]] = {
     "vehicle": ("vehicle", "Show loads, handling and filled-in values of a vehicle file."),
     "plot": ("plot", "Plot any channel of any run; the thesis's figures by number."),
     "view": ("view", "Show the truck of a run moving in 3-D, in one HTML file."),
-    "recover": ("recover", "Repair a bag whose writer was killed."),
+    "recover": ("recover", "Repair a damaged bag, or one whose writer was killed."),
     "validate": ("validate", "Measure the model against the published figures of the test."),
 }
 

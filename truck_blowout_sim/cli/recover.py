@@ -9,7 +9,7 @@ import typer
 from truck_blowout_sim.cli.outputs import FORCE, JSON, say
 from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.recordings.claims import claim
-from truck_blowout_sim.recordings.recover import recover
+from truck_blowout_sim.recordings.recover import Recovered, recover
 
 
 def command(
@@ -20,7 +20,7 @@ def command(
     force: bool = FORCE,
     as_json: bool = JSON,
 ) -> None:
-    """Repair a bag whose writer was killed; every whole chunk is kept.
+    """Repair a damaged bag, or one whose writer was killed; every whole chunk is kept.
 
     Example: truck-blowout recover killed_bag
     """
@@ -31,7 +31,13 @@ def command(
     if output is not None:
         claim(output, inputs=[bag], force=force, one_file=not bag.is_dir())
     saved = recover(bag, output)
-    lost = f", {saved.lost_bytes} bytes of a broken tail left out" if saved.lost_bytes else ""
     result = {"output": str(saved.path), "messages": saved.messages,
-              "lost_bytes": saved.lost_bytes}  # fmt: skip
-    say(as_json, result, [f"{saved.path}: {saved.messages} messages{lost}"])
+              "lost_bytes": saved.lost_bytes, "lost": dict(saved.lost)}  # fmt: skip
+    say(as_json, result, [f"{saved.path}: {saved.messages} messages{_loss(saved)}"])
+
+
+def _loss(saved: Recovered) -> str:
+    if not saved.lost_bytes:
+        return ""
+    kinds = [f"{count} {kind}{'s' * (count > 1)}" for kind, count in saved.lost.items()]
+    return f"; lost: {', '.join([*kinds, f'{saved.lost_bytes} bytes in all'])}"

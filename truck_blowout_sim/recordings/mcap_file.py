@@ -109,9 +109,9 @@ class McapFile:
         self._write(data)
         self.contents.metadata_indexes.append(index)
 
-    def write_record(self, opcode: int, content: bytes | memoryview) -> None:
-        """Append a record as it is."""
-        self._write(struct.pack("<BQ", opcode, len(content)) + bytes(content))
+    def write_description(self, record: records.Schema | records.Channel) -> None:
+        """Append a schema or channel record."""
+        self._write(to_bytes(record))
 
     def write_chunk(self, chunk: Chunk) -> None:
         """Compress a chunk and append it with its index."""

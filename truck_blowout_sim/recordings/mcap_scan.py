@@ -29,6 +29,9 @@ from truck_blowout_sim.recordings.mcap_parts import (
     unpack_chunk,
 )
 
+_LAST = (Opcode.DATA_END, Opcode.FOOTER)
+_SAVE_THE_REST = "`truck-blowout recover BAG` keeps what is whole"
+
 
 @dataclass
 class Topic:
@@ -143,36 +146,52 @@ class MappedFile:
             return
 
 
-def data_records(data: memoryview, path: Path) -> Iterator[Record]:
-    """Whole records up to and with DataEnd, or up to where the file breaks off."""
-    at = len(MAGIC)
+def whole_records(data: memoryview, at: int = len(MAGIC)) -> Iterator[Record]:
+    """Whole records up to and with DataEnd, or as far as their lengths lead."""
     while at + RECORD_HEADER.size <= len(data):
         opcode, length = RECORD_HEADER.unpack_from(data, at)
         end = at + RECORD_HEADER.size + length
-        if opcode == 0:
-            raise InputError(
-                "opcode 0", file=path, where=f"byte {at}", expected="an MCAP record (damaged)"
-            )
-        if end > len(data):
+        if opcode == 0 or end > len(data):
             return
         yield Record(opcode, at, data[at + RECORD_HEADER.size : end])
-        if opcode in (Opcode.DATA_END, Opcode.FOOTER):
+        if opcode in _LAST:
             return
         at = end
 
 
+def data_records(data: memoryview, path: Path) -> Iterator[Record]:
+    """Whole records up to and with DataEnd, or up to where the file breaks off.
+
+    Raises:
+        InputError: bytes inside that are no record.
+    """
+    at, opcode = len(MAGIC), 0
+    for record in whole_records(data):
+        at, opcode = record.end, record.opcode  # the reader may release the content
+        yield record
+    if opcode not in _LAST and at + RECORD_HEADER.size <= len(data) and data[at] == 0:
+        raise InputError(
+            "opcode 0: damaged", file=path, where=f"byte {at}",
+            expected=f"an MCAP record; {_SAVE_THE_REST}",
+        )  # fmt: skip
+
+
+def kind_of(opcode: int) -> str:
+    """What a record is called."""
+    try:
+        return Opcode(opcode).name.lower().replace("_", " ")
+    except ValueError:
+        return f"opcode {opcode}"
+
+
 def damaged(path: Path, record: Record, error: Exception) -> InputError:
     """The one line for a record that is whole but wrong inside."""
-    try:
-        name = Opcode(record.opcode).name.lower().replace("_", " ")
-    except ValueError:
-        name = f"opcode {record.opcode}"
     words = str(error) or type(error).__name__
     return InputError(
-        f"damaged {name} record: {words}",
+        f"damaged {kind_of(record.opcode)} record: {words}",
         file=path,
         where=f"byte {record.start}",
-        expected="an undamaged MCAP file",
+        expected=f"an undamaged MCAP file; {_SAVE_THE_REST}",
     )
 
 
