@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from truck_blowout_sim.cli.main import main
+from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.recordings import Blowout, Recording, read_recording
 from truck_blowout_sim.recordings.mapping.inventory import inspect_log
 from truck_blowout_sim.recordings.mapping.writing import mapping_text
@@ -89,6 +90,34 @@ def test_a_mapping_is_begun_for_all_files_of_a_test(
     read = read_recording(a, mapping=begun)
     assert set(read.channels) == {"tractor_vx_mps", "tractor_yaw_rad", "steering_wheel_angle_rad"}
     np.testing.assert_allclose(read["tractor_vx_mps"].value, (80.0 + times) / 3.6, atol=1e-4)
+
+
+def test_a_stated_unit_that_is_not_known_is_left_to_the_user(tmp_path: Path) -> None:
+    log, begun = tmp_path / "odd.csv", tmp_path / "begun.yaml"
+    rows = "".join(f"{0.05 * k:.2f},60,{k},6\n" for k in range(60))
+    log.write_text("Time [fortnights],Speed [km/h],Steer [gon],Brake pressure [kgf/cm2]\n" + rows)
+    found = inspect_log(log)
+    assert any("the log's unit 'fortnights' is not known here" in note for note in found.notes)
+    text = mapping_text(found)
+    begun.write_text(text)
+    assert "time: {from: Time}  # GUESS: the log's unit 'fortnights' is not known here\n" in text
+    assert "  steering_wheel_angle_rad: {from: Steer}  # GUESS: channel from the name; the" in text
+    for before, after, asked in (
+        ("{from: Time}", "{from: Time, unit: s}", "'fortnights' of time column 'Time'"),
+        ("{from: Steer}", "{from: Steer, unit: deg}", "'gon' of column 'Steer'"),
+        ('{from: "Brake pressure"}', '{from: "Brake pressure", unit: bar}', "'kgf/cm2' of column"),
+    ):
+        with pytest.raises(InputError, match=asked):
+            read_recording(log, mapping=begun)
+        text = text.replace(before, after)
+        begun.write_text(text)
+    assert read_recording(log, mapping=begun)["brake_pressure_steer_pa"].value[0] == 6e5
+
+
+def test_a_time_in_long_steps_of_an_unknown_unit_is_not_guessed(tmp_path: Path) -> None:
+    log = tmp_path / "slow.csv"
+    log.write_text("Time [ticks],Speed [km/h]\n" + "".join(f"{5 * k},60\n" for k in range(60)))
+    assert "time: {from: Time}  # GUESS: the log's unit 'ticks'" in mapping_text(inspect_log(log))
 
 
 def test_inspect_says_it_in_a_table_and_in_json(capsys: pytest.CaptureFixture[str]) -> None:

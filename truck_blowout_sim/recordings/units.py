@@ -143,6 +143,11 @@ def find_unit(text: str) -> Unit | None:
     return _UNITS.get(_key(text)) if text.strip() else None
 
 
+def unknown_unit(text: str) -> str:
+    """The unit that a log states, if it is not known here; else empty."""
+    return text.strip() if text.strip("[](){} ") and find_unit(text) is None else ""
+
+
 def units_of(quantity: str) -> tuple[str, ...]:
     """Names of the units of a quantity, the SI one first."""
     return tuple(_TABLE[quantity])

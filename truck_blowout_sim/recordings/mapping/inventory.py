@@ -27,7 +27,7 @@ from truck_blowout_sim.recordings.mapping.proposing import (
 )
 from truck_blowout_sim.recordings.mapping.rules import Rules, Source
 from truck_blowout_sim.recordings.mapping.signs import gravity_is_removed
-from truck_blowout_sim.recordings.mapping.times import time_column
+from truck_blowout_sim.recordings.mapping.times import time_column, unknown_time_unit
 from truck_blowout_sim.recordings.units import find_unit
 
 FloatArray = NDArray[np.float64]
@@ -68,17 +68,22 @@ class Further:
     Attributes:
         file: as a mapping names it.
         time_column, time_unit: where its rows have one time column; ``guessed``: no unit is stated.
+        unknown_time_unit: the unit that the log states, where it is not known here.
     """
 
     file: str
     time_column: str
     time_unit: str
     guessed: bool
+    unknown_time_unit: str = ""
 
 
 @dataclass(frozen=True)
 class Inventory:
-    """Everything that `inspect` says; ``time_guessed``: the time's unit is not stated."""
+    """Everything that `inspect` says; ``time_guessed``: the time's unit is not stated.
+
+    ``unknown_time_unit``: the one that is stated, where it is not known here.
+    """
 
     file: str
     kind: str
@@ -95,6 +100,7 @@ class Inventory:
     gravity_removed: bool = False
     time_guessed: bool = False
     further: tuple[Further, ...] = ()
+    unknown_time_unit: str = ""
 
     @property
     def unused(self) -> tuple[str, ...]:
@@ -140,6 +146,7 @@ def inspect_log(
         _time_guess(main) if rows is None else None,
         any(gravity_is_removed(f.log, some) for f, some in zip(files, guesses, strict=True)),
         rows is not None and rows.guessed, tuple(_further(main, f) for f in files[1:]),
+        _unknown_time_unit(main),
     )  # fmt: skip
 
 
@@ -147,7 +154,13 @@ def _further(main: Opened, opened: Opened) -> Further:
     column, unit = (opened.rows.column, opened.rows.unit) if opened.rows else (
         _time_guess(opened) or ("", ""))  # fmt: skip
     return Further(_name_in_mapping(main, opened), column, unit,
-                   opened.rows is None or opened.rows.guessed)  # fmt: skip
+                   opened.rows is None or opened.rows.guessed,
+                   _unknown_time_unit(opened))  # fmt: skip
+
+
+def _unknown_time_unit(opened: Opened) -> str:
+    column = opened.rows.column if opened.rows else (_time_guess(opened) or ("", ""))[0]
+    return unknown_time_unit(opened.log.column(column)) if column else ""
 
 
 def _name_in_mapping(main: Opened, opened: Opened) -> str:

@@ -21,7 +21,7 @@ from truck_blowout_sim.recordings.logs.csv_log import text_note
 from truck_blowout_sim.recordings.logs.mat_log import variables_of
 from truck_blowout_sim.recordings.mapping.clocks import CLOCK_START, lay_on, set_clock, wanted
 from truck_blowout_sim.recordings.mapping.rules import Rules, TimeRule
-from truck_blowout_sim.recordings.mapping.times import Times, times_of
+from truck_blowout_sim.recordings.mapping.times import Times, times_of, unknown_time_unit
 from truck_blowout_sim.recordings.mat_format import OWN_TIME, TIME, read_mat
 from truck_blowout_sim.recordings.mat_thesis import SOURCES, has_thesis_variables
 from truck_blowout_sim.recordings.names import parts_of
@@ -160,7 +160,11 @@ def _notes_on(rows: Times, log: Log, rule: TimeRule) -> Iterator[str]:
     if not rows.named:
         yield (f"no column is called time; {rows.column!r} is taken for it, because it increases in"
                " every row")
-    if rows.guessed and rows.unit != "s":
+    stated = unknown_time_unit(column) if rows.guessed else ""
+    if stated:
+        yield (f"time column {rows.column!r} is taken to be in {rows.unit}, by its numbers: the"
+               f" log's unit {quoted(stated)} is not known here")
+    elif rows.guessed and rows.unit != "s":
         yield f"time column {rows.column!r} is taken to be in {rows.unit}, by its numbers"
     left = np.flatnonzero(~np.isfinite(rows.time_s))
     if left.size:

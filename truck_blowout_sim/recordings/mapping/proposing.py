@@ -14,6 +14,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from truck_blowout_sim.errors import quoted
 from truck_blowout_sim.recordings.channels import (
     DEFAULT_HUBS,
     DEFAULT_TIRES,
@@ -29,10 +30,11 @@ from truck_blowout_sim.recordings.mapping.plausible import unit_by_size
 from truck_blowout_sim.recordings.mapping.signs import with_signs
 from truck_blowout_sim.recordings.mapping.stand_ins import stand_ins
 from truck_blowout_sim.recordings.mapping.vocabulary import channel_hinted
-from truck_blowout_sim.recordings.units import SI_QUANTITIES, Unit, find_unit
+from truck_blowout_sim.recordings.units import SI_QUANTITIES, Unit, find_unit, unknown_unit
 
 FloatArray = NDArray[np.float64]
 
+NOT_KNOWN = "the log's unit {} is not known here"
 _TRUCK_WHEEL_M = 0.5  # rolling radius of 11R22.5 and 295/75R22.5
 
 
@@ -42,7 +44,7 @@ class Proposal:
 
     Attributes:
         column, channel: full names.
-        unit: empty where the log states it.
+        unit: empty where the log states it, also if that one is not known here.
         sign, offset, radius_m: as in a mapping file.
         why: what each part was guessed from.
         file: of several, the one that the column is in, as a mapping names it; empty: any.
@@ -146,8 +148,15 @@ def _of_column(name: str, column: Column, channel: Channel, wheels: Wheels) -> P
         in_name = _unit_in_name(name)
         if in_name is not None and in_name.quantity != quantity:
             return None
-        unit = in_name.name if in_name else unit_by_size(told, channel.name, quantity)
-        why.append("unit from the name" if in_name else BY_SIZE)
+        unknown = unknown_unit(column.unit)
+        if in_name is not None:
+            unit = in_name.name
+            why.append("unit from the name")
+        elif not unknown:
+            unit = unit_by_size(told, channel.name, quantity)
+            why.append(BY_SIZE)
+        if unknown:  # what is stated is not overruled by the size of numbers: a person decides
+            why.append(NOT_KNOWN.format(quoted(unknown)))
     return Proposal(name, channel.name, unit, why=tuple(why))
 
 

@@ -15,7 +15,7 @@ from truck_blowout_sim.errors import InputError, nearest, quoted
 from truck_blowout_sim.recordings.logs.cells import past_midnight
 from truck_blowout_sim.recordings.logs.log import Column, Log, no_column
 from truck_blowout_sim.recordings.mapping.rules import TimeRule
-from truck_blowout_sim.recordings.units import find_unit
+from truck_blowout_sim.recordings.units import find_unit, unknown_unit
 
 FloatArray = NDArray[np.float64]
 
@@ -69,6 +69,13 @@ def times_of(log: Log, rule: TimeRule, where: str = "key time") -> Times:
                          expected="in the mapping: time: {from: COLUMN, unit: s}")  # fmt: skip
     column = log.column(name)
     unit, guessed = rule.unit or column.unit, False
+    stated = unknown_time_unit(column)
+    if rule.column and stated and not rule.unit:
+        raise InputError(
+            f"the log's unit {quoted(stated)} of time column {quoted(name)} is not known here",
+            file=log.path, where=where,
+            expected=f"in the mapping: time: {{from: {name}, unit: s}}, or another unit",
+        )  # fmt: skip
     if column.unit in CLOCK_UNITS and not rule.unit:
         unit = column.unit
     elif find_unit(unit) is None or find_unit(unit).quantity != "time":  # type: ignore[union-attr]
@@ -84,6 +91,11 @@ def times_of(log: Log, rule: TimeRule, where: str = "key time") -> Times:
     absolute = unit in CLOCK_UNITS or bool(first.size and first[0] > _EPOCH_S)
     named = bool(rule.column or _NAME.fullmatch(name.strip()))
     return Times(time_s, name, unit, guessed, absolute, named)
+
+
+def unknown_time_unit(column: Column) -> str:
+    """The unit that a time column states, if it is not known here; else empty."""
+    return "" if column.unit in CLOCK_UNITS else unknown_unit(column.unit)
 
 
 def time_column(log: Log) -> str | None:

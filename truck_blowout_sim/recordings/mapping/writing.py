@@ -7,8 +7,9 @@ from __future__ import annotations
 
 import json
 
+from truck_blowout_sim.errors import quoted
 from truck_blowout_sim.recordings.mapping.inventory import Further, Inventory
-from truck_blowout_sim.recordings.mapping.proposing import Proposal
+from truck_blowout_sim.recordings.mapping.proposing import NOT_KNOWN, Proposal
 
 _YAML_WORDS = ("y", "n", "yes", "no", "on", "off", "true", "false", "null")
 _HEAD = """\
@@ -35,12 +36,7 @@ _TAIL = """
 def mapping_text(inventory: Inventory) -> str:
     """The mapping file that `inspect --write-map` writes."""
     out = [_HEAD.format(file=inventory.file)]
-    if inventory.time_guess:
-        column, unit = inventory.time_guess
-        out.append(f"time: {{from: {_text(column)}, unit: {unit}}}  # GUESS: from the steps\n")
-    elif inventory.time_column:
-        words = _time(inventory.time_column, inventory.time_unit)
-        out.append(f"time: {words}{_UNSTATED if inventory.time_guessed else ''}\n")
+    out.append(_main_time(inventory))
     out += ["also:\n"] * bool(inventory.further) + [_also(one) for one in inventory.further]
     out.append("channels:" + ("\n" if inventory.proposals else " {}\n"))
     out += [_entry(proposal) for proposal in inventory.proposals]
@@ -57,15 +53,30 @@ def mapping_text(inventory: Inventory) -> str:
     return "".join(out)
 
 
-def _time(column: str, unit: str) -> str:
+def _main_time(inventory: Inventory) -> str:
+    column, unit = inventory.time_guess or (inventory.time_column, inventory.time_unit)
+    if not column:
+        return ""
+    guess = "  # GUESS: from the steps" if inventory.time_guess else (
+        _UNSTATED if inventory.time_guessed else "")  # fmt: skip
+    words, guess = _time(column, unit, inventory.unknown_time_unit, guess)
+    return f"time: {words}{guess}\n"
+
+
+def _time(column: str, unit: str, unknown: str, guess: str) -> tuple[str, str]:
+    """Entry and comment; without a unit where the log's is not known: the reader asks for it."""
+    if unknown:
+        return f"{{from: {_text(column)}}}", f"  # GUESS: {NOT_KNOWN.format(quoted(unknown))}"
     stated = "" if unit == "clock" else f", unit: {unit or 's'}"
-    return f"{{from: {_text(column)}{stated}}}"
+    return f"{{from: {_text(column)}{stated}}}", guess
 
 
 def _also(further: Further) -> str:
-    time = f", time: {_time(further.time_column, further.time_unit)}" * bool(further.time_column)
-    guess = _UNSTATED if further.time_column and further.guessed else ""
-    return f"  - {{file: {_text(further.file)}{time}}}{guess}\n"
+    if not further.time_column:
+        return f"  - {{file: {_text(further.file)}}}\n"
+    words, guess = _time(further.time_column, further.time_unit, further.unknown_time_unit,
+                         _UNSTATED if further.guessed else "")  # fmt: skip
+    return f"  - {{file: {_text(further.file)}, time: {words}}}{guess}\n"
 
 
 def _entry(proposal: Proposal) -> str:
