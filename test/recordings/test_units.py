@@ -17,6 +17,8 @@ from truck_blowout_sim.recordings.units import find_unit, units_of
     ("psia", 14.695948775513, 0.0), ("bar", 1.0, 1e5), ("bar abs", 1.01325, 0.0),
     ("kPa absolute", 101.325, 0.0), ("MPa abs", 0.201325, 1e5), ("hPa absolute", 1013.25, 0.0),
     ("MPa", 1.0, 1e6), ("%", 50.0, 0.5), ("ft", 1.0, 0.3048),
+    ("kn", 1.0, 1852 / 3600), ("[kn]", 1.0, 1852 / 3600), ("Knots", 1.0, 1852 / 3600),
+    ("kt", 1.0, 1852 / 3600), ("kts", 1.0, 1852 / 3600), ("kN", 1.0, 1e3), ("(kN)", 1.0, 1e3),
     ("ms", 1.0, 1e-3), ("(km/h)", 36.0, 10.0),
 ])  # fmt: skip
 def test_value_in_si(text: str, number: float, si: float) -> None:

@@ -118,16 +118,21 @@ _TABLE: dict[str, dict[str, tuple[float, float, str]]] = {
 }
 
 
+def _bare(text: str) -> str:
+    return "".join(text.strip().strip("[](){}").split()).replace("**", "^")
+
+
 def _key(text: str) -> str:
-    return "".join(text.strip().strip("[](){}").lower().split()).replace("**", "^")
+    return _bare(text).lower()
 
 
-_UNITS = {
-    _key(spelling): Unit(name, quantity, factor, offset)
+_AS_SPELLED = {
+    _bare(spelling): Unit(name, quantity, factor, offset)
     for quantity, names in _TABLE.items()
     for name, (factor, offset, others) in names.items()
     for spelling in (name, *others.split())
 }
+_UNITS = {_key(spelling): unit for spelling, unit in _AS_SPELLED.items()}
 # What the splitting at blanks above would take apart.
 _UNITS |= {
     _key(f"{name} abs"): _UNITS[_key(f"{name} absolute")]
@@ -140,7 +145,10 @@ def find_unit(text: str) -> Unit | None:
     """The unit that a text stands for, None if it is none: ``km/h``, ``[deg/s]``, ``(psi)``."""
     if text.strip("[]() ") == _MILLI_PASCAL:
         return None  # millipascal: nobody logs it, and MPa would be wrong by 1e9
-    return _UNITS.get(_key(text)) if text.strip() else None
+    if not text.strip():
+        return None
+    # case tells kn, knots, from kN
+    return _AS_SPELLED.get(_bare(text)) or _UNITS.get(_key(text))
 
 
 def unknown_unit(text: str) -> str:
