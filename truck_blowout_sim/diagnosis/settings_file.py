@@ -11,6 +11,7 @@ import yaml
 
 from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.resources import config_file
+from truck_blowout_sim.yaml_numbers import load_yaml
 
 
 def settings_tree(path: Path) -> dict[str, Any]:
@@ -23,7 +24,7 @@ def settings_tree(path: Path) -> dict[str, Any]:
         InputError: not YAML, or something said of what the other file does not have.
     """
     try:
-        tree = yaml.safe_load(path.read_text(encoding="utf-8"))
+        tree: Any = load_yaml(path.read_text(encoding="utf-8"))
     except (yaml.YAMLError, UnicodeDecodeError) as error:
         raise InputError(f"not YAML: {error}", file=path) from None
     check_keys(path, "", tree)

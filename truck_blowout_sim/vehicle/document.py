@@ -18,8 +18,8 @@ import yaml
 from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.resources import config_file
 from truck_blowout_sim.vehicle.units import si_key
+from truck_blowout_sim.yaml_numbers import FAST_LOADER
 
-_LOADER: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 MOST_NODES = 100_000
 MERGE_TAG = "tag:yaml.org,2002:merge"
 _KEPT_DOCUMENTS = 64
@@ -157,7 +157,7 @@ def _parse(path: Path) -> Branch:
             f"cannot be read: {error}", file=path, expected="a YAML file in UTF-8"
         ) from error
     try:
-        loader = _LOADER(text)
+        loader = FAST_LOADER(text)
         try:
             return _Reader(loader).document(start)
         finally:

@@ -155,7 +155,7 @@ def _number(rule: Rule, value: object, leaf: Leaf) -> float:
 
 
 def to_number(value: object, place: Place, expected: str = "a number") -> float:
-    """A YAML scalar as a float; YAML 1.1 reads `3e6` as a text, people mean a number.
+    """A YAML scalar as a float, also one in quotes.
 
     Raises:
         InputError: not a number, or NaN.

@@ -21,6 +21,7 @@ from truck_blowout_sim.recordings.channels import UNITS
 from truck_blowout_sim.recordings.mapping.rules import Also, Mount, Rules, Source, TimeRule
 from truck_blowout_sim.recordings.recording import Blowout
 from truck_blowout_sim.recordings.units import find_unit
+from truck_blowout_sim.yaml_numbers import LOADER, load_yaml
 
 _KEYS = ("time", "channels", "topics", "shift_s", "also", "blowouts", "exclude", "sensors",
          "metadata")  # fmt: skip
@@ -43,8 +44,8 @@ def load_mapping(path: str | os.PathLike[str]) -> Rules:
         raise InputError(f"has {len(data)} bytes", file=path, expected="a mapping file (YAML)")
     try:
         text = data.decode("utf-8-sig")
-        tree = yaml.safe_load(text)
-        doubled = _doubled_key(yaml.compose(text, Loader=yaml.SafeLoader), "", set())
+        tree = load_yaml(text)
+        doubled = _doubled_key(yaml.compose(text, Loader=LOADER), "", set())
     except NOT_YAML as error:
         mark = getattr(error, "problem_mark", None)
         where = f"line {mark.line + 1}" if mark else ""
