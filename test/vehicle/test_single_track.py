@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 
+from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.simulation import InitialState, Inputs, Truck
 from truck_blowout_sim.vehicle import Vehicle, load_vehicle, pack, write_vehicle
 from truck_blowout_sim.vehicle.packing import packed_spreads
@@ -136,6 +137,18 @@ def test_what_does_not_fit_is_one_line(write: Callable[..., Path], refusal: Call
                                        old: str, new: str, words: str) -> None:  # fmt: skip
     assert old in CAR
     assert words in refusal(write(CAR.replace(old, new)))
+
+
+@pytest.mark.parametrize(("old", "new", "place"), [
+    ("tire: 275/80R22.5", "tire: foo", r"line 8: single_track\.tire: 'foo'"),
+    ("rear_axles: 2", "rear_tire: foo", r"line 9: single_track\.rear_tire: 'foo'"),
+    ("6.64}", "6.64, tire: foo}", r"line 11: single_track\.trailer\.tire: 'foo'"),
+])  # fmt: skip
+def test_a_wrong_tire_size_is_reported_where_it_stands(
+        write: Callable[..., Path], old: str, new: str, place: str) -> None:
+    assert old in TRACTOR_TRAILER
+    with pytest.raises(InputError, match=place):
+        load_vehicle(write(TRACTOR_TRAILER.replace(old, new), "truck.yaml"))
 
 
 def test_a_stated_spread_reaches_the_vehicle(tmp_path: Path) -> None:

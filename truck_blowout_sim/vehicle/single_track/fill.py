@@ -8,7 +8,12 @@ from truck_blowout_sim.vehicle.single_track.axles import put_axles
 from truck_blowout_sim.vehicle.single_track.bodies import put_unit
 from truck_blowout_sim.vehicle.single_track.controls import put_controls
 from truck_blowout_sim.vehicle.single_track.draft import RULE, Draft
-from truck_blowout_sim.vehicle.single_track.plan import UnitPlan, towing_plan, trailer_plan
+from truck_blowout_sim.vehicle.single_track.plan import (
+    UnitPlan,
+    rear_tire_place,
+    towing_plan,
+    trailer_plan,
+)
 from truck_blowout_sim.vehicle.single_track.rules import load_rules
 from truck_blowout_sim.vehicle.single_track.schema import SingleTrackSpec
 from truck_blowout_sim.vehicle.single_track.tires import put_blowout, put_rims, put_tires
@@ -43,7 +48,7 @@ def _whole_vehicle(section: Branch) -> Branch:
         below = section.entries["trailer"]
         assert isinstance(below, Branch)  # `build` has seen to it
         trailer = trailer_plan(spec.trailer, load_rules("trailer"), spec.rear_tire or spec.tire,
-                               below)  # fmt: skip
+                               rear_tire_place(spec, section), below)  # fmt: skip
     towing = towing_plan(spec, rules, trailer, section)
     draft = Draft(section.place, notes)
     draft.put("title", f"single-track {spec.kind}" + (" with semitrailer" if trailer else ""))

@@ -79,7 +79,7 @@ def towing_plan(spec: SingleTrackSpec, rules: Rules, trailer: UnitPlan | None, t
     twins = _tires(spec.rear_tires_per_axle or rules.spec.rear_tires_per_axle, tree,
                    "rear_tires_per_axle")  # fmt: skip
     rear_text = spec.rear_tire or spec.tire
-    rear_size = parse_size(rear_text, _at(tree, "rear_tire" if spec.rear_tire else "tire"))
+    rear_size = parse_size(rear_text, rear_tire_place(spec, tree))
     axles = [AxlePlan(
         name="steer" if truck else "front", circuit="steer", x_m=0.0, load_kg=front,
         cornering_nprad=spec.front_cornering_nprad, tires=2,
@@ -99,8 +99,21 @@ def towing_plan(spec: SingleTrackSpec, rules: Rules, trailer: UnitPlan | None, t
         carried_height_m=height, axles=tuple(axles))  # fmt: skip
 
 
-def trailer_plan(spec: SingleTrailerSpec, rules: Rules, tire: str, tree: Branch) -> UnitPlan:
+def rear_tire_place(spec: SingleTrackSpec, tree: Branch) -> Place:
+    """Where the size of the rear tires stands in the section."""
+    return _at(tree, "rear_tire" if spec.rear_tire else "tire")
+
+
+def trailer_plan(spec: SingleTrailerSpec, rules: Rules, tire: str, tire_place: Place, tree: Branch
+                 ) -> UnitPlan:  # fmt: skip
     """Plan of a semitrailer; its origin is the kingpin.
+
+    Args:
+        spec: what the trailer's section says.
+        rules: of a trailer.
+        tire: size of the tires in front of it, which it has where it states none.
+        tire_place: where that size stands.
+        tree: the trailer's section.
 
     Raises:
         InputError: what is stated does not fit together; at its key.
@@ -111,7 +124,7 @@ def trailer_plan(spec: SingleTrailerSpec, rules: Rules, tire: str, tree: Branch)
     count = _whole(spec.axles, tree, "axles")
     rear = spec.mass_kg * cg_x / base
     text = spec.tire or tire
-    size = parse_size(text, _at(tree, "tire") if spec.tire else tree.place)
+    size = parse_size(text, _at(tree, "tire") if spec.tire else tire_place)
     tires = _tires(spec.tires_per_axle, tree, "tires_per_axle")
     axles = tuple(
         AxlePlan(name=f"trailer_{k + 1}", circuit="trailer", x_m=x, load_kg=rear / count,
