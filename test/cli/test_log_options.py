@@ -13,7 +13,7 @@ import pytest
 from truck_blowout_sim.cli.main import VERBS, main
 from truck_blowout_sim.cli.reading import LogOptions, apart_over_roles
 from truck_blowout_sim.errors import InputError
-from truck_blowout_sim.recordings import Recording
+from truck_blowout_sim.recordings import Recording, read_recording
 
 SHIPPED = "test_2013_steer_blowout"
 READING = ("inspect", "import", "export", "compare", "diagnose", "calibrate", "plot", "view")
@@ -54,6 +54,19 @@ def test_a_blowout_is_marked_where_it_is_seen(log: Path, tmp_path: Path,
     assert "steer_left" in page.read_text()
     assert main(["plot", *words, "--blow", "steer_left@7", "-o", str(tmp_path)]) == 2
     assert "expected an instant of theirs, 0 s to 0.99 s" in capsys.readouterr().err
+
+
+def test_a_blowout_of_the_same_tire_marked_twice_is_refused(
+    log: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    out = tmp_path / "marked.csv"
+    words = ["export", str(log), "-m", str(tmp_path / "map.yaml"), "-o", str(out), "--blow"]
+    assert main([*words, "steer_left@0.4", "--blow", "steer_left@0.5"]) == 2
+    assert capsys.readouterr().err.endswith("--blow: steer_left bursts at 0.4 s and again at 0.5 s;"
+                                            " expected each tire at most once\n")
+    assert not out.exists()
+    assert main([*words, "steer_left+steer_left@0.4"]) == 0
+    assert read_recording(out).blowouts[0].tires == ("steer_left",)
 
 
 @pytest.mark.parametrize("folder", ["", "maps"])

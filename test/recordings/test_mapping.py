@@ -93,6 +93,8 @@ def test_shifts_blowouts_exclusions_and_metadata(log: Path) -> None:
     (channels() | {"exclude": ["tractor_rol_rad"]}, "is not recorded"),
     (channels() | {"blowouts": [{"tire": "steer_lft", "at_s": 0.5}]}, "expected steer_left"),
     (channels() | {"blowouts": [{"tire": "steer_left", "at_s": 50}]}, "expected an instant"),
+    (channels() | {"blowouts": [{"tire": "steer_left", "at_s": at_s} for at_s in (0.5, 0.3)]},
+     "key blowouts: steer_left bursts at 0.3 s and again at 0.5 s; expected each tire at most"),
     (channels() | {"time": {"from": "Tme"}}, "no column 'Tme'"),
     (channels() | {"time": {"from": "Steer", "unit": "s"}}, "do not run backwards"),
     (channels() | {"also": ["gone.csv"]}, "gone.csv: no such file"),

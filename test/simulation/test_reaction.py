@@ -114,6 +114,13 @@ def test_a_delay_follows_the_condition(run: Run) -> None:
     assert burst.time_s == pytest.approx(4.5, abs=0.002)
 
 
+def test_a_tire_that_burst_before_its_condition_was_met_is_told_once(run: Run) -> None:
+    burst = run("blowouts:\n  early: {time_s: 1, tires: drive_1_left_outer}\n"
+                "  hub: {when: {after_s: 4}, tires: drive_1_left}\n"
+                "  again: {when: {after_s: 5}, tires: drive_1_left}\n").blowouts
+    assert [event.tires for event in burst] == [("drive_1_left_outer",), ("drive_1_left_inner",)]
+
+
 def test_yaw_rate_sets_an_event_off_and_the_driver_may_react_to_it(
     truck: Packed, write: Callable[[str], Path]
 ) -> None:

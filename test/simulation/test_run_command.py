@@ -66,6 +66,8 @@ def test_csv_values_and_blowouts_of_ones_own(tmp_path: Path) -> None:
     (("fishhook", "--blow", "steer_left"), "expected TIRE@SECONDS"),
     (("fishhook", "--blow", "steer_lef@2"), "did you mean 'steer_left'?"),
     (("fishhook", "--blow", "steer_left@99"), "outside the run"),
+    (("fishhook", "--blow", "steer_left@2", "--blow", "steer_left@1"), "blowout steer_left@1: "
+     "steer_left bursts at 1 s and again at 2 s; expected each tire at most once"),
     (("fishhook", "--format", "xls"), "expected bag or csv"),
     (("fishhook", "--step-s", "1"), "step_s is 1.0"),
 ])

@@ -79,6 +79,25 @@ def test_blowouts_can_be_replaced(truck: Packed) -> None:
         changed.with_blowouts([Blowout(99.0, ("steer_left",))])
 
 
+@pytest.mark.parametrize("second", ["steer_left", "steer_right+steer_left"])
+def test_a_tire_that_bursts_twice_is_refused(refusal: Refusal, second: str) -> None:
+    line = refusal(COAST + "blowouts:\n  a: {time_s: 1, tires: steer_left}\n"
+                   f"  b: {{time_s: 1.5, tires: {second}}}\n")
+    assert line.endswith("line 10: blowouts.b.tires: steer_left bursts at 1 s and again at 1.5 s; "
+                         "expected each tire at most once")
+
+
+@pytest.mark.parametrize(("tires", "burst"), [
+    ("steer_left+steer_left", ("steer_left",)),
+    ("drive_1_left+drive_1_left_outer", ("drive_1_left_outer", "drive_1_left_inner")),
+])
+def test_a_tire_named_twice_in_one_event_counts_once(
+    truck: Packed, write: Callable[[str], Path], tires: str, burst: tuple[str, ...]
+) -> None:
+    scenario = load_scenario(write(COAST + f"blowouts: {{a: {{time_s: 1, tires: {tires}}}}}\n"))
+    assert scenario.blowouts_of(truck.vehicle)[0].tires == burst
+
+
 @pytest.mark.parametrize(("change", "words"), [
     (("end_s: 2", "end_s: -1"), "end_s: -1 s is not after the start; expected more than 0 s"),
     (("end_s: 2", "end: 2"), "has no unit; expected end_s"),

@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from truck_blowout_sim.errors import InputError, quoted
 from truck_blowout_sim.recordings.recording import Blowout
 
+ONCE = "each tire at most once"
 _EXPECTED = "TIRE@SECONDS; tires that burst together are joined by +"
 
 
@@ -24,6 +25,12 @@ def parse_blowouts(words: Sequence[str]) -> list[Blowout]:
             raise InputError(f"--blow {quoted(word)}", expected=_EXPECTED)
         events.append(Blowout(_number(text, f"--blow {quoted(word)}"), tuple(tires.split("+"))))
     return events
+
+
+def bursts_twice(tire: str, one_s: float, other_s: float) -> str:
+    """What is wrong with two events of the same tire, earlier instant first."""
+    first_s, second_s = sorted((one_s, other_s))
+    return f"{tire} bursts at {first_s:g} s and again at {second_s:g} s"
 
 
 def _number(text: str, where: str) -> float:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import replace
 from os import PathLike
 from pathlib import Path
@@ -67,7 +68,10 @@ def recorded(packed: Packed, drive: Drive, ran: Ran, blowouts: tuple[Blowout, ..
 
 def burst(packed: Packed, drive: Drive, ran: Ran, timed: tuple[Blowout, ...]
           ) -> tuple[Blowout, ...]:
-    """What really burst: at its time, or when its condition was met, before the run ended."""
+    """What really burst: at its time, or when its condition was met, before the run ended.
+
+    A tire bursts once; what a later event adds are its other tires.
+    """
     waited: dict[int, list[str]] = {}
     for b in _met(drive, ran):
         tire = packed.names.tires[drive.blown[b]]
@@ -75,7 +79,19 @@ def burst(packed: Packed, drive: Drive, ran: Ran, timed: tuple[Blowout, ...]
     met = [Blowout(drive.initial.time_s + step * drive.step_s, tuple(tires))
            for step, tires in waited.items()]
     on_time = [e for e in timed if e.time_s <= _last_s(ran)]
-    return tuple(sorted((*on_time, *met), key=lambda e: e.time_s))
+    return _first_bursts(sorted((*on_time, *met), key=lambda e: e.time_s))
+
+
+def _first_bursts(events: Sequence[Blowout]) -> tuple[Blowout, ...]:
+    """Events in order of time without tires that have burst before; an empty one is left out."""
+    blown: set[str] = set()
+    first = []
+    for event in events:
+        tires = tuple(tire for tire in event.tires if tire not in blown)
+        blown.update(tires)
+        if tires:
+            first.append(Blowout(event.time_s, tires))
+    return tuple(first)
 
 
 def _never_met(packed: Packed, drive: Drive, ran: Ran, scenario: Scenario) -> list[str]:

@@ -11,6 +11,7 @@ from pathlib import Path
 
 from truck_blowout_sim.errors import InputError, quoted
 from truck_blowout_sim.recordings import Blowout
+from truck_blowout_sim.recordings.blowout_words import ONCE, bursts_twice
 from truck_blowout_sim.resources import config_file, config_names
 from truck_blowout_sim.simulation.scenario_schema import (
     BlowoutEventSpec,
@@ -71,16 +72,25 @@ class Scenario:
         """Its blowouts at instants, with hubs resolved into tires; those on a condition are not.
 
         Raises:
-            InputError: a name that is neither a hub nor a tire of the vehicle.
+            InputError: a name that is neither a hub nor a tire of the vehicle, or a tire that
+                bursts twice.
         """
-        return tuple(
-            Blowout(event.time_s, self.tires_of(name, vehicle))
+        events = {
+            name: Blowout(event.time_s, self.tires_of(name, vehicle))
             for name, event in self.spec.blowouts.items()
             if event.when is None and event.tires != NOTHING
-        )
+        }
+        blown_s: dict[str, float] = {}
+        for name, event in events.items():
+            for tire in event.tires:
+                if tire in blown_s:
+                    raise self._tires_place(name).error(
+                        bursts_twice(tire, blown_s[tire], event.time_s), ONCE)
+                blown_s[tire] = event.time_s
+        return tuple(events.values())
 
     def tires_of(self, event: str, vehicle: Vehicle) -> tuple[str, ...]:
-        """The tires that burst in one event, hubs resolved.
+        """The tires that burst in one event, each once, hubs resolved.
 
         Raises:
             InputError: a name that is neither a hub nor a tire of the vehicle.
@@ -94,10 +104,12 @@ class Scenario:
                 tires.append(word)
             else:
                 problem = f"{quoted(word)} is no hub or tire of {vehicle.name}"
-                place = self.places.get(f"blowouts.{event}.tires", Place("blowout", 1, ""))
                 parts = tuple(dict.fromkeys((*vehicle.hubs, *vehicle.tires)))
-                raise unknown(place, problem, word, parts)
-        return tuple(tires)
+                raise unknown(self._tires_place(event), problem, word, parts)
+        return tuple(dict.fromkeys(tires))
+
+    def _tires_place(self, event: str) -> Place:
+        return self.places.get(f"blowouts.{event}.tires", Place("blowout", 1, ""))
 
 
 def load_scenario(name_or_path: str | PathLike[str]) -> Scenario:

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from truck_blowout_sim.errors import InputError, nearest, quoted
+from truck_blowout_sim.recordings.blowout_words import ONCE, bursts_twice
 from truck_blowout_sim.recordings.channels import DEFAULT_TIRES, UNITS
 from truck_blowout_sim.recordings.mapping.clocks import CLOCK_START
 from truck_blowout_sim.recordings.mapping.rules import Mount, Rules
@@ -24,6 +25,7 @@ from truck_blowout_sim.recordings.topic_names import channels_on
 
 FloatArray = NDArray[np.float64]
 
+_OPTION = "--blow"
 MAP_ORIGIN = "map_origin_m"
 # A test track is not larger; what lies farther away is a coordinate of the earth (UTM).
 _FARTHEST_M = 1.0e5
@@ -33,12 +35,13 @@ _SMOOTHED_S = 0.1
 
 def with_blowouts(
     recording: Recording, events: Iterable[Blowout], *, tires: Iterable[str] = (),
-    hubs: Iterable[str] = (), file: object = "--blow",
+    hubs: Iterable[str] = (), file: object = _OPTION,
 ) -> Recording:
     """A copy with further blowouts; that of a tire in the same run is moved to the new instant.
 
     Raises:
-        InputError: an unknown tire, or an instant outside the recording.
+        InputError: an unknown tire, an instant outside the recording, or a tire that is added
+            twice in the same run.
     """
     added = [_on_clock(event, recording) for event in events]
     parts = parts_of(recording.channels, hubs, tires)
@@ -54,7 +57,23 @@ def with_blowouts(
                 expected=f"an instant of {recording.name},"
                 f" {recording.start_s:g} s to {recording.end_s:g} s",
             )  # fmt: skip
+    _check_once(added, recording, file)
     return replace(recording, blowouts=(*_not_moved(recording, added), *added))
+
+
+def _check_once(added: Iterable[Blowout], recording: Recording, file: object) -> None:
+    """Refuse a tire that is added twice in the same run; a reset begins another run."""
+    resets_s = reset_times_s(recording.channels)
+    blown_s: dict[tuple[int, str], float] = {}
+    for event in added:
+        for tire in event.tires:
+            key = (run_at(event.time_s, resets_s), tire)
+            if key in blown_s:
+                raise InputError(
+                    bursts_twice(tire, blown_s[key], event.time_s), file=str(file),
+                    where="" if file == _OPTION else "key blowouts", expected=ONCE,
+                )  # fmt: skip
+            blown_s[key] = event.time_s
 
 
 def _not_moved(recording: Recording, added: Iterable[Blowout]) -> list[Blowout]:
@@ -67,11 +86,12 @@ def _not_moved(recording: Recording, added: Iterable[Blowout]) -> list[Blowout]:
 
 
 def _on_clock(event: Blowout, recording: Recording) -> Blowout:
-    """An instant of the log's own absolute clock, on the recording's clock."""
+    """An instant of the log's own absolute clock, on the recording's clock; each tire once."""
+    tires, time_s = tuple(dict.fromkeys(event.tires)), event.time_s
     start_s = recording.metadata.get(CLOCK_START)
-    if start_s and event.time_s > 0.5 * float(start_s) > recording.end_s:
-        return Blowout(event.time_s - float(start_s), event.tires)
-    return event
+    if start_s and time_s > 0.5 * float(start_s) > recording.end_s:
+        time_s -= float(start_s)
+    return Blowout(time_s, tires)
 
 
 def without_excluded(recording: Recording, rules: Rules) -> Recording:
