@@ -183,8 +183,10 @@ def test_equal_trucks_settle_once(short: Path, monkeypatch: pytest.MonkeyPatch) 
     ("a=0:1:3", [0.0, 0.5, 1.0]),
     ("a=0.5x:1.5x:3", ["0.5x", "1.0x", "1.5x"]),
     ("a=steer_left,none", ["steer_left", "none"]),
-    ("a=0.5,.inf", [0.5, ".inf"]),
+    ("a=0.5,.inf", [0.5, math.inf]),
     ("a=0.5,inf", [0.5, math.inf]),
+    ("a=-.Inf,INF", [-math.inf, math.inf]),
+    ("a=0.5,.nan", [0.5, ".nan"]),
 ])
 def test_an_axis_is_a_list_or_a_range(word: str, values: list[object]) -> None:
     assert list(parse_axis(word).grid_values()) == values

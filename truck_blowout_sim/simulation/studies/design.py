@@ -132,8 +132,10 @@ def _check(axes: Sequence[Axis]) -> None:
 
 
 def _value(text: str) -> Value:
+    """A number, without end also as files write it (``.inf``), or else the word."""
+    plain = text.lower().replace(".inf", "inf")
     try:
-        number = float(text)
+        number = float(plain)
     except ValueError:
         return text
-    return number if math.isfinite(number) or "inf" in text else text
+    return number if math.isfinite(number) or "inf" in plain else text
