@@ -150,6 +150,17 @@ def test_a_key_of_both_files_asks_which(short: Path) -> None:
     Study(TRUCK, short, ["scenario.title"])
 
 
+@pytest.mark.parametrize(("first", "second"), [
+    ("start.speed_mph", "start.speed_mps"),
+    ("scenario.start.speed_mph", "start.speed_mph"),
+    ("tires.steer.pressure_psi", "vehicle.tires.steer.pressure_kpa"),
+])
+def test_a_quantity_in_two_units_is_refused(short: Path, first: str, second: str) -> None:
+    with pytest.raises(InputError, match=f"^--vary '{second}' is given twice, first as '{first}'"):
+        Study(TRUCK, short, [first, second])
+    Study(TRUCK, short, [first, "end_s", "tires.*.friction_scale"])
+
+
 def test_an_unknown_channel_names_the_nearest(short: Path) -> None:
     with pytest.raises(InputError, match="did you mean 'tractor_yaw_rate_radps'"):
         Study(TRUCK, short, ["end_s"], ["tractor_yawrate_radps"])

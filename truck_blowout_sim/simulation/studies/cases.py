@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import OrderedDict
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from os import PathLike
 from threading import Lock
@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from truck_blowout_sim.errors import InputError
+from truck_blowout_sim.errors import InputError, quoted
 from truck_blowout_sim.physics.layout import INPUT
 from truck_blowout_sim.recordings import INPUT_NAMES
 from truck_blowout_sim.resources import config_file
@@ -75,7 +75,7 @@ class Study:
         insist: also run what no truck does; else such a run fails with this reason.
 
     Raises:
-        InputError: files that cannot be used, no such key or channel.
+        InputError: files that cannot be used, no such key or channel, a quantity under two keys.
     """
 
     vehicle: str | PathLike[str]
@@ -97,6 +97,7 @@ class Study:
         packed = pack(vehicle_of(tree, path))
         self.found: dict[str, Key] = {
             key: find_key(key, self._scenario_tree, tree, packed) for key in self.keys}
+        _check_once(self.found.values())
         scenario = scenario_of(self._scenario_tree, self._scenario_path)
         self.times_s = row_times(scenario, self.step_s, self.rate_hz)
         try:
@@ -234,6 +235,15 @@ class Study:
             elif channel in names:
                 out[:n, k] = ran.out[:n, names.index(channel)]
         return out
+
+
+def _check_once(keys: Iterable[Key]) -> None:
+    """Refuse one quantity under two keys, as in two units: the last would silently rule."""
+    seen: dict[object, str] = {}
+    for key in keys:
+        if (first := seen.setdefault((key.where, key.paths), key.text)) != key.text:
+            raise InputError(f"--vary {quoted(key.text)} is given twice, first as {quoted(first)}",
+                             expected="each quantity once, in one unit")
 
 
 def _numbers(values: Mapping[str, Value]) -> dict[str, float]:
