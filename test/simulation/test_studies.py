@@ -54,6 +54,28 @@ def test_a_batch_has_the_same_bits_as_single_runs(short: Path, truck: Packed) ->
     assert batch.column("status") == ["ok", "ok"]
 
 
+def test_a_batch_takes_a_vehicle_that_is_loaded_or_changed(short: Path, truck: Packed) -> None:
+    heavy = truck.with_values({"unit.trailer.drag_area_extra_m2": 50.0})
+    speeds = [{"start.speed_mph": mph} for mph in (38.0, 40.0)]
+    named, loaded, changed = (
+        simulate_batch(vehicle, short, speeds, channels=CHANNELS, rate_hz=50.0).series(CHANNELS[0])
+        for vehicle in (TRUCK, truck.vehicle, heavy))
+    np.testing.assert_array_equal(loaded, named)
+    assert not np.array_equal(changed, named)
+    ratio = [{"vehicle.steering.ratio": 18.0}]
+    assert simulate_batch(truck.vehicle, short, ratio).column("status") == ["ok"]
+    with pytest.raises(InputError, match="other values than its file, of which keys vary"):
+        simulate_batch(heavy, short, ratio)
+
+
+def test_the_keys_of_variants_may_stand_in_any_order(short: Path) -> None:
+    one = {"start.speed_mph": 38.0, "hold.speed_mph": 38.0}
+    batch = simulate_batch(TRUCK, short, [one, dict(reversed(one.items()))], channels=CHANNELS)
+    np.testing.assert_array_equal(*batch.series(CHANNELS[0]))
+    with pytest.raises(InputError, match="different keys"):
+        simulate_batch(TRUCK, short, [one, {"start.speed_mph": 38.0}])
+
+
 def test_keys_of_every_file_reach_the_run(short: Path) -> None:
     base = {"start.speed_mph": 40.0, "hold.speed_mph": 40.0, "blowouts.failure.time_s": 1.0,
             "blowouts.*.tires": "steer_left", "units.trailer.payload.*.mass_kg": "1x",

@@ -27,6 +27,7 @@ from truck_blowout_sim.simulation.abreast import MANY
 from truck_blowout_sim.simulation.studies.cases import Case, Row, Study
 from truck_blowout_sim.simulation.studies.design import Value
 from truck_blowout_sim.simulation.studies.tables import TIMES, schema_of, table_of, write_rows
+from truck_blowout_sim.vehicle.given import AnyVehicle
 
 Floats = NDArray[np.float64]
 Progress = Callable[[float], None]
@@ -63,7 +64,7 @@ class Batch:
         return out
 
 
-def simulate_batch(vehicle: str | PathLike[str], scenario: str | PathLike[str],
+def simulate_batch(vehicle: AnyVehicle, scenario: str | PathLike[str],
                    variants: Sequence[Mapping[str, Value]], *, channels: Sequence[str] = (),
                    rate_hz: float = 100.0, step_s: float = 0.001, workers: int | None = None,
                    output: str | PathLike[str] | None = None, insist: bool = False,
@@ -71,9 +72,11 @@ def simulate_batch(vehicle: str | PathLike[str], scenario: str | PathLike[str],
     """Run one scenario with many settings.
 
     Args:
-        vehicle, scenario: names of shipped files, or paths.
+        vehicle: a vehicle, one packed with parameters of its own, a path, or a shipped name.
+        scenario: name of a shipped file, or a path.
         variants: for each run, values by key, every run with the same keys; see `studies.keys`:
-            ``{"start.speed_mph": 55, "blowouts.failure.time_s": 3.0}``.
+            ``{"start.speed_mph": 55, "blowouts.failure.time_s": 3.0}``. They are set in the order
+            of the first one.
         channels: outputs and inputs to keep; measures are always kept.
         rate_hz: rate of the channels, on one time base for all runs.
         workers: threads; one for each core if not given.
@@ -90,8 +93,9 @@ def simulate_batch(vehicle: str | PathLike[str], scenario: str | PathLike[str],
         InputError: files, keys or channels that cannot be used, or more than memory should hold.
     """
     keys = tuple(variants[0]) if variants else ()
-    if any(tuple(v) != keys for v in variants):
+    if any(set(v) != set(keys) for v in variants):
         raise InputError("the variants have different keys", expected="the same keys in each")
+    variants = [v if tuple(v) == keys else {key: v[key] for key in keys} for v in variants]
     study = Study(vehicle, scenario, keys, channels, step_s, rate_hz, insist)
     rows = reporting(run_all(study, list(enumerate(variants)), len(variants), workers),
                      len(variants), progress)

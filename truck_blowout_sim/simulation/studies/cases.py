@@ -32,7 +32,8 @@ from truck_blowout_sim.simulation.studies.keys import (
     find_key,
 )
 from truck_blowout_sim.vehicle import Packed, pack
-from truck_blowout_sim.vehicle.document import Place, read_document
+from truck_blowout_sim.vehicle.document import Branch, Place, read_document
+from truck_blowout_sim.vehicle.given import AnyVehicle, packed_of
 from truck_blowout_sim.vehicle.loading import vehicle_of
 from truck_blowout_sim.vehicle.reading import unknown
 
@@ -67,7 +68,8 @@ class Study:
     """A scenario and a vehicle, of which keys vary.
 
     Args:
-        vehicle, scenario: names of shipped files, or paths.
+        vehicle: a vehicle, one packed with parameters of its own, a path, or a shipped name.
+        scenario: name of a shipped file, or a path.
         keys: what varies, as written.
         channels: outputs and inputs kept of each run.
         step_s: step [s].
@@ -75,10 +77,11 @@ class Study:
         insist: also run what no truck does; else such a run fails with this reason.
 
     Raises:
-        InputError: files that cannot be used, no such key or channel, a quantity under two keys.
+        InputError: files that cannot be used, no such key or channel, a quantity under two keys,
+            keys of the file of a vehicle that no longer says what its file says.
     """
 
-    vehicle: str | PathLike[str]
+    vehicle: AnyVehicle
     scenario: str | PathLike[str]
     keys: Sequence[str]
     channels: Sequence[str] = ()
@@ -92,12 +95,13 @@ class Study:
     def __post_init__(self) -> None:
         self._scenario_path = config_file("scenarios", self.scenario)
         self._scenario_tree = read_document(self._scenario_path, "scenarios")
-        path = config_file("vehicles", self.vehicle)
-        tree = read_document(path, "vehicles")
-        packed = pack(vehicle_of(tree, path))
+        self._given = packed = packed_of(self.vehicle)
+        tree = read_document(packed.vehicle.path, "vehicles")
         self.found: dict[str, Key] = {
             key: find_key(key, self._scenario_tree, tree, packed) for key in self.keys}
         _check_once(self.found.values())
+        if any(key.where == VEHICLE for key in self.found.values()):
+            _check_as_its_file(packed, tree)
         scenario = scenario_of(self._scenario_tree, self._scenario_path)
         self.times_s = row_times(scenario, self.step_s, self.rate_hz)
         try:
@@ -186,12 +190,14 @@ class Study:
     def _truck(self, values: Mapping[str, Value]) -> Packed:
         """The packed truck; the last few are kept."""
         own = tuple((k, v) for k, v in values.items() if self.found[k].where in (VEHICLE, FILE))
+        if not own:
+            return self._given
         with self._lock:
             if own in self._trucks:
                 self._trucks.move_to_end(own)
                 return self._trucks[own]
-        name = next((str(v) for k, v in own if self.found[k].where == FILE), self.vehicle)
-        path = config_file("vehicles", name)
+        named = (str(v) for k, v in own if self.found[k].where == FILE)
+        path = config_file("vehicles", next(named, self._given.vehicle.path))
         tree = read_document(path, "vehicles")
         for key, value in own:
             if self.found[key].where == VEHICLE:
@@ -244,6 +250,14 @@ def _check_once(keys: Iterable[Key]) -> None:
         if (first := seen.setdefault((key.where, key.paths), key.text)) != key.text:
             raise InputError(f"--vary {quoted(key.text)} is given twice, first as {quoted(first)}",
                              expected="each quantity once, in one unit")
+
+
+def _check_as_its_file(packed: Packed, tree: Branch) -> None:
+    """Refuse to vary keys of a file that a vehicle was changed from: the change would be lost."""
+    path = packed.vehicle.path
+    if packed.params.tobytes() != pack(vehicle_of(tree, path)).params.tobytes():
+        raise InputError("the vehicle has other values than its file, of which keys vary",
+                         file=path, expected="the vehicle as loaded, or packed names that vary")
 
 
 def _numbers(values: Mapping[str, Value]) -> dict[str, float]:
