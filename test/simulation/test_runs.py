@@ -178,6 +178,21 @@ def test_inputs_that_are_none_are_refused(truck: Packed, field: str, value: floa
         Truck(truck, initial=InitialState(inputs=bad))
 
 
+@pytest.mark.parametrize(("bad", "line"), [
+    ([0.0] * 5, r"^inputs are \[0.0, 0.0, 0.0, 0.0, 0.0\]; expected Inputs\(steering_wheel_angle"),
+    ((0.0, 0.1), r"^inputs are \(0.0, 0.1\); expected Inputs\("),
+    (None, "^inputs are None; expected Inputs"),
+    (Inputs("a", 0, 0, 0, 0), "^steering_wheel_angle_rad is 'a'; expected a number, -"),  # type: ignore[arg-type]
+    (Inputs(0, "0.5", 0, 0, 0), "^throttle is '0.5'; expected a number, "),  # type: ignore[arg-type]
+    (Inputs(0, 0, 0, 0, None), "^brake_pressure_trailer_pa is None; "),  # type: ignore[arg-type]
+])
+def test_what_is_no_inputs_at_all_is_refused(truck: Packed, bad: Inputs, line: str) -> None:
+    run = Truck(truck)
+    with pytest.raises(InputError, match=line):
+        run.advance(bad)
+    assert run.time_s == 0.0
+
+
 @pytest.mark.parametrize(("field", "value"), [
     ("speed_mps", math.nan), ("speed_mps", 500.0), ("speed_mps", 70.0), ("yaw_rad", math.inf),
     ("lateral_speed_mps", math.nan), ("x_m", math.nan), ("articulation_rad", 90.0),
