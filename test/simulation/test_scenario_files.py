@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from truck_blowout_sim.errors import InputError
+from truck_blowout_sim.recordings import Recording
 from truck_blowout_sim.simulation import load_scenario, scenario_names, simulate
 from truck_blowout_sim.vehicle import Packed, load_vehicle
 
@@ -67,6 +68,22 @@ def test_a_scenario_may_bring_road_and_parameters(truck: Packed, write: Callable
     ends = [run["tractor_vx_mps"].value[-1] for run in (level, uphill, heavy)]
     assert ends[1] < ends[0] - 0.4
     assert ends[2] < ends[0] - 0.2
+
+
+@pytest.fixture
+def along_a_log(truck: Packed, write: Callable[[str], Path], tmp_path: Path
+                ) -> Callable[[str], Recording]:
+    """Runs a scenario of these lines on a log of 2 s, a turn that begins at 1 s, without throttle.
+    """
+    rows = "".join(f"{k / 10},{0.5 if k >= 10 else 0.0},20\n" for k in range(21))
+    (tmp_path / "log.csv").write_text("time_s,steering_wheel_angle_rad,tractor_vx_mps\n" + rows)
+    return lambda text: simulate(truck, write(f"title: a log\nrecording: log.csv\n{text}"))
+
+
+def test_why_a_speed_is_imposed_is_told(along_a_log: Callable[[str], Recording]) -> None:
+    run = along_a_log("end_s: 1\n")
+    assert run.notes == ("speed imposed: throttle or brakes were not recorded",)
+    assert along_a_log("end_s: 1\nhold: {speed_mps: 20}\n").notes == ()
 
 
 def test_blowouts_can_be_replaced(truck: Packed) -> None:

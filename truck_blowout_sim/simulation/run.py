@@ -22,7 +22,7 @@ from truck_blowout_sim.simulation.events import events_of
 from truck_blowout_sim.simulation.flat import flat_at, split_at
 from truck_blowout_sim.simulation.inputs import Inputs
 from truck_blowout_sim.simulation.rates import check_delays, check_rates
-from truck_blowout_sim.simulation.replay import as_recording, drive_from
+from truck_blowout_sim.simulation.replay import STATED_SPEED_WORDS, as_recording, drive_from
 from truck_blowout_sim.simulation.scenario import Scenario, load_scenario
 from truck_blowout_sim.vehicle import Packed, load_road, road_values
 from truck_blowout_sim.vehicle.given import AnyVehicle, packed_of
@@ -60,7 +60,7 @@ def recorded(packed: Packed, drive: Drive, ran: Ran, blowouts: tuple[Blowout, ..
     """The recording of what `prepare` gave for a scenario and `execute` ran; see `simulate`."""
     metadata = {"scenario": scenario.name, "title": scenario.title}
     made = as_recording(scenario.name, packed, drive, ran, burst(packed, drive, ran, blowouts),
-                        metadata)
+                        metadata, why_imposed=STATED_SPEED_WORDS)
     absent = tuple(f"blowout {name} did not occur: its condition was not met in time"
                    for name in _never_met(packed, drive, ran, scenario))
     return replace(made, notes=made.notes + absent)
