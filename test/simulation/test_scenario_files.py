@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from truck_blowout_sim.errors import InputError
@@ -84,6 +85,27 @@ def test_why_a_speed_is_imposed_is_told(along_a_log: Callable[[str], Recording])
     run = along_a_log("end_s: 1\n")
     assert run.notes == ("speed imposed: throttle or brakes were not recorded",)
     assert along_a_log("end_s: 1\nhold: {speed_mps: 20}\n").notes == ()
+
+
+@pytest.mark.parametrize(("span", "words"), [
+    ("start_s: 100\nend_s: 103\n", "line 3: start_s: 100 s is outside log"),
+    ("start_s: -3\nend_s: -1\n", "line 4: end_s: -1 s is outside log"),
+])
+def test_a_scenario_outside_its_log_is_refused(along_a_log: Callable[[str], Recording], span: str,
+                                               words: str) -> None:
+    with pytest.raises(InputError, match=rf"mine\.yaml, {words}; expected .* 0 s to 2 s$"):
+        along_a_log(span)
+
+
+def test_commands_held_before_and_after_a_log_are_told(along_a_log: Callable[[str], Recording]
+                                                       ) -> None:
+    run = along_a_log("start_s: -1\nend_s: 3\nhold: {speed_mps: 20}\n")
+    assert run.notes == ("the log begins at 0 s; its first commands are held from -1 s on",
+                         "the log ends at 2 s; its last commands are held until 3 s")
+    wheel = run["steering_wheel_angle_rad"]
+    assert wheel.time_s[int(np.argmax(wheel.value > 0.4))] == pytest.approx(1.0, abs=0.03)
+    assert wheel.value[-1] == 0.5
+    assert along_a_log("end_s: 2.05\nhold: {speed_mps: 20}\n").notes == ()
 
 
 def test_blowouts_can_be_replaced(truck: Packed) -> None:

@@ -39,6 +39,7 @@ class Drive:
         warm: equilibrium of a similar truck at the same start, to settle from; or None.
         watch: [n, len(WATCH)] conditions that events wait for.
         blow_watch: condition of each blowout whose step is -1; ``blow_delays``: steps after it.
+        notes: what had to be assumed.
     """
 
     initial: InitialState
@@ -54,6 +55,7 @@ class Drive:
     watch: Floats = field(default_factory=lambda: np.zeros((0, len(WATCH))))
     blow_watch: Integers | None = None
     blow_delays: Integers | None = None
+    notes: tuple[str, ...] = ()
 
     @property
     def n_rows(self) -> int:

@@ -6,23 +6,22 @@ import math
 from collections.abc import Sequence
 from dataclasses import replace
 from os import PathLike
-from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
 from truck_blowout_sim.errors import InputError
-from truck_blowout_sim.recordings import Blowout, Recording, read_recording
+from truck_blowout_sim.recordings import Blowout, Recording
 from truck_blowout_sim.recordings.stray_time import LONGEST_S
-from truck_blowout_sim.resources import config_file
 from truck_blowout_sim.simulation.drive import Drive, Progress, Ran, execute
 from truck_blowout_sim.simulation.driver import input_table, pilot_of, speed_to_hold
 from truck_blowout_sim.simulation.equilibrium import InitialState
 from truck_blowout_sim.simulation.events import events_of
 from truck_blowout_sim.simulation.flat import flat_at, split_at
 from truck_blowout_sim.simulation.inputs import Inputs
+from truck_blowout_sim.simulation.logged import Logged, logged
 from truck_blowout_sim.simulation.rates import check_delays, check_rates
-from truck_blowout_sim.simulation.replay import STATED_SPEED_WORDS, as_recording, drive_from
+from truck_blowout_sim.simulation.replay import STATED_SPEED_WORDS, as_recording
 from truck_blowout_sim.simulation.scenario import Scenario, load_scenario
 from truck_blowout_sim.vehicle import Packed, load_road, road_values
 from truck_blowout_sim.vehicle.given import AnyVehicle, packed_of
@@ -63,7 +62,7 @@ def recorded(packed: Packed, drive: Drive, ran: Ran, blowouts: tuple[Blowout, ..
                         metadata, why_imposed=STATED_SPEED_WORDS)
     absent = tuple(f"blowout {name} did not occur: its condition was not met in time"
                    for name in _never_met(packed, drive, ran, scenario))
-    return replace(made, notes=made.notes + absent)
+    return replace(made, notes=made.notes + drive.notes + absent)
 
 
 def burst(packed: Packed, drive: Drive, ran: Ran, timed: tuple[Blowout, ...]
@@ -136,21 +135,19 @@ def prepare(vehicle: AnyVehicle, scenario: Scenario, *, step_s: float = 0.001,
     blowouts = scenario.blowouts_of(packed.vehicle)
     base = None
     if spec.recording:
-        recording = _recording(scenario).between(spec.start_s, spec.end_s)
-        base = drive_from(recording, packed.vehicle, step_s=step_s, rate_hz=rate_hz)
-        blowouts = blowouts if spec.blowouts else recording.blowouts
-    recorded = np.pad(base.inputs, ((0, max(n_steps - len(base.inputs), 0)), (0, 0)), "edge"
-                      )[:n_steps] if base else None
-    inputs = input_table(spec, times, recorded)
+        base = logged(scenario, packed.vehicle, n_steps, step_s=step_s, rate_hz=rate_hz)
+        blowouts = blowouts if spec.blowouts else base.blowouts
+    inputs = input_table(spec, times, base.inputs if base else None)
     before, timed = split_at(blowouts, spec.start_s, step_s)
     initial = replace(_initial(scenario, base, inputs), flat=flat_at(before, spec.start_s))
     speed = speed_to_hold(spec, times)
     if base and base.speed.size and spec.hold is None:
-        speed = np.pad(base.speed, (0, max(n_steps - base.speed.size, 0)), "edge")[:n_steps]
+        speed = base.speed
     events = events_of(scenario, packed.vehicle, timed, step_s)
     pilot, path = pilot_of(spec, packed, inputs[0], events.reaction)
     drive = Drive(initial, step_s, every, inputs, speed, events.steps, events.tires, pilot, path,
-                  watch=events.watch, blow_watch=events.conditions, blow_delays=events.delays)
+                  watch=events.watch, blow_watch=events.conditions, blow_delays=events.delays,
+                  notes=base.notes if base else ())
     return packed, drive, blowouts
 
 
@@ -192,7 +189,7 @@ def _on_the_road(packed: Packed, scenario: Scenario) -> Packed:
     if scenario.spec.road:
         place = scenario.places.get("road")
         try:
-            road = load_road(_beside(scenario, scenario.spec.road, "roads"))
+            road = load_road(scenario.beside(scenario.spec.road, "roads"))
         except InputError as error:
             if place is None or error.file:
                 raise
@@ -205,22 +202,7 @@ def _on_the_road(packed: Packed, scenario: Scenario) -> Packed:
                          expected=error.expected) from None
 
 
-def _recording(scenario: Scenario) -> Recording:
-    """The recording a scenario names, from its own folder or the shipped ones."""
-    try:
-        return read_recording(_beside(scenario, scenario.spec.recording, "recordings"))
-    except InputError as error:
-        if error.file:
-            raise
-        raise scenario.places["recording"].error(error.problem, error.expected) from None
-
-
-def _beside(scenario: Scenario, name: str, kind: str) -> Path:
-    beside = scenario.path.parent / name
-    return beside if beside.is_file() else config_file(kind, name)
-
-
-def _initial(scenario: Scenario, base: Drive | None, inputs: NDArray[np.float64]) -> InitialState:
+def _initial(scenario: Scenario, base: Logged | None, inputs: NDArray[np.float64]) -> InitialState:
     """How the run begins: the start section, else what the recording shows."""
     spec = scenario.spec
     first = Inputs(*inputs[0].tolist())

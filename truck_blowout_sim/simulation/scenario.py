@@ -108,6 +108,15 @@ class Scenario:
                 raise unknown(self._tires_place(event), problem, word, parts)
         return tuple(dict.fromkeys(tires))
 
+    def beside(self, name: str, kind: str) -> Path:
+        """A file that it names: in its own folder, or a shipped one of ``kind``.
+
+        Raises:
+            InputError: no such file.
+        """
+        beside = self.path.parent / name
+        return beside if beside.is_file() else config_file(kind, name)
+
     def _tires_place(self, event: str) -> Place:
         return self.places.get(f"blowouts.{event}.tires", Place("blowout", 1, ""))
 
