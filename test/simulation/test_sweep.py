@@ -55,6 +55,17 @@ def test_a_table_a_page_and_one_object_of_json(
     assert "exists already; expected a new name, or --force" in capsys.readouterr().err
 
 
+@pytest.mark.parametrize("form", [(), ("--json",)])
+def test_a_sweep_of_which_every_run_failed_says_so_on_stderr(
+    scenario: str, tmp_path: Path, capsys: pytest.CaptureFixture[str], form: tuple[str, ...]
+) -> None:
+    words = ["sweep", scenario, "--vary", "start.speed_mph=-1,-2", "-o", str(tmp_path / "out")]
+    assert main([*words, *form]) == 2
+    last = capsys.readouterr().err.splitlines()[-1]
+    assert last.startswith("truck-blowout: all 2 runs failed: --vary start.speed_mph: -1.0 is out")
+    assert last.endswith("; 1 for other reasons")
+
+
 @pytest.mark.parametrize("force", [False, True])
 def test_an_interrupted_sweep_goes_on_and_gives_the_same_table(
     plan: Plan, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, force: bool

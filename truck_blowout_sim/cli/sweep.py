@@ -5,7 +5,7 @@ from __future__ import annotations
 import shlex
 from dataclasses import fields
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NoReturn
 
 import typer
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
@@ -88,7 +88,16 @@ def command(
                                          load_scenario(scenario).title, _command(plan), output)
     _tell(found, output, page, as_json=as_json)
     if set(found.counts) == {"failed"}:
-        raise typer.Exit(REFUSED)
+        _refuse(found)
+
+
+def _refuse(found: Findings) -> NoReturn:
+    """Say that no run came about, and why."""
+    runs, (reason, count) = sum(found.counts.values()), found.reasons[0]
+    others = f"; {runs - count} for other reasons" if count < runs else ""
+    words = "the only run failed" if runs == 1 else f"all {runs} runs failed"
+    typer.echo(f"truck-blowout: {words}: {reason}{others}", err=True)
+    raise typer.Exit(REFUSED)
 
 
 def _tell(found: Findings, output: Path, page: Path, *, as_json: bool) -> None:
