@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import warnings
 from dataclasses import replace
 from pathlib import Path
 
@@ -47,6 +48,25 @@ def test_runs_are_told_apart_by_color_and_dash() -> None:
     first, second = lines(YAW, [RUN, RUN])
     assert first.get_color() != second.get_color()
     assert first.get_linestyle() != second.get_linestyle()
+
+
+@pytest.mark.parametrize("channel", ["tire_fz_{}_n", "hub_load_of_a_long_name_{}_n"])
+def test_a_legend_of_many_lines_fits_below_its_panel(channel: str) -> None:
+    names = tuple(channel.format(f"{side}_{k}") for k in range(27) for side in ("left", "right"))
+    run = replace(RUN, channels={name: Series(TIME, TIME) for name in names})
+    picture = channel_plot([run], PlotRequest((names, names[:2])), "plot")
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        picture.png()
+    panel, place, last = picture.figure.axes
+    legend = place.get_legend()
+    assert len(legend.get_texts()) == len(names)
+    box = legend.get_window_extent().transformed(picture.figure.transFigure.inverted())
+    assert box.x0 >= 0.0
+    assert box.x1 <= 1.0
+    assert last.get_position().y1 < box.y0
+    assert box.y1 < panel.get_position().y0
+    assert last.get_position().height * picture.figure.get_size_inches()[1] > 1.5
 
 
 def test_the_blowout_lies_under_the_curves_and_its_word_above_the_panel() -> None:

@@ -1,14 +1,16 @@
 """Plots of any channel of any run, overlaid.
 
 A panel shows one channel of several runs (a color each), or several channels (a color each, a dash
-for each further run). The blowout is a thin line under the curves with its name above the panel;
-over another channel than time it is a ring around the point of the curve.
+for each further run). The legend of many lines lies below their panel. The blowout is a thin line
+under the curves with its name above the panel; over another channel than time it is a ring around
+the point of the curve.
 
 Validated with: test/report/test_channel_plots.py.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -26,6 +28,8 @@ from truck_blowout_sim.report.style import CYCLE, EVENT, Picture, in_legend, new
 TIME = "time_s"
 _DASHES: tuple[Any, ...] = ("-", (0, (5, 2)), (0, (1.5, 1.5)), (0, (6, 2, 1.5, 2)))
 _PANEL_HEIGHT, _WIDTH, _LEGEND_ROWS = 2.3, 8.4, 10
+# of a legend's entries, in inches
+_LEGEND_LINE, _LETTER_WIDTH, _HANDLE_WIDTH, _LEGEND_WIDTH = 0.19, 0.075, 0.55, 7.5
 _SAE = "\nSAE axes: right, down and clockwise are positive"
 _TURNED = (("left positive", "right positive"), ("left side up", "right side up"),
            ("to the left", "to the right"), ("nose down", "nose up"), ("upward", "downward"))
@@ -57,12 +61,25 @@ def channel_plot(runs: Sequence[Recording], request: PlotRequest, name: str) -> 
 
     A run that lacks a channel is left out of its panel; a panel that no run has is left empty.
     """
-    count = len(request.panels)
-    figure = new_figure((_WIDTH, 0.9 + _PANEL_HEIGHT * count))
-    shared = request.over == TIME
-    panels = figure.subplots(count, 1, sharex=shared, squeeze=False)[:, 0]
-    for axes, channels in zip(panels, request.panels, strict=True):
+    figure, shared = new_figure(), request.over == TIME
+    many = [_lines(runs, channels) > _LEGEND_ROWS for channels in request.panels]
+    grid = figure.add_gridspec(len(many) + sum(many), 1)
+    panels: list[Axes] = []
+    heights: list[float] = []
+    for channels, below in zip(request.panels, many, strict=True):
+        axes = figure.add_subplot(grid[len(heights)],
+                                  sharex=panels[0] if shared and panels else None)
+        panels.append(axes)
+        heights.append(_PANEL_HEIGHT)
         _panel(axes, runs, channels, request)
+        if below:
+            heights.append(_legend_below(axes, figure.add_subplot(grid[len(heights)])))
+        elif len(channels) > 1 or len(runs) > 1:
+            axes.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0), borderaxespad=0.3)
+    grid.set_height_ratios(heights)
+    figure.set_size_inches(_WIDTH, 0.9 + sum(heights))
+    for axes in panels[:-1] if shared else ():
+        axes.tick_params(labelbottom=False)
     if shared:
         for axes in panels:
             _mark(axes, runs, named=axes is panels[0])
@@ -72,6 +89,21 @@ def channel_plot(runs: Sequence[Recording], request: PlotRequest, name: str) -> 
         axes.set_xlabel(over + ("" if request.axes == "iso" else _SAE))
     words = ", ".join(run.name for run in runs)
     return Picture(name, words, "; ".join("+".join(group) for group in request.panels), figure)
+
+
+def _lines(runs: Sequence[Recording], channels: Sequence[str]) -> int:
+    return sum(channel in run for run in runs for channel in channels)
+
+
+def _legend_below(axes: Axes, place: Axes) -> float:
+    """The legend of many lines in a place of its own below their panel; returns its height."""
+    handles, labels = axes.get_legend_handles_labels()
+    width = _HANDLE_WIDTH + _LETTER_WIDTH * max(map(len, labels))
+    columns = max(int(_LEGEND_WIDTH / width), 1)
+    place.set_axis_off()
+    legend = place.legend(handles, labels, loc="upper left", ncols=columns, borderaxespad=0.0)
+    legend.set_in_layout(False)  # its place is as high as it is; more would squeeze the panel
+    return _LEGEND_LINE * (math.ceil(len(labels) / columns) + 1)
 
 
 def _panel(axes: Axes, runs: Sequence[Recording], channels: Sequence[str], request: PlotRequest
@@ -90,9 +122,6 @@ def _panel(axes: Axes, runs: Sequence[Recording], channels: Sequence[str], reque
             if request.over != TIME:
                 _ring(axes, run, channel, request)
     axes.set_ylabel(_label(common, channels, request))
-    if several or len(runs) > 1:
-        axes.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0), borderaxespad=0.3,
-                    ncols=1 + (len(channels) * len(runs) - 1) // _LEGEND_ROWS)  # fmt: skip
 
 
 def _values(run: Recording, channel: str, request: PlotRequest) -> tuple[Any, Any]:
