@@ -9,16 +9,13 @@ from __future__ import annotations
 
 import json
 import sys
-from dataclasses import replace
 from math import degrees
 from pathlib import Path
 
-from truck_blowout_sim import Vehicle, compare, load_vehicle
+from truck_blowout_sim import compare, load_vehicle, pack
 from truck_blowout_sim.comparison import Comparison
 from truck_blowout_sim.report.story_page import Story, write_story
 from truck_blowout_sim.report.story_variants import Variant
-from truck_blowout_sim.vehicle.document import Place
-from truck_blowout_sim.vehicle.vehicle import Effect
 
 VEHICLE = "international_9400i_trailmobile"
 STRAIGHT_S = 0.6, 0.8  # after the blowout; the driver turns the hand wheel from 0.85 s on
@@ -38,16 +35,12 @@ def main() -> None:
 
 def variants_of(recording: str, given: Comparison) -> tuple[Variant, Variant, Variant]:
     """The model as given, with rigid steering, and the thesis's own truck."""
+    # the road wheels follow the hand wheel exactly: no compliance, no lash
+    rigid = pack(given.vehicle).with_values({"steering.compliance_on": 0.0})
     return (Variant("model as given", given),
-            Variant("with rigid steering", compare(recording, rigid(given.vehicle))),
+            Variant("with rigid steering", compare(recording, rigid)),
             Variant("truck as published in the thesis",
                     compare(recording, load_vehicle(f"{VEHICLE}_thesis"))))
-
-
-def rigid(vehicle: Vehicle) -> Vehicle:
-    """The same with road wheels that follow the hand wheel exactly."""
-    stiff = Effect(0.0, "a comparison: no compliance, no lash", Place(__file__, 0, ""))
-    return replace(vehicle, effects={**vehicle.effects, "steering.compliance_on": stiff})
 
 
 def lesson(as_given: Variant, stiff: Variant, thesis: Variant) -> str:

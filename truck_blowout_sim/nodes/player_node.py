@@ -128,7 +128,7 @@ class Player:
             self._apply_what_holds()
         self._stepped = True
         self._publish_until(next_s)
-        return f"played {next_s - self.playlist.recording.start_s:.3f} s"
+        return f"played {self._into(next_s):.3f} s"
 
     def seek(self, time_s: float) -> None:
         """Go on at an instant of the recording's clock."""
@@ -213,6 +213,10 @@ class Player:
                 f"{tire} burst {self.start_s - due.time_s:.3f} s before the start: the simulator"
                 " begins settled on it, so the replay cannot equal the recording")
 
+    def _into(self, time_s: float) -> float:
+        """Seconds since the recording began."""
+        return time_s - self.playlist.recording.start_s
+
     def _publish_until(self, time_s: float) -> None:
         for due in self.playlist.due(time_s):
             stamp_ns = self.time.stamp_ns(due.time_s)
@@ -227,7 +231,7 @@ class Player:
             self.published += 1
 
     def _blow(self, due: Due) -> None:
-        at_s = due.time_s - self.playlist.recording.start_s
+        at_s = self._into(due.time_s)
         for tire in due.tires:
             self.publishers[BLOWOUT_EVENT.topic].publish(template(STRING, data=tire))
             if self.simulator.blow(tire, self._say_reply):
@@ -274,9 +278,8 @@ class Player:
                 name = self.publishers[topic].topic_name
                 self.log.info(f"  {name} ({ros_type}): {count} messages")
         for blowout in recording.blowouts:
-            into_s = blowout.time_s - recording.start_s
-            tires = " and ".join(blowout.tires)
-            self.log.info(f"  blowout of {tires}, {into_s:.3f} s into the recording")
+            tires, at_s = " and ".join(blowout.tires), self._into(blowout.time_s)
+            self.log.info(f"  blowout of {tires}, {at_s:.3f} s into the recording")
         for note in recording.notes:
             self.log.info(f"  note: {note}")
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 from truck_blowout_sim.errors import InputError, quoted
 from truck_blowout_sim.recordings.recording import Blowout
@@ -27,10 +27,21 @@ def parse_blowouts(words: Sequence[str]) -> list[Blowout]:
     return events
 
 
-def bursts_twice(tire: str, one_s: float, other_s: float) -> str:
-    """What is wrong with two events of the same tire, earlier instant first."""
-    first_s, second_s = sorted((one_s, other_s))
-    return f"{tire} bursts at {first_s:g} s and again at {second_s:g} s"
+def second_burst(events: Sequence[Blowout], run_of: Callable[[float], int] = lambda time_s: 0
+                 ) -> tuple[int, str] | None:
+    """Position of the first event that bursts a tire again, and what is wrong; None if none does.
+
+    ``run_of``: which run an instant is in; in another one the tire is whole again.
+    """
+    blown_s: dict[tuple[int, str], float] = {}
+    for position, event in enumerate(events):
+        for tire in event.tires:
+            key = (run_of(event.time_s), tire)
+            if key in blown_s:
+                first_s, second_s = sorted((blown_s[key], event.time_s))
+                return position, f"{tire} bursts at {first_s:g} s and again at {second_s:g} s"
+            blown_s[key] = event.time_s
+    return None
 
 
 def _number(text: str, where: str) -> float:

@@ -67,8 +67,8 @@ def recover(path: Path, output: Path | None = None) -> Recovered:
 def _recover_file(path: Path, output: Path) -> tuple[Recovered, McapFile, dict[str, str]]:
     with MappedFile(path) as data, replacing(output) as temporary:
         file = McapFile(temporary)
-        salvage = Salvage(file)
-        salvage.take_all(data)
+        salvage = Salvage(file, data)
+        salvage.take_all()
         if not file.contents.message_count:
             file.abandon()
             raise InputError(

@@ -16,6 +16,7 @@ import struct
 from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass, field
+from functools import cached_property
 
 import numpy as np
 from mcap import records
@@ -59,25 +60,26 @@ class Salvage:
         lost_bytes: of them, and of the tail behind the last whole record.
     """
 
-    def __init__(self, file: McapFile) -> None:
+    def __init__(self, file: McapFile, data: memoryview) -> None:
         self.custom: dict[str, str] = {}
         self.lost: Counter[str] = Counter()
         self.lost_bytes = 0
         self._file = file
+        self._data = data
 
-    def take_all(self, data: memoryview) -> None:
-        """Copy all whole records of a file.
+    def take_all(self) -> None:
+        """Copy all whole records of the damaged file.
 
         Raises:
             StorageError: the new file cannot be written.
         """
-        end, opcode = len(MAGIC), 0
+        data, end, opcode = self._data, len(MAGIC), 0
         for record in whole_records(data):
             try:
                 self._take(record)
             except _WRONG_INSIDE:
                 self._lose(kind_of(record.opcode), record.end - record.start)
-                self._describe_from_summary(data)
+                self._describe_from_summary()
             end, opcode = record.end, record.opcode
         if opcode != Opcode.DATA_END and end < len(data):
             self._lose(kind_of(data[end]) if data[end] == Opcode.CHUNK else "", len(data) - end)
@@ -152,9 +154,13 @@ class Salvage:
         else:
             contents.channels[description.id] = description
 
-    def _describe_from_summary(self, data: memoryview) -> None:
+    @cached_property
+    def _summary(self) -> list[Description]:
+        return _summary_descriptions(self._data)
+
+    def _describe_from_summary(self) -> None:
         contents = self._file.contents
-        for one in _summary_descriptions(data):
+        for one in self._summary:
             known = contents.schemas if isinstance(one, records.Schema) else contents.channels
             if one.id not in known:
                 self._describe(one)

@@ -14,7 +14,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from matplotlib.axes import Axes
 
 from truck_blowout_sim.comparison import Comparison, verdict
 from truck_blowout_sim.comparison.units import display_unit
@@ -23,7 +22,7 @@ from truck_blowout_sim.diagnosis.result import plain
 from truck_blowout_sim.report.comparison_lines import draw_measured, event_times, marks_for
 from truck_blowout_sim.report.page import render, write_text
 from truck_blowout_sim.report.story_variants import Variant, variants_picture
-from truck_blowout_sim.report.style import AFTER, BEFORE, EVENT, Picture, new_figure, styled
+from truck_blowout_sim.report.style import AFTER, BEFORE, Picture, mark_events, new_figure, styled
 
 _SHOWN = (("tractor_yaw_rate_radps", "yaw rate of the tractor, left positive"),
           ("tractor_vx_mps", "speed"), ("tractor_across_m", "path, to the left"))
@@ -142,7 +141,7 @@ def _inputs(story: Story) -> Picture:
                       comparison.marks.get(name))  # fmt: skip
         axes.set_title(words)
         axes.set_ylabel(unit.symbol)
-        _mark(axes, comparison)
+        mark_events(axes, event_times(comparison), "")
     panels[-1].set_xlabel("time (s)")
     return Picture("inputs", "What the driver did", "The model is given the same inputs.", figure)
 
@@ -173,13 +172,8 @@ def _overlay(story: Story, *, amended: bool) -> Picture:
         upper.legend(loc="best")
         lower.legend(loc="best", ncols=2)
         for axes in (upper, lower):
-            _mark(axes, story.before)
+            mark_events(axes, event_times(story.before), "")
     panels[-1].set_xlabel("time (s)")
     title = "Before and after" if amended else "Record and model"
     return Picture("amended" if amended else "mismatch", title,
                    "Below each panel: model minus record.", figure)  # fmt: skip
-
-
-def _mark(axes: Axes, comparison: Comparison) -> None:
-    for time_s in event_times(comparison):
-        axes.axvline(time_s, color=EVENT, linewidth=1.0, linestyle=(0, (4, 3)), zorder=1)

@@ -13,7 +13,15 @@ import numpy as np
 from truck_blowout_sim.comparison import Comparison
 from truck_blowout_sim.comparison.units import display_unit
 from truck_blowout_sim.report.comparison_lines import draw_measured, event_times, marks_for
-from truck_blowout_sim.report.style import BLUE, EVENT, GREEN, MODEL, Picture, new_figure, styled
+from truck_blowout_sim.report.style import (
+    BLUE,
+    GREEN,
+    MODEL,
+    Picture,
+    mark_events,
+    new_figure,
+    styled,
+)
 
 _SHOWN_S = (-0.5, 4.0)  # from the event
 _COLORS = (MODEL, BLUE, GREEN)
@@ -55,7 +63,7 @@ def variants_picture(variants: Sequence[Variant], channels: Sequence[tuple[str, 
             series = one.comparison.model[name]
             axes.plot(series.time_s, series.value * unit.per_si, color=color, label=one.words,
                       zorder=3)
-        axes.axvline(event_s, color=EVENT, linewidth=1.0, linestyle=(0, (4, 3)), zorder=1)
+        mark_events(axes, event_times(first), "")
         axes.set_title(title)
         axes.set_ylabel(unit.symbol)
     panels[0].legend(loc="best")

@@ -11,7 +11,7 @@ from pathlib import Path
 
 from truck_blowout_sim.errors import InputError, quoted
 from truck_blowout_sim.recordings import Blowout
-from truck_blowout_sim.recordings.blowout_words import ONCE, bursts_twice
+from truck_blowout_sim.recordings.blowout_words import ONCE, second_burst
 from truck_blowout_sim.resources import config_file, config_names
 from truck_blowout_sim.simulation.scenario_schema import (
     BlowoutEventSpec,
@@ -80,14 +80,10 @@ class Scenario:
             for name, event in self.spec.blowouts.items()
             if event.when is None and event.tires != NOTHING
         }
-        blown_s: dict[str, float] = {}
-        for name, event in events.items():
-            for tire in event.tires:
-                if tire in blown_s:
-                    raise self._tires_place(name).error(
-                        bursts_twice(tire, blown_s[tire], event.time_s), ONCE)
-                blown_s[tire] = event.time_s
-        return tuple(events.values())
+        found = tuple(events.values())
+        if again := second_burst(found):
+            raise self._tires_place([*events][again[0]]).error(again[1], ONCE)
+        return found
 
     def tires_of(self, event: str, vehicle: Vehicle) -> tuple[str, ...]:
         """The tires that burst in one event, each once, hubs resolved.

@@ -7,14 +7,14 @@ Validated with: test/recordings/test_mapping.py.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from truck_blowout_sim.errors import InputError, nearest, quoted
-from truck_blowout_sim.recordings.blowout_words import ONCE, bursts_twice
+from truck_blowout_sim.recordings.blowout_words import ONCE, second_burst
 from truck_blowout_sim.recordings.channels import DEFAULT_TIRES, UNITS
 from truck_blowout_sim.recordings.mapping.clocks import CLOCK_START
 from truck_blowout_sim.recordings.mapping.rules import Mount, Rules
@@ -61,19 +61,12 @@ def with_blowouts(
     return replace(recording, blowouts=(*_not_moved(recording, added), *added))
 
 
-def _check_once(added: Iterable[Blowout], recording: Recording, file: object) -> None:
+def _check_once(added: Sequence[Blowout], recording: Recording, file: object) -> None:
     """Refuse a tire that is added twice in the same run; a reset begins another run."""
     resets_s = reset_times_s(recording.channels)
-    blown_s: dict[tuple[int, str], float] = {}
-    for event in added:
-        for tire in event.tires:
-            key = (run_at(event.time_s, resets_s), tire)
-            if key in blown_s:
-                raise InputError(
-                    bursts_twice(tire, blown_s[key], event.time_s), file=str(file),
-                    where="" if file == _OPTION else "key blowouts", expected=ONCE,
-                )  # fmt: skip
-            blown_s[key] = event.time_s
+    if again := second_burst(added, lambda time_s: run_at(time_s, resets_s)):
+        raise InputError(again[1], file=str(file), where="" if file == _OPTION else "key blowouts",
+                         expected=ONCE)
 
 
 def _not_moved(recording: Recording, added: Iterable[Blowout]) -> list[Blowout]:

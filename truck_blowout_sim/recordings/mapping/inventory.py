@@ -138,15 +138,16 @@ def inspect_log(
     main = files[0]
     span = _span(main)
     rows = main.rows
+    guess = _time_guess(main) if rows is None else None
     blowouts = main.native.blowouts if main.native else ()
     return Inventory(
         str(path), main.log.kind, rows.column if rows else "", rows.unit if rows else "",
         *span, tuple(lines), proposals, tuple(notes), main.metadata,
         tuple((b.time_s, "+".join(b.tires)) for b in (*blowouts, *rules.blowouts)),
-        _time_guess(main) if rows is None else None,
+        guess,
         any(gravity_is_removed(f.log, some) for f, some in zip(files, guesses, strict=True)),
         rows is not None and rows.guessed, tuple(_further(main, f) for f in files[1:]),
-        _unknown_time_unit(main),
+        _unknown_time_unit(main, rows.column if rows else (guess or ("", ""))[0]),
     )  # fmt: skip
 
 
@@ -155,11 +156,10 @@ def _further(main: Opened, opened: Opened) -> Further:
         _time_guess(opened) or ("", ""))  # fmt: skip
     return Further(_name_in_mapping(main, opened), column, unit,
                    opened.rows is None or opened.rows.guessed,
-                   _unknown_time_unit(opened))  # fmt: skip
+                   _unknown_time_unit(opened, column))  # fmt: skip
 
 
-def _unknown_time_unit(opened: Opened) -> str:
-    column = opened.rows.column if opened.rows else (_time_guess(opened) or ("", ""))[0]
+def _unknown_time_unit(opened: Opened, column: str) -> str:
     return unknown_time_unit(opened.log.column(column)) if column else ""
 
 
