@@ -156,6 +156,11 @@ def unknown_unit(text: str) -> str:
     return text.strip() if text.strip("[](){} ") and find_unit(text) is None else ""
 
 
+def not_known(unit: str, of: str = "") -> str:
+    """What is wrong with a unit that a log states, ``of`` a column of it."""
+    return f"the log's unit {quoted(unit)}{of and f' of {of}'} is not known here"
+
+
 def units_of(quantity: str) -> tuple[str, ...]:
     """Names of the units of a quantity, the SI one first."""
     return tuple(_TABLE[quantity])

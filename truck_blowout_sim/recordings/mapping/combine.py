@@ -27,7 +27,13 @@ from truck_blowout_sim.recordings.mapping.stamps import times_on_one_clock
 from truck_blowout_sim.recordings.mapping.stand_ins import StandInError, resolved, stand_ins
 from truck_blowout_sim.recordings.names import Parts, parts_of
 from truck_blowout_sim.recordings.recording import Recording, Series
-from truck_blowout_sim.recordings.units import SI_QUANTITIES, Unit, find_unit, unit_for
+from truck_blowout_sim.recordings.units import (
+    SI_QUANTITIES,
+    Unit,
+    find_unit,
+    not_known,
+    unit_for,
+)
 
 FloatArray = NDArray[np.float64]
 _MOST_UNUSED = 40
@@ -187,8 +193,8 @@ def _unit(rules: Rules, source: Source, column: Column, channel: Channel, name: 
         raise _error(rules, source.key, f"no unit is stated for column {quoted(name)}",
                      f"unit: {channel.unit} (or whatever the column is in)")  # fmt: skip
     if not source.unit and find_unit(text) is None:
-        raise _error(rules, source.key, f"the log's unit {quoted(text)} of column {quoted(name)}"
-                     " is not known here", f"unit: … beside it, of {quantity}")  # fmt: skip
+        raise _error(rules, source.key, not_known(text, f"column {quoted(name)}"),
+                     f"unit: … beside it, of {quantity}")  # fmt: skip
     if channel.group == "hub_speed" and (unit := find_unit(text)) and unit.quantity == "speed":
         return _of_a_wheel(rules, source, unit)
     if source.radius_m:

@@ -27,7 +27,7 @@ from truck_blowout_sim.recordings.mat_thesis import SOURCES, has_thesis_variable
 from truck_blowout_sim.recordings.names import parts_of
 from truck_blowout_sim.recordings.recording import Recording
 from truck_blowout_sim.recordings.topic_names import relative_names
-from truck_blowout_sim.recordings.units import Unit, find_unit
+from truck_blowout_sim.recordings.units import Unit, find_unit, not_known
 
 _OTHER_CLOCK_S = 0.5
 
@@ -162,8 +162,8 @@ def _notes_on(rows: Times, log: Log, rule: TimeRule) -> Iterator[str]:
                " every row")
     stated = unknown_time_unit(column) if rows.guessed else ""
     if stated:
-        yield (f"time column {rows.column!r} is taken to be in {rows.unit}, by its numbers: the"
-               f" log's unit {quoted(stated)} is not known here")
+        yield (f"time column {rows.column!r} is taken to be in {rows.unit}, by its numbers:"
+               f" {not_known(stated)}")
     elif rows.guessed and rows.unit != "s":
         yield f"time column {rows.column!r} is taken to be in {rows.unit}, by its numbers"
     left = np.flatnonzero(~np.isfinite(rows.time_s))

@@ -14,7 +14,6 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from truck_blowout_sim.errors import quoted
 from truck_blowout_sim.recordings.channels import (
     DEFAULT_HUBS,
     DEFAULT_TIRES,
@@ -30,11 +29,16 @@ from truck_blowout_sim.recordings.mapping.plausible import unit_by_size
 from truck_blowout_sim.recordings.mapping.signs import with_signs
 from truck_blowout_sim.recordings.mapping.stand_ins import stand_ins
 from truck_blowout_sim.recordings.mapping.vocabulary import channel_hinted
-from truck_blowout_sim.recordings.units import SI_QUANTITIES, Unit, find_unit, unknown_unit
+from truck_blowout_sim.recordings.units import (
+    SI_QUANTITIES,
+    Unit,
+    find_unit,
+    not_known,
+    unknown_unit,
+)
 
 FloatArray = NDArray[np.float64]
 
-NOT_KNOWN = "the log's unit {} is not known here"
 _TRUCK_WHEEL_M = 0.5  # rolling radius of 11R22.5 and 295/75R22.5
 
 
@@ -156,7 +160,7 @@ def _of_column(name: str, column: Column, channel: Channel, wheels: Wheels) -> P
             unit = unit_by_size(told, channel.name, quantity)
             why.append(BY_SIZE)
         if unknown:  # what is stated is not overruled by the size of numbers: a person decides
-            why.append(NOT_KNOWN.format(quoted(unknown)))
+            why.append(not_known(unknown))
     return Proposal(name, channel.name, unit, why=tuple(why))
 
 

@@ -15,7 +15,7 @@ from truck_blowout_sim.errors import InputError, nearest, quoted
 from truck_blowout_sim.recordings.logs.cells import past_midnight
 from truck_blowout_sim.recordings.logs.log import Column, Log, no_column
 from truck_blowout_sim.recordings.mapping.rules import TimeRule
-from truck_blowout_sim.recordings.units import find_unit, unknown_unit
+from truck_blowout_sim.recordings.units import find_unit, not_known, unknown_unit
 
 FloatArray = NDArray[np.float64]
 
@@ -72,7 +72,7 @@ def times_of(log: Log, rule: TimeRule, where: str = "key time") -> Times:
     stated = unknown_time_unit(column)
     if rule.column and stated and not rule.unit:
         raise InputError(
-            f"the log's unit {quoted(stated)} of time column {quoted(name)} is not known here",
+            not_known(stated, f"time column {quoted(name)}"),
             file=log.path, where=where,
             expected=f"in the mapping: time: {{from: {name}, unit: s}}, or another unit",
         )  # fmt: skip

@@ -7,9 +7,9 @@ from __future__ import annotations
 
 import json
 
-from truck_blowout_sim.errors import quoted
 from truck_blowout_sim.recordings.mapping.inventory import Further, Inventory
-from truck_blowout_sim.recordings.mapping.proposing import NOT_KNOWN, Proposal
+from truck_blowout_sim.recordings.mapping.proposing import Proposal
+from truck_blowout_sim.recordings.units import not_known
 
 _YAML_WORDS = ("y", "n", "yes", "no", "on", "off", "true", "false", "null")
 _HEAD = """\
@@ -66,7 +66,7 @@ def _main_time(inventory: Inventory) -> str:
 def _time(column: str, unit: str, unknown: str, guess: str) -> tuple[str, str]:
     """Entry and comment; without a unit where the log's is not known: the reader asks for it."""
     if unknown:
-        return f"{{from: {_text(column)}}}", f"  # GUESS: {NOT_KNOWN.format(quoted(unknown))}"
+        return f"{{from: {_text(column)}}}", f"  # GUESS: {not_known(unknown)}"
     stated = "" if unit == "clock" else f", unit: {unit or 's'}"
     return f"{{from: {_text(column)}{stated}}}", guess
 
