@@ -15,7 +15,13 @@ from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.fit.attribute import Ranked
 from truck_blowout_sim.diagnosis.fit.models import models_at
 from truck_blowout_sim.diagnosis.fit.refit import refit
-from truck_blowout_sim.diagnosis.prove.profile import NINETY, Arms, arms_of, block_sigma
+from truck_blowout_sim.diagnosis.prove.profile import (
+    NINETY,
+    Arms,
+    _crossing,
+    arms_of,
+    block_sigma,
+)
 from truck_blowout_sim.vehicle import Packed
 
 Studies = Callable[..., Study]
@@ -100,3 +106,11 @@ def test_the_widest_of_what_is_known_is_told() -> None:
     below, above = arms.wider(0.0)
     assert (below, above) == pytest.approx((0.5, NINETY * 0.2))
     assert arms.wider(0.3)[0] == pytest.approx(np.hypot(0.5, NINETY * 0.3))
+
+
+def test_an_amount_at_its_bound_is_open_on_that_side() -> None:
+    """A brake that is dead: the other end stays what it is."""
+    arms = Arms(*(abs(_crossing(lambda a: (a / 0.1)**2, 0.0, bound, 0.1)) for bound in (0.0, 1.0)),
+                block_sigma=0.0)
+    assert arms.below == np.inf
+    assert arms.above == pytest.approx(0.1 * NINETY, rel=0.02)

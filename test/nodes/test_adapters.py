@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import logging
+import math
 from collections.abc import Callable
 from importlib.util import find_spec
 from types import SimpleNamespace
@@ -239,3 +240,17 @@ def test_autoware_changes_mode_and_gear(node: Any, simulator: Any) -> None:
     take(command)
     assert simulator.applied["throttle"] == 0.0
     assert simulator.applied["brake_pressure_drive_pa"] > 0.0
+
+
+def test_a_command_that_is_no_number_moves_no_pedal() -> None:
+    simulator = Simulator()
+    taken: list[float] = []
+    commands = ForeignCommands(simulator)  # type: ignore[arg-type]
+    commands.take(0.0, 25.0)
+    before = simulator.applied
+    for topic in simulator.commands:
+        topic.take = taken.append  # type: ignore[method-assign]
+    commands.take(0.0, math.nan)
+    commands.take(0.0, 20.0, math.inf)
+    assert [math.isnan(value) for value in taken] == [True, True]
+    assert simulator.applied == before

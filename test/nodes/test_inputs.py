@@ -11,7 +11,7 @@ from diagnostic_msgs.msg import DiagnosticArray
 from std_msgs.msg import Float64
 
 from truck_blowout_sim.errors import InputError
-from truck_blowout_sim.nodes.inputs import Input
+from truck_blowout_sim.nodes.inputs import Input, InputBank
 from truck_blowout_sim.nodes.simulator_parameters import SPECS, inputs_of
 
 S = 1_000_000_000
@@ -150,3 +150,11 @@ def test_a_range_that_excludes_what_applies_is_refused(given: dict[str, float], 
     values: dict[str, Any] = {spec.name: spec.default for spec in SPECS}
     with pytest.raises(InputError, match=said):
         inputs_of(values | {f"inputs.{key}": value for key, value in given.items()})
+
+
+def test_a_jump_of_time_ages_no_message(throttle: Input) -> None:
+    bank = InputBank([throttle])
+    throttle.offer(0.7, 5 * S)
+    bank.shift(100 * S)
+    assert bank.applied(105 * S) == (0.7,)
+    assert throttle.age_s(105 * S + S // 4) == 0.25

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.physics import brakes
-from truck_blowout_sim.physics.layout import HUB_S, N_INPUTS
+from truck_blowout_sim.physics.layout import HUB_S, INPUT, N_INPUTS, TOPOLOGY
 from truck_blowout_sim.simulation import (
     InitialState,
     Inputs,
@@ -131,3 +131,17 @@ def test_a_delay_is_as_long_as_it_says_or_refused(truck: Packed, slot: Slot) -> 
             break
         braked.advance(Inputs(brake_pressure_steer_pa=3e5))
     assert braked.time_s == pytest.approx(1.0, abs=0.005)
+
+
+def test_a_delay_reads_its_own_line_wherever_that_is_written(truck: Packed, state: Floats) -> None:
+    """0.3 s is 300 steps but for the last bit: no place of the ring may lead beyond it."""
+    late = truck.with_values({f"circuit.{c}.{key}": value for c in ("drive", "trailer")
+                              for key, value in (("delay_s", 0.1), ("delay_extra_s", 0.2))})
+    n = int(late.topology[TOPOLOGY.line_length])
+    room = np.concatenate([state, np.full(n, 777.0)])  # what lies behind the state
+    inputs = np.zeros(N_INPUTS)
+    inputs[INPUT.brake_pressure_steer_pa] = 5e5  # the line of another circuit is full
+    for _ in range(n + 350):
+        brakes.write_lines(room, late.topology, inputs)
+        for circuit in (1, 2):
+            assert brakes.delayed_pa(room, late.params, late.topology, circuit, 0.001) == 0.0

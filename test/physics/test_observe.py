@@ -62,7 +62,7 @@ def test_gyros_feel_a_slope_begin(truck: Packed) -> None:
     slope = truck.with_values({
         "world.bank_change_rad": 0.04, "world.bank_change_time_s": 1.0,
         "world.grade_change_rad": 0.03, "world.grade_change_time_s": 1.5,
-        "world.slope_change_ramp_s": 2.0})
+        "world.grade_change_ramp_s": 2.0, "world.bank_change_ramp_s": 2.0})
     run, rows = Truck(slope, initial=InitialState(speed_mps=20.0)), []
     for _ in range(400):
         run.advance(Inputs(), 10)

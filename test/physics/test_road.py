@@ -81,7 +81,7 @@ def truck_mass(truck: Packed) -> float:
 
 def test_a_slope_that_begins_eases_in(truck: Packed) -> None:
     p = truck.with_values({"world.grade_change_rad": 0.02, "world.grade_change_time_s": 3.0,
-                           "world.slope_change_ramp_s": 2.0}).params
+                           "world.grade_change_ramp_s": 2.0}).params
     before, half, after = (road.gravity(p, time_s)[0] for time_s in (3.0, 4.0, 9.0))
     assert before == pytest.approx(0.0, abs=1e-12)
     assert half == pytest.approx(-9.80665 * math.sin(0.01), rel=1e-3)
@@ -91,8 +91,11 @@ def test_a_slope_that_begins_eases_in(truck: Packed) -> None:
 def test_grade_and_bank_begin_each_at_its_own_instant(truck: Packed) -> None:
     p = truck.with_values({"world.grade_change_rad": 0.02, "world.grade_change_time_s": 3.0,
                            "world.bank_change_rad": 0.01, "world.bank_change_time_s": 9.0,
-                           "world.slope_change_ramp_s": 1.0}).params
+                           "world.grade_change_ramp_s": 1.0,
+                           "world.bank_change_ramp_s": 4.0}).params
+    assert road.gravity(p, 3.5)[0] == pytest.approx(-9.80665 * math.sin(0.01), rel=1e-3)
     along, across, _ = road.gravity(p, 6.0)
     assert along == pytest.approx(-9.80665 * math.sin(0.02), rel=1e-3)
     assert across == pytest.approx(0.0, abs=1e-12)
-    assert road.gravity(p, 11.0)[1] == pytest.approx(-9.80665 * math.sin(0.01), rel=1e-3)
+    assert road.gravity(p, 11.0)[1] == pytest.approx(-9.80665 * math.sin(0.005), rel=1e-3)
+    assert road.gravity(p, 13.0)[1] == pytest.approx(-9.80665 * math.sin(0.01), rel=1e-3)

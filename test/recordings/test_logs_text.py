@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.recordings import read_recording
 from truck_blowout_sim.recordings.logs import open_log
+from truck_blowout_sim.recordings.logs.cells import column_of
 from truck_blowout_sim.recordings.mapping.rules import Rules, Source, TimeRule
 from truck_blowout_sim.recordings.mapping.times import times_of
 
@@ -168,3 +169,16 @@ def test_any_bytes_are_a_table_or_one_line(tmp_path: Path, data: bytes, name: st
     except InputError as error:
         line = str(error)
     assert "\n" not in line
+
+
+def test_torn_rows_of_a_vbo_file_are_said(tmp_path: Path) -> None:
+    path = log(tmp_path, VBO + "009 120001\n", "log.vbo")
+    table = open_log(path)
+    assert [note for note in table.notes if note.startswith("1 rows with another number")]
+
+
+@pytest.mark.parametrize("cells", [("1_5", "2", "3"), ("1", "1_5", "2")])
+def test_a_number_has_no_underscore(cells: tuple[str, ...]) -> None:
+    values, _, wrong = column_of(cells, ".")
+    assert wrong == cells.index("1_5")
+    assert np.isnan(values[wrong])

@@ -17,6 +17,7 @@ from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.simulation import load_scenario, open_batch, simulate, simulate_batch
 from truck_blowout_sim.simulation.drive import Drive
 from truck_blowout_sim.simulation.studies import Study, grid, parse_axis, sample
+from truck_blowout_sim.simulation.studies.cases import FAILED
 from truck_blowout_sim.vehicle import Packed, load_vehicle, pack
 
 Floats = NDArray[np.float64]
@@ -318,3 +319,9 @@ def test_a_star_that_stands_for_nothing_fails_the_run(short: Path) -> None:
                                            "vehicle": "rigid_truck"}])
     assert batch.column("status") == ["failed"]
     assert "this vehicle has no such key" in batch.column("reason")[0]
+
+
+def test_a_brake_that_comes_later_than_its_line_is_long_is_refused(short: Path) -> None:
+    row = Study(TRUCK, short, ["circuit.trailer.delay_s"]).run(0, {"circuit.trailer.delay_s": 2.0})
+    assert row.status == FAILED
+    assert "the trailer brakes come 2" in row.reason

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from truck_blowout_sim.errors import InputError
-from truck_blowout_sim.vehicle import Packed, Vehicle, load_vehicle, pack
+from truck_blowout_sim.vehicle import Packed, Vehicle, load_vehicle, pack, write_vehicle
 
 Extending = Callable[[str], Path]
 Refusal = Callable[[Path], str]
@@ -91,3 +91,15 @@ def test_a_single_tire_of_a_hub_can_be_another(extending: Extending) -> None:
     assert files["trailer_2_left_outer"] == "drive_295_75r22_5"
     assert files["trailer_2_left_inner"] == "trailer_11r22_5"
     assert files["trailer_2_right_outer"] == "trailer_11r22_5"
+
+
+@pytest.mark.parametrize("text", ["blowout: {extends: continuous, flat_rolling: 0.5}",
+                                  "tires: {steer: {extends: steer_275_80r22_5, rolling_0: 0.01}}"])
+def test_a_section_that_extends_a_file_loads_again(
+    extending: Extending, tmp_path: Path, text: str
+) -> None:
+    path = extending(text)
+    first, again = load_vehicle(path), load_vehicle(path)
+    assert pack(first).params.tobytes() == pack(again).params.tobytes()
+    written = write_vehicle(tmp_path / "written.yaml", again, {"driveline.drag_extra_n": 400.0})
+    assert pack(written)["driveline.drag_extra_n"] == 400.0

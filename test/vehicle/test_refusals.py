@@ -36,6 +36,12 @@ WRONG = {
     "number for a switch": ("steering: {compliant: 1}", "1 is not accepted", "true or false"),
     "inertia of no body": (BODY % "ixx_kgm2: 90000", "90000 is more than", "at most"),
     "product of inertia": (BODY % "ixz_kgm2: 20000", "20000 belongs to no body", "sqrt(Ixx Izz)"),
+    "twin tires that steer": ("axles: {steer: {dual_spacing_m: 0.3}}", "dual_spacing_m",
+                              "single tires on the steered axle"),
+    "no pressure to divide by": ("blowout: {extends: continuous, pressure_valid: 0}",
+                                 "0 is out of bounds", "greater than 0"),
+    "no air left in a flat tire": ("blowout: {extends: continuous, flat_volume_fraction: 1}",
+                                   "1 is out of bounds", "0.99"),
     "axle behind the frame": ("axles: {drive_2: {x_m: 9}}", "9 m lies outside", "-1.2 to 7.5 m"),
     "payload beside the deck": (
         "units: {trailer: {payload: {front_block: {x_m: 20}}}}",

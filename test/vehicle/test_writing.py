@@ -95,3 +95,11 @@ def test_sources_come_back_in_one_line(
     printable = "".join(c if c.isprintable() else " " for c in source)
     assert written.effects[GAIN].source.split() == printable.split()
     assert len(written.effects[GAIN].source.splitlines()) <= 1
+
+
+def test_a_value_out_of_bounds_names_the_file_that_was_asked_for(tmp_path: Path) -> None:
+    target = tmp_path / "vehicle.yaml"
+    with pytest.raises(InputError, match=r"vehicle\.yaml, line") as refused:
+        write_vehicle(target, DEFAULT, {"world.friction_scale": -1.0})
+    assert refused.value.file == str(target)
+    assert not list(tmp_path.iterdir())

@@ -65,6 +65,11 @@ class Input:
             return self.safe_value
         return self.value
 
+    def shift(self, by_ns: int) -> None:
+        """Keep the age of the last message where time jumps by so much."""
+        if self.received_ns is not None:
+            self.received_ns += by_ns
+
     def clear(self) -> None:
         """As before the first message."""
         self.value, self.received_ns, self.timed_out = math.nan, None, False
@@ -79,6 +84,11 @@ class InputBank:
     def applied(self, now_ns: int) -> tuple[float, ...]:
         """Values for a step that begins now."""
         return tuple(one.applied(now_ns) for one in self.inputs)
+
+    def shift(self, by_ns: int) -> None:
+        """Keep the age of every last message where time jumps by so much."""
+        for one in self.inputs:
+            one.shift(by_ns)
 
     def clear(self) -> None:
         """Forget every message, as at the start."""

@@ -122,8 +122,9 @@ class Plant:
         self.applied = self.bank.applied(now_ns)
 
     def move_to(self, now_ns: int) -> None:
-        """The same truck at another time; the run is as old as before."""
+        """The same truck at another time; the run, and its last commands, are as old as before."""
         elapsed_ns = self.elapsed_ns
+        self.bank.shift(now_ns - self.now_ns)
         self.clock.move_to(now_ns)
         self.began_ns = now_ns - elapsed_ns
         self.blown_ns |= self._flat_ns()

@@ -16,7 +16,6 @@ from truck_blowout_sim.recordings.names import parts_of
 from truck_blowout_sim.recordings.recording import Recording
 
 FloatArray = NDArray[np.float64]
-_NS = 1_000_000_000
 _NOWHERE = 1e-9
 _ANY = (-np.inf, np.inf)
 _PEDALS = {"1": (0.0, 1.0), "Pa": (0.0, np.inf)}

@@ -79,7 +79,11 @@ class SimulatorClient:
         return self._sentence(executor, self._record, SetBool.Request(data=wanted), timeout_s)
 
     def recording_to(self, executor: Executor, *, timeout_s: float = 2.0) -> str | None:
-        """The path asked for the simulator's open bag; None without one, or if nobody tells."""
+        """The path asked for the simulator's open bag; None without one or without that service.
+
+        Raises:
+            InputError: as `call`.
+        """
         client, end_s = self._trigger("is_recording"), monotonic() + timeout_s
         if not self._until(executor, lambda: bool(client.service_is_ready()), end_s):
             return None

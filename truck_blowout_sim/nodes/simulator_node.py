@@ -262,7 +262,9 @@ class Simulator:
     def _period(self) -> bool:
         for _ in range(self.timing.publish_every):
             self.tick()
-        return self.plant.truck.ending is None
+            if self.plant.truck.ending:
+                return False
+        return True
 
     def _serve(self, executor: Executor, wall_s: float) -> None:
         """Let the executor handle what waits, now and then, when no tick leaves it time to."""

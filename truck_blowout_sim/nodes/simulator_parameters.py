@@ -20,7 +20,7 @@ from truck_blowout_sim.simulation.plausible import MOST_BRAKE_PA
 
 DEFAULT_VEHICLE = "international_9400i_trailmobile"
 
-# name: (topic, unit, lowest, highest, safe value)
+# by name: topic, unit, and what it may be at least and at most
 # Released: nobody at the wheel, foot off the pedals. A trailer whose line is cut would brake by its
 # springs; who wants that sets the safe value of its circuit.
 _COMMANDS = {

@@ -113,11 +113,14 @@ class Stage:
             self._say(f"simulator: {self._simulator.record(executor, False)}")
 
     def leave(self, executor: Executor) -> None:
-        """Leave the simulator as it was found: running, and without the player's bag."""
+        """Leave the simulator running, and without the player's bag.
+
+        The initial state that was set stays: the next reset returns to where this replay began.
+        """
         with self._simulator.to_the_end():
-            try:
-                if self._paused:
-                    self.resume(executor)
-                self.end_record(executor)
-            except InputError as error:
-                self._say(f"simulator: {error}")
+            for last in (self.resume if self._paused else None, self.end_record):
+                try:
+                    if last is not None:
+                        last(executor)
+                except InputError as error:
+                    self._say(f"simulator: {error}")

@@ -20,8 +20,8 @@ ROAD_WHEEL = "road_wheel_angle"
 class RoadWheelTopic:
     """`road_wheel_angle`: mean angle of the steered wheels, rad, left positive.
 
-    Becomes the hand-wheel angle that asks for it, with the same checks and timeout; of the two
-    topics the last message counts.
+    Becomes the hand-wheel angle that asks for it, with the same checks and timeout. The topic that
+    sent last counts; where both sent since the last tick, this one.
     """
 
     def __init__(self, node: Node, simulator: Simulator) -> None:

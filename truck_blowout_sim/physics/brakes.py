@@ -53,6 +53,7 @@ def delayed_pa(x: Floats, p: Floats, topo: Integers, circuit: int, dt: float) ->
     delay = (p[at + CIRCUIT.delay_s] + p[at + CIRCUIT.delay_extra_s]) / dt
     back = x[GLOBAL_S.line_position] - clip(delay, 0.0, n - 2.0)
     back = where(back < 0.0, back + n, back)
+    back = where(back < n, back, 0.0)  # just below zero, plus n is rounded to n itself
     i = whole(back)
     j = where(i + 1 < n, i + 1, 0)
     line = brake_line(topo, circuit)

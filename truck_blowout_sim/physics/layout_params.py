@@ -25,9 +25,10 @@ class WorldParams(NamedTuple):
     road_bank_rad: int  # left side (+y) high is positive
     grade_change_rad: int  # added from its time on
     grade_change_time_s: int  # inf: never
+    grade_change_ramp_s: int  # over which it eases in
     bank_change_rad: int
     bank_change_time_s: int
-    slope_change_ramp_s: int  # over which either change eases in
+    bank_change_ramp_s: int
     road_roughness_m: int  # rms unevenness
     road_roughness_seed: int
     friction_scale: int  # whole road, all tires

@@ -30,7 +30,6 @@ class Topology(NamedTuple):
     state_tire_at: int
     state_line_at: int  # brake delay lines
     line_length: int
-    step_ns: int  # not used by the core; the step the delay line was sized for
 
 
 class GlobalState(NamedTuple):

@@ -89,11 +89,10 @@ def _easing(since_s: float, ramp_s: float) -> float:
 @core
 def turning(p: Floats, time_s: float) -> tuple[float, float]:
     """Angular velocity [rad/s] of the road about the map's x and y axes while a slope begins."""
-    ramp_s = p[WORLD_AT + WORLD.slope_change_ramp_s]
     grading = p[WORLD_AT + WORLD.grade_change_rad] * _easing(
-        time_s - p[WORLD_AT + WORLD.grade_change_time_s], ramp_s)
+        time_s - p[WORLD_AT + WORLD.grade_change_time_s], p[WORLD_AT + WORLD.grade_change_ramp_s])
     banking = p[WORLD_AT + WORLD.bank_change_rad] * _easing(
-        time_s - p[WORLD_AT + WORLD.bank_change_time_s], ramp_s)
+        time_s - p[WORLD_AT + WORLD.bank_change_time_s], p[WORLD_AT + WORLD.bank_change_ramp_s])
     return banking, -grading
 
 
@@ -102,11 +101,10 @@ def gravity(p: Floats, time_s: float) -> tuple[float, float, float]:
     """Gravity [m/s^2] in map axes of a road with grade (uphill along x) and bank (left high)."""
     g = p[WORLD_AT + WORLD.gravity_mps2]
     grade, bank = p[WORLD_AT + WORLD.road_grade_rad], p[WORLD_AT + WORLD.road_bank_rad]
-    ramp_s = p[WORLD_AT + WORLD.slope_change_ramp_s]
     grade += p[WORLD_AT + WORLD.grade_change_rad] * _eased(
-        time_s - p[WORLD_AT + WORLD.grade_change_time_s], ramp_s)
+        time_s - p[WORLD_AT + WORLD.grade_change_time_s], p[WORLD_AT + WORLD.grade_change_ramp_s])
     bank += p[WORLD_AT + WORLD.bank_change_rad] * _eased(
-        time_s - p[WORLD_AT + WORLD.bank_change_time_s], ramp_s)
+        time_s - p[WORLD_AT + WORLD.bank_change_time_s], p[WORLD_AT + WORLD.bank_change_ramp_s])
     cos_grade, sin_grade = turned(grade)
     cos_bank, sin_bank = turned(bank)
     return -g * sin_grade, -g * sin_bank * cos_grade, -g * cos_grade * cos_bank

@@ -5,7 +5,8 @@ takes over from a blown partner that hangs clear. Between `place_tires` and `col
 of `tires.tire` runs over all tires of the truck.
 
 References: docs/physics.md, "Wheels and contact": loaded radius for shape, rolling for spin.
-Known limits: contact straight below the wheel centre; small tilt.
+Known limits: contact straight below the wheel centre; small tilt; the damper of a tire knows the
+rate of its wheel, not that of the unevenness that it rolls over.
 Validated with: test/physics/test_wheel.py (free rolling, dual sharing, sum of loads, on the rim).
 """
 

@@ -56,7 +56,7 @@ def kind_of(packed: Packed, drive: Drive, start: Floats | None) -> Hashable:
     if not len(drive.inputs):
         return object()
     return (packed.topology.tobytes(), shared_numbers(packed), drive.step_s, drive.every,
-            before is None, position)
+            before is None, start is None, position)
 
 
 def shared_numbers(packed: Packed) -> tuple[float, ...]:

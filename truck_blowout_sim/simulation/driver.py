@@ -20,9 +20,9 @@ from truck_blowout_sim.simulation.scenario_schema import (
     WhenSpec,
 )
 from truck_blowout_sim.vehicle import Packed
+from truck_blowout_sim.vehicle.schema.axle import CIRCUITS
 
 Floats = NDArray[np.float64]
-_CIRCUITS = ("steer", "drive", "trailer")
 
 
 def input_table(spec: ScenarioSpec, times_s: Floats, recorded: Floats | None) -> Floats:
@@ -38,7 +38,7 @@ def input_table(spec: ScenarioSpec, times_s: Floats, recorded: Floats | None) ->
         table[:, INPUT.throttle] = np.interp(times_s, spec.throttle.time_s, spec.throttle.opening)
     elif spec.hold:
         table[:, INPUT.throttle] = 0.0
-    for circuit in _CIRCUITS:
+    for circuit in CIRCUITS:
         pressure = getattr(spec.brakes, circuit) if spec.brakes else None
         if pressure:
             table[:, getattr(INPUT, f"brake_pressure_{circuit}_pa")] = np.interp(

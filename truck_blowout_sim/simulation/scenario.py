@@ -23,6 +23,7 @@ from truck_blowout_sim.vehicle import Vehicle
 from truck_blowout_sim.vehicle.document import Branch, Leaf, Place, read_document
 from truck_blowout_sim.vehicle.fields import rules
 from truck_blowout_sim.vehicle.reading import Notes, build, to_number, unknown
+from truck_blowout_sim.vehicle.schema.axle import CIRCUITS
 
 _KIND = "scenarios"
 NOTHING = "none"  # in place of tires: nothing bursts
@@ -252,7 +253,7 @@ def _check_tables(scenario: Scenario) -> None:
         if max(spec.throttle.opening) > 1.0:
             raise scenario.places["throttle.opening"].error(
                 f"{max(spec.throttle.opening):g} is out of bounds", "0 to 1")
-    for circuit in ("steer", "drive", "trailer"):
+    for circuit in CIRCUITS:
         pressure = getattr(spec.brakes, circuit) if spec.brakes else None
         if pressure:
             _check_table(scenario, f"brakes.{circuit}", pressure.time_s, pressure.pressure_pa,

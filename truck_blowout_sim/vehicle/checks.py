@@ -158,6 +158,10 @@ def _check_steering(vehicle: Vehicle, tree: Branch) -> None:
         place = place_of(tree, "axles", name, "steered")
         if name != steered[0] or vehicle.spec.axles[name].unit != "tractor":
             raise place.error(f"{name} cannot be steered", "one steered axle, on the tractor")
+        if vehicle.spec.axles[name].dual_spacing_m:
+            # the moment about a kingpin is that of one tire
+            raise place_of(tree, "axles", name, "dual_spacing_m").error(
+                f"{name} has twin tires and is steered", "single tires on the steered axle")
         if vehicle.spec.steering is None:
             raise tree.place.error(f"{name} is steered by nothing", "a steering section")
 

@@ -90,15 +90,16 @@ def _read(path: Path, kind: str, children: tuple[Path, ...]) -> Branch:
 
 
 def _extended(tree: Branch, path: Path, kind: str, children: tuple[Path, ...]) -> Branch:
-    base = tree.entries.pop("extends", None)
+    base = tree.entries.get("extends")
     if base is None:
         return tree
+    own = Branch(tree.place, {k: v for k, v in tree.entries.items() if k != "extends"})
     if not isinstance(base, Leaf) or not isinstance(base.value, str):
         raise base.place.error("extends is not a name", "the name of a file, or a path")
     base_path = _find(base, path, kind)
     if base_path.resolve() in {child.resolve() for child in (*children, path)}:
         raise base.place.error(f"{base.value!r} extends itself", "another file")
-    return merge(_read(base_path, kind, (*children, path)), tree)
+    return merge(_read(base_path, kind, (*children, path)), own)
 
 
 def _find(base: Leaf, path: Path, kind: str) -> Path:
@@ -138,9 +139,7 @@ def parse(path: Path) -> Branch:
         state = path.stat()
     except OSError:
         return _parse(path)  # says what is wrong
-    whole = _parsed(path, state.st_mtime_ns, state.st_size)
-    # `extends` is taken out of the top of a document; below it nothing is ever changed
-    return Branch(whole.place, dict(whole.entries))
+    return _parsed(path, state.st_mtime_ns, state.st_size)
 
 
 @lru_cache(maxsize=_KEPT_DOCUMENTS)

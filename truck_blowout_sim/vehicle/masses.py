@@ -50,8 +50,8 @@ def box_mass(box: PayloadSpec) -> MassProperties:
 def combine(parts: Iterable[MassProperties]) -> MassProperties:
     """Several bodies as one rigid body.
 
-    The product of inertia is the one of axes x forward and z up (Ixz = -integral x z dm as it
-    enters the inertia tensor), while positions are given rearward.
+    The product of inertia is the one of axes x forward and z up, ixz = integral x z dm; the entry
+    of the inertia tensor is its negative. Positions are given rearward.
     """
     parts = tuple(parts)
     mass = sum(part.mass_kg for part in parts)

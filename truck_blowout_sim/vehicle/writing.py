@@ -52,7 +52,7 @@ def write_vehicle(
     draft = target.with_name(f".{target.name}.{os.getpid()}.draft")
     try:
         draft.write_text(text, encoding="utf-8")
-        load_vehicle(draft)
+        _check(draft, target)
         draft.replace(target)
     except OSError as error:
         raise InputError(
@@ -61,6 +61,16 @@ def write_vehicle(
     finally:
         draft.unlink(missing_ok=True)
     return load_vehicle(target)
+
+
+def _check(draft: Path, target: Path) -> None:
+    """Load what will be the target, and name the target if it cannot be."""
+    try:
+        load_vehicle(draft)
+    except InputError as error:
+        file = target if error.file and Path(error.file) == draft else error.file
+        raise InputError(error.problem, file=file, where=error.where,
+                         expected=error.expected) from error
 
 
 def _refuse_unknown(parent: Vehicle, target: Path, values: Mapping[str, float]) -> None:

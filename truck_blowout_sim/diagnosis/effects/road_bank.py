@@ -33,7 +33,7 @@ FROM_AN_INSTANT = replace(
     timing="ramp",
     ramp_s=SLOPE_ENTERED_IN_S,
     timed=lambda packed, place, start, end: {
-        "world.bank_change_time_s": start, "world.slope_change_ramp_s": end - start},
+        "world.bank_change_time_s": start, "world.bank_change_ramp_s": end - start},
     onset_form_s=0.5,
     variant=True,
     sentence="From {onset} on the road is banked by {percent} percent (positive: left side high).",

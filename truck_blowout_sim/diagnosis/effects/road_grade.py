@@ -32,7 +32,7 @@ FROM_AN_INSTANT = replace(
     timing="ramp",
     ramp_s=SLOPE_ENTERED_IN_S,
     timed=lambda packed, place, start, end: {
-        "world.grade_change_time_s": start, "world.slope_change_ramp_s": end - start},
+        "world.grade_change_time_s": start, "world.grade_change_ramp_s": end - start},
     onset_form_s=0.5,
     variant=True,
     sentence="From {onset} on the road climbs by {percent} percent along its course.",

@@ -12,6 +12,7 @@ from truck_blowout_sim.diagnosis.effects import LIBRARY, Effect, secondary_blowo
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.result.parts import Place
 from truck_blowout_sim.errors import InputError, nearest
+from truck_blowout_sim.vehicle.schema.axle import CIRCUITS
 
 Floats = NDArray[np.float64]
 _PRESSURE_SEEN = 0.03  # share that stands out of a gauge's noise
@@ -67,7 +68,7 @@ def _can_show(study: Study, effect: Effect, place: Place) -> bool:
     if effect.applies == "brakes":
         circuit = place.axle if place.hub is None else (
             study.packed.vehicle.spec.axles[place.axle or ""].circuit)
-        column = 2 + ("steer", "drive", "trailer").index(circuit or "steer")
+        column = 2 + CIRCUITS.index(circuit or "steer")
         return any((run.drive.inputs[:, column] > 2e4).any() for run in runs)
     return True
 

@@ -29,9 +29,10 @@ class Prediction:
     """How a holdout run is predicted.
 
     Attributes:
+        run: which.
         chi2: sum of squares against prediction uncertainty.
         left: [n, m] whitened residual after the carried-over calibration.
-        times: interval of each timed effect in this run, by key.
+        named: effects in force, events at their instants in this run.
     """
 
     run: Run

@@ -71,6 +71,8 @@ def arms_of(study: Study, found: Ranked, others: Sequence[Hypothesis] = ()) -> A
 def _crossing(rise: Callable[[float], float], value: float, bound: float, sigma: float) -> float:
     """Where the sum of squares has risen enough on the side of ``bound``; infinite if nowhere."""
     side = np.sign(bound - value)
+    if not side:
+        return np.inf
     inside, beyond, root_inside, reach = value, value, 0.0, NINETY * sigma
     for _ in range(_DOUBLINGS):
         beyond = float(min(abs(bound - value), reach) * side + value)

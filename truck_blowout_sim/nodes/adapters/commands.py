@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING
 
 from truck_blowout_sim.nodes.adapters.longitudinal import speed_controller
@@ -58,6 +59,10 @@ class ForeignCommands:
         """
         if not self._simulator.plant.ready:
             return  # the truck is not there yet: nothing to control
+        if not all(map(math.isfinite, (speed_mps, acceleration_mps2))):
+            # neither pedal follows from it: refused as one command, the last good one holds
+            self._inputs["throttle"].take(math.nan)
+            return
         throttle, brake_pa = self._controller.pedals(self.speed_mps, speed_mps, acceleration_mps2)
         self.steer(steer_rad)
         self._inputs["throttle"].take(throttle)

@@ -96,7 +96,7 @@ def column_of(cells: Sequence[str], decimal: str) -> tuple[FloatArray, str, int 
     try:
         plain = cells if decimal == "." else [cell.replace(",", ".") for cell in cells]
         values = np.fromiter(map(float, plain), dtype=np.float64, count=len(cells))
-        if not any("_" in cell for cell in cells[:1]):
+        if not any("_" in cell for cell in cells):
             return np.where(np.isfinite(values), values, np.nan), "", _infinite(values)
     except ValueError:
         pass

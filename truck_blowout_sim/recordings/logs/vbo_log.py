@@ -44,6 +44,8 @@ def open_vbo(path: Path) -> Table:
                          where="section [data]", expected=f"{len(names)} cells a row")  # fmt: skip
     table = Table(path, KIND, {})
     fill(table, names, units, rows, places, ".")
+    if torn := len(sections["data"]) - len(rows):
+        table.notes.append(f"{torn} rows with another number of cells left out")
     return table
 
 

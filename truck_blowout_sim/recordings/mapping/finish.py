@@ -29,7 +29,6 @@ _OPTION = "--blow"
 MAP_ORIGIN = "map_origin_m"
 # A test track is not larger; what lies farther away is a coordinate of the earth (UTM).
 _FARTHEST_M = 1.0e5
-_EPOCH_S = 1e8
 _SMOOTHED_S = 0.1
 
 
@@ -177,7 +176,7 @@ def _moved(recording: Recording, unit: str, arm: tuple[float, float, float]) -> 
     if f"{unit}_yaw_rad" in recording and {f"{unit}_x_m", f"{unit}_y_m"} <= set(recording.channels):
         for k, axis in enumerate(("x_m", "y_m")):
             series = recording[f"{unit}_{axis}"]
-            yaw = _held(recording, f"{unit}_yaw_rad", series.time_s)
+            yaw = _interpolated(recording, f"{unit}_yaw_rad", series.time_s)
             ahead = (np.cos(yaw) * arm[0] - np.sin(yaw) * arm[1],
                      np.sin(yaw) * arm[0] + np.cos(yaw) * arm[1])  # fmt: skip
             out[f"{unit}_{axis}"] = Series(series.time_s, series.value - ahead[k])
@@ -203,10 +202,10 @@ def _acceleration(
 
 def _rates(recording: Recording, unit: str, times: FloatArray) -> FloatArray:
     names = (f"{unit}_{stem}_rate_radps" for stem in ("roll", "pitch", "yaw"))
-    return np.stack([_held(recording, name, times) for name in names])
+    return np.stack([_interpolated(recording, name, times) for name in names])
 
 
-def _held(recording: Recording, name: str, times: FloatArray) -> FloatArray:
+def _interpolated(recording: Recording, name: str, times: FloatArray) -> FloatArray:
     if name not in recording:
         return np.zeros_like(times)
     series = recording[name]

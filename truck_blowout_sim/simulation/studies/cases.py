@@ -20,6 +20,7 @@ from truck_blowout_sim.simulation.abreast import execute_abreast, settle_all
 from truck_blowout_sim.simulation.drive import Drive, Ran, names_of
 from truck_blowout_sim.simulation.measures import Measures, measure
 from truck_blowout_sim.simulation.plausible import diverged, implausible
+from truck_blowout_sim.simulation.rates import check_delays
 from truck_blowout_sim.simulation.run import prepare, row_times
 from truck_blowout_sim.simulation.scenario import Scenario, scenario_of
 from truck_blowout_sim.simulation.studies.design import Value
@@ -183,6 +184,7 @@ class Study:
         last = {key: value for key, value in values.items()
                 if self.found[key].where == PARAMETER}
         packed = packed.with_values(_numbers(last))
+        check_delays(packed, self.step_s)
         if not self.insist and (found := implausible(packed, drive)):
             raise InputError(f"no vehicle of this kind does this: {'; '.join(found)}")
         return packed, scenario, drive

@@ -62,7 +62,8 @@ OWN: dict[type[Any], dict[str, Rule]] = {
         **_each("grade_change_rad bank_change_rad", _SLOPE),
         **_each("grade_change_time_s bank_change_time_s friction_change_x_m friction_change_time_s "
                 "patch_x0_m patch_x1_m patch_y0_m patch_y1_m", _ANY),
-        "slope_change_ramp_s": _RAMP,
+        "grade_change_ramp_s": _RAMP,
+        "bank_change_ramp_s": _RAMP,
         **_each("friction_change_scale patch_scale", _GRIP),
     },
     layout.SteeringParams: {

@@ -10,7 +10,6 @@ from truck_blowout_sim.vehicle.schema.axle import CIRCUITS
 from truck_blowout_sim.vehicle.vehicle import Vehicle
 
 LINE_SAMPLES = 1000  # longest brake delay in steps, 1 s at 1 ms
-STEP_NS = 1_000_000
 
 
 def topology_of(vehicle: Vehicle, table_at: int) -> NDArray[np.int64]:
@@ -41,7 +40,6 @@ def topology_of(vehicle: Vehicle, table_at: int) -> NDArray[np.int64]:
         state_tire_at=state_tire_at,
         state_line_at=state_line_at,
         line_length=LINE_SAMPLES,
-        step_ns=STEP_NS,
     )
     return np.array([*head, *_axle_entries(vehicle), *_tire_entries(vehicle)], dtype=np.int64)
 

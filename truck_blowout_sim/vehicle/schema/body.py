@@ -30,7 +30,7 @@ class BodySpec:
     ixx_kgm2: float = positive("roll inertia")
     iyy_kgm2: float = positive("pitch inertia")
     izz_kgm2: float = positive("yaw inertia")
-    ixz_kgm2: float = number("product of inertia, x forward and z up", default=0.0)
+    ixz_kgm2: float = number("product of inertia: integral of x z dm, x forward, z up", default=0.0)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -122,8 +122,9 @@ class BlowoutSpec:
     title: str = text("what law this is")
     law: str = choice("continuous in pressure and rim contact, or a table of steps", LAWS)
     polytropic: float = number("1 isothermal to 1.4 adiabatic gas", low=1.0, high=1.4)
-    flat_volume_fraction: float = fraction("part of the volume lost at rho = 1")
-    pressure_valid: float = fraction("q below which the pressure terms stay as they are")
+    flat_volume_fraction: float = number("part of the volume lost at rho = 1", low=0.0, high=0.99)
+    pressure_valid: float = number("q below which the pressure terms stay as they are",
+                                   above=0.0, high=1.0)
     rim_radius_m: float = positive("loaded radius at which carcass and rim begin to touch")
     rim_span_m: float = positive("loss of radius from there to rho = 1")
     rim_contact_radius_m: float = positive("loaded radius below which the rim carries")
