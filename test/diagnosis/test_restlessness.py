@@ -81,3 +81,19 @@ def test_without_baseline_runs_training_is_asked_and_its_color_taken_out(
     after = swinging.residual().reshape(shape)[:, k]
     assert swinging.runs[0].color.lags > 0
     assert np.mean(np.square(after)) < 0.3 * np.mean(np.square(before))
+
+
+def test_what_is_missing_in_training_does_not_widen_the_channel_that_shows_it(
+    study_of: Studies
+) -> None:
+    """It pulls the sheet and the gain of its own channel away from the baseline runs."""
+    calm = study_of(baseline=True)
+    i = calm.train[0]
+    run, k = calm.runs[i], calm.runs[i].channels.index("hub_speed_trailer_2_left_radps")
+    measured = run.measured.copy()
+    measured[measured.shape[0] // 2:, k] *= 0.5
+    study = replace(calm, runs=tuple(replace(r, measured=measured) if j == i else r
+                                     for j, r in enumerate(calm.runs)))
+    for name, color in colors(study).items():
+        np.testing.assert_array_equal(color.surprise, colors(calm)[name].surprise)
+    assert resting_level(study) == resting_level(calm)

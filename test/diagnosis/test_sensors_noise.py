@@ -12,6 +12,7 @@ from truck_blowout_sim.diagnosis.sensors import (
     channel_noise,
     seen_quanta,
     series_noise,
+    slow_noise,
     told_noise,
 )
 from truck_blowout_sim.recordings import Recording, Series
@@ -141,3 +142,17 @@ def test_a_measured_record_keeps_the_noise_of_a_channel_at_rest() -> None:
                                        "brake_chamber_steer_left_pa": Series(time_s, 0.0 * time_s)})
     noise = channel_noise(recording)
     assert told_noise(recording, noise) == noise
+
+
+def test_a_slow_gauge_has_the_noise_of_a_good_one() -> None:
+    """A tire's pressure that comes once a second is evidence; two readings are none."""
+    time_s = np.arange(0.0, 15.0)
+    recording = Recording("slow", {
+        "tire_pressure_steer_left_pa": Series(time_s, np.full(15, 760000.0)),
+        "tire_pressure_steer_right_pa": Series(time_s[:2], np.full(2, 760000.0)),
+        "tractor_vx_mps": Series(np.arange(100) / 100.0, np.full(100, 20.0))})
+    found = slow_noise(recording)
+    assert list(found) == ["tire_pressure_steer_left_pa"]
+    (gauge,) = found.values()
+    assert gauge.sigma == pytest.approx(0.005 * 760000.0)
+    assert gauge.effective_rate_hz == pytest.approx(1.0)

@@ -99,3 +99,18 @@ def test_what_explains_most_decides_whether_a_name_is_told(truck: Packed) -> Non
     assert mostly_unlisted([inside, outside])
     assert mostly_unlisted([weaker])
     assert np.isclose(sum(r.delta for r in listed([inside, outside])), 50.0)
+
+
+@pytest.mark.parametrize(("roll", "parameter", "state"), [
+    (False, "unit.trailer.probe_mz_vr_kgm", 9.80665),
+    (True, "unit.trailer.probe_mz_roll_nmprad", 0.05),
+])
+def test_a_yaw_moment_has_the_leverage_that_it_says(
+    truck: Packed, roll: bool, parameter: str, state: float
+) -> None:
+    """A tenth of the weight at half of the length, at 1 g of speed times yaw rate, or rolled."""
+    changed = hypothesis(truck, "yaw_moment", "trailer", roll).apply(truck, "", 0.1)
+    half_m = 0.5 * (truck["unit.trailer.origin_x_m"] - truck["axle.trailer_2.x_m"])
+    weight_n = truck["unit.trailer.mass_kg"] * 9.80665
+    assert changed[parameter] * state == pytest.approx(0.1 * weight_n * half_m)
+    assert truck[parameter] == 0.0

@@ -76,3 +76,13 @@ def test_what_a_finer_step_changes_widens_the_bins_around_it(study_of: Callable[
     np.testing.assert_allclose(unsure[30, k], np.sqrt(calm[30, k]**2 + lasts * 0.01**2), rtol=1e-6)
     np.testing.assert_allclose(unsure[60:], calm[60:])
     np.testing.assert_allclose(np.delete(unsure, k, axis=1), np.delete(calm, k, axis=1))
+
+
+def test_a_gauge_that_reads_once_a_second_swings_as_far_as_one_that_reads_always(
+    few: Settings
+) -> None:
+    falls = np.clip(np.linspace(8e5, -4e5, 200), 0.0, None)[:, None]
+    seldom = np.full_like(falls, np.nan)
+    seldom[::round(1.0 / few.bin_s)] = falls[::round(1.0 / few.bin_s)]
+    always, now_and_then = swings(falls, few), swings(seldom, few)
+    assert np.median(now_and_then / np.maximum(always, 1.0)) == pytest.approx(1.0, rel=0.1)

@@ -55,9 +55,26 @@ def left_by_fit(study: Study, named: Sequence[Hypothesis] = ()) -> Floats:
     return np.asarray(residual - projector.explained(projector.amounts(residual)))
 
 
+def _left_of_telling(study: Study) -> Floats:
+    """[rows] what is left in the runs that tell, zero elsewhere.
+
+    Baseline runs are fitted alone: what is missing in training would pull the sheet, and the gains
+    of its channels, away from them, and so excuse itself.
+    """
+    if not study.baseline:
+        return left_by_fit(study)
+    residual, ranges = study.residual(), row_ranges(study)
+    rows = np.concatenate([np.arange(ranges[i].start, ranges[i].stop) for i in study.baseline])
+    columns = study.columns[rows]
+    gram = np.eye(columns.shape[1]) + columns.T @ columns
+    left = np.zeros_like(residual)
+    left[rows] = residual[rows] - columns @ np.linalg.solve(gram, columns.T @ residual[rows])
+    return left
+
+
 def _autocovariances(study: Study) -> Mapping[str, Floats]:
     """[lags + 1] of what is left of each channel in the runs that tell, in widths."""
-    left = left_by_fit(study)
+    left = _left_of_telling(study)
     lags, rows = round(_LASTS_S / study.settings.bin_s), row_ranges(study)
     sums, counts = dict[str, Floats](), dict[str, int]()
     for i in study.baseline or study.train:
@@ -92,7 +109,7 @@ def resting_level(study: Study) -> float:
 
     1 at most; less where channels are calmer than the guess.
     """
-    left, rows = left_by_fit(study), row_ranges(study)
+    left, rows = _left_of_telling(study), row_ranges(study)
     told = np.concatenate([left[rows[i]] for i in study.baseline or study.train])
     return min(float(np.mean(np.square(told))), 1.0)
 

@@ -18,7 +18,7 @@ from truck_blowout_sim.diagnosis.case.trust import BRAKES_ON_PA, wider
 from truck_blowout_sim.diagnosis.case.widths import rms_around, swings, widths
 from truck_blowout_sim.diagnosis.fit.color import Color
 from truck_blowout_sim.diagnosis.result.evidence import Role
-from truck_blowout_sim.diagnosis.sensors import Noise, channel_noise
+from truck_blowout_sim.diagnosis.sensors import Noise, channel_noise, slow_noise
 from truck_blowout_sim.diagnosis.settings import Settings
 from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.recordings import Recording
@@ -197,7 +197,7 @@ def prepare_run(recording: Recording, role: Role, packed: Packed, settings: Sett
     fine, drive = (drive_from(recording, packed.vehicle, step_s=step, impose_speed=impose_speed)
                    for step in (step_s, max(step_s, settings.trial_step_s)))
     names = names_of(packed.vehicle)
-    noise = channel_noise(recording, quanta)
+    noise = {**channel_noise(recording, quanta), **slow_noise(recording)}
     channels = tuple(n for n in names if n in recording and n in noise
                      and settings.rule(n) and not _redundant(n, drive))
     n_bins = int((drive.times_s[-1] - drive.initial.time_s - settings.skip_s) / settings.bin_s)

@@ -25,18 +25,22 @@ from scipy.ndimage import uniform_filter1d
 from truck_blowout_sim.diagnosis.settings import Settings
 
 Floats = NDArray[np.float64]
+_FEWEST_SEEN = 1e-6  # share of the bins that have a sample; below, running sums leave it from none
 
 
 def swings(signals: Floats, settings: Settings) -> Floats:
     """[n, m] rms of how far each signal [n, m] is from its median around each bin.
 
-    What is not finite counts as its median.
+    Bins without a sample count as far from it as those around them: of a gauge that reads once a
+    second, most have none.
     """
     known = np.isfinite(signals)
     middle = np.array([np.median(one[seen]) if seen.any() else 0.0
                        for one, seen in zip(signals.T, known.T, strict=True)])
     away = np.where(known, np.nan_to_num(signals) - middle, 0.0)
-    return rms_around(away, settings)
+    seen = np.square(rms_around(known.astype(np.float64), settings))
+    share = np.where(seen > _FEWEST_SEEN, seen, 1.0)
+    return np.asarray(rms_around(away, settings) / np.sqrt(share))
 
 
 def rms_around(values: Floats, settings: Settings) -> Floats:

@@ -29,6 +29,7 @@ from truck_blowout_sim.diagnosis.effects import (
     tire_relaxation,
     tire_saturation,
     tire_saturation_linear,
+    yaw_moment,
     yaw_rate_scale,
 )
 from truck_blowout_sim.diagnosis.effects.base import Amount, Effect
@@ -68,7 +69,7 @@ LIBRARY: tuple[Effect, ...] = (*(module.EFFECT for module in _MODULES),
                                payload_shift.REARMOST,
                                steering_ratio.BENT, crosswind.AHEAD, crosswind.BEHIND,
                                one_sided_drag.EFFECT, one_sided_drag.LEFT,
-                               one_sided_drag.RIGHT)
+                               one_sided_drag.RIGHT, yaw_moment.EFFECT, yaw_moment.WITH_ROLL)
 """Every candidate, physics first."""
 
 __all__ = ["LIBRARY", "Amount", "Effect"]

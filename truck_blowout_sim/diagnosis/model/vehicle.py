@@ -26,7 +26,7 @@ from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.fit.linear import Projector
 from truck_blowout_sim.diagnosis.fit.models import with_effects
 from truck_blowout_sim.diagnosis.result import Fit
-from truck_blowout_sim.diagnosis.sensors import Noise, channel_noise, told_noise
+from truck_blowout_sim.diagnosis.sensors import Noise, channel_noise, slow_noise, told_noise
 from truck_blowout_sim.recordings import Recording
 from truck_blowout_sim.vehicle import Packed
 
@@ -157,7 +157,7 @@ def driven_fit(
         before: the calibrated truck without what was named; ``after``: with it.
         impose_speed: as in ``compare``; ``quanta``: steps in which the channels read.
     """
-    noises = [told_noise(r, channel_noise(r, quanta)) for r in recordings]
+    noises = [told_noise(r, {**channel_noise(r, quanta), **slow_noise(r)}) for r in recordings]
     sides = [_errors(recordings, noises, truck, impose_speed) for truck in (before, after)]
     common = sorted(set(sides[0]) & set(sides[1]))
     return Fit(*({name: side[name] for name in common} for side in sides))

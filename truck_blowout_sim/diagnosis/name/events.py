@@ -110,7 +110,8 @@ def _failed(study: Study, named: Sequence[Hypothesis], chi2: float, tire: str,
     starts = [Hypothesis(effect, place, hole, spans) for hole in _HOLES]
     projector = study.projector([*named, starts[0]])
     sums = [chi2_of(study, projector, models) for models in models_at(study, starts, named)]
-    return refit(study, Ranked(starts[int(np.argmin(sums))], 0.0, 1.0), chi2, named)
+    found = refit(study, Ranked(starts[int(np.argmin(sums))], 0.0, 1.0), chi2, named)
+    return fit_event(study, found, chi2, named)
 
 
 def _scanned(study: Study, named: Sequence[Hypothesis], places: Sequence[tuple[Effect, Place]],

@@ -22,6 +22,7 @@ from truck_blowout_sim.diagnosis.sensors.noise import (
     channel_noise,
     seen_quanta,
     series_noise,
+    slow_noise,
     told_noise,
 )
 
@@ -39,6 +40,7 @@ __all__ = [
     "seen_quanta",
     "sensor_gate",
     "series_noise",
+    "slow_noise",
     "stated_geometry",
     "told_noise",
     "vehicle_geometry",

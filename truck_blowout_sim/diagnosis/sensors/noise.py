@@ -29,10 +29,10 @@ from truck_blowout_sim.recordings import Recording, Series
 FloatArray = NDArray[np.float64]
 
 _DIFFERENCE_GAIN = np.sqrt(70.0)  # binom(8, 4)
-_MAD_TO_SIGMA = 1.4826
 _STRETCH_S = 0.5
 _LOCAL_CUBIC = 31  # samples of the local cubic whose residual shows coloured noise
 FEWEST_SAMPLES = 40
+_FEWEST_READINGS = 5  # of a slow gauge: fewer are hardly a course of time
 _COMPUTED = 0.02  # of a good instrument's noise: no instrument is that good
 _REPEATS = 0.5  # share of samples that differ from the one before, below which most repeat it
 _LEAST_STEPS = 3  # fewer may be one jump there and back
@@ -86,6 +86,25 @@ def channel_noise(recording: Recording, quanta: Mapping[str, float] | None = Non
         for name, series in recording.channels.items()
         if len(series) >= FEWEST_SAMPLES
     }
+
+
+def slow_noise(recording: Recording) -> Mapping[str, Noise]:
+    """Noise of the channels with too few samples to show it: that of a good instrument.
+
+    A gauge of tire pressure that sends once a second tells how fast a tire empties all the same.
+    """
+    return {name: _stated(series, good_sigma(name, series.value))
+            for name, series in recording.channels.items()
+            if _FEWEST_READINGS <= len(series) < FEWEST_SAMPLES
+            and good_sigma(name, series.value) > 0.0}
+
+
+def _stated(series: Series, sigma: float) -> Noise:
+    quantum = _quantum(series.value)
+    sigma = max(sigma, quantum / np.sqrt(12.0))
+    return Noise(sigma=sigma, floor=sigma, relative=0.0, correlation_s=series.period_s,
+                 effective_rate_hz=1.0 / series.period_s, quantum=quantum,
+                 period_s=series.period_s, white=True)
 
 
 def seen_quanta(recordings: Sequence[Recording]) -> Mapping[str, float]:
