@@ -89,7 +89,7 @@ def measure(name: str, train: Path, holdout: Path, vehicle: str, settings: str =
     place = Place(page, f"faults_{name}")
     seen, unseen = (read_recording(path, mapping=mapping) for path in (train, holdout))
     before = [] if baseline is None else [read_recording(baseline, mapping=mapping)]
-    made, as_it_is = Table("put in", "stated; below the first row, besides that"), None
+    made, as_it_is = Table("put in", "stated (in the other rows: in addition to the first)"), None
     for words, change in FAULTS.items():
         answer, _ = diagnose([change(seen)], baseline=before, holdout=[change(unseen)],
                              vehicle=vehicle, settings=settings, effort=QUICK)
