@@ -173,3 +173,14 @@ def test_random_cells_give_a_recording_or_one_line(tmp_path: Path, body: str) ->
 def test_the_same_recording_gives_the_same_bytes(tmp_path: Path, full_recording: Recording) -> None:
     one = write_recording(full_recording, tmp_path / "one.csv").read_bytes()
     assert write_recording(full_recording, tmp_path / "two.csv").read_bytes() == one
+
+
+def test_a_table_under_our_own_names_is_held_against_itself(tmp_path: Path) -> None:
+    """Whoever writes deg/s into tractor_yaw_rate_radps is told, also without a mapping."""
+    time_s = np.arange(0.0, 20.0, 0.05)
+    rate = 0.05 * np.sin(0.5 * time_s)
+    table = np.column_stack([time_s, 0.0 * time_s + 20.0, np.degrees(rate), 20.0 * rate])
+    path = tmp_path / "own.csv"
+    np.savetxt(path, table, delimiter=",", comments="",
+               header="time_s,tractor_vx_mps,tractor_yaw_rate_radps,tractor_ay_mps2")
+    assert any("the yaw rate reads like deg/s" in note for note in read_recording(path).notes)

@@ -285,6 +285,8 @@ def test_coordinates_of_the_earth_get_a_local_origin(tmp_path: Path) -> None:
     ({"tractor_vx_mps": 1 / 3.6}, ("m/s taken for km/h",)),
     ({"tractor_ay_mps2": 1 / 9.80665}, ("g taken for m/s2",)),
     ({"tractor_yaw_rad": 57.3}, ("the heading reads like deg taken for rad",)),
+    ({"tractor_yaw_rad": -1.0}, ("yaw_rate_radps is -1 times what yaw_rad says: reads like the"
+                                 " opposite sign",)),
     ({"tractor_yaw_rate_radps": 57.3}, ("the yaw rate reads like deg/s taken for rad/s",
                                         "times what the turning of its path says")),
     ({"tractor_x_m": 1 / 0.3048, "tractor_y_m": 1 / 0.3048}, ("position reads like ft taken",)),

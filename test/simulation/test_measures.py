@@ -7,6 +7,7 @@ import math
 import numpy as np
 import pytest
 
+from truck_blowout_sim.report.sweep_page import _left
 from truck_blowout_sim.simulation import load_scenario, prepare
 from truck_blowout_sim.simulation.drive import Drive as Drive_
 from truck_blowout_sim.simulation.drive import Ran, execute
@@ -38,10 +39,15 @@ def test_peaks_are_taken_from_the_burst_on(measured: Measures) -> None:
 def test_a_wider_lane_is_left_later(fishhook: tuple[Packed, Drive_, Ran]) -> None:
     narrow, wide, endless = (measure(*fishhook, lane_width_m=width).left_lane_s
                              for width in (3.66, 30.0, 300.0))
-    assert narrow == 3.5  # off it before the burst, counted from there
+    assert narrow == pytest.approx(1.98)  # off it before the burst, at 3.5 s
     assert wide is not None
     assert 6.0 < wide < 10.0
     assert endless is None
+
+
+def test_a_truck_that_was_off_the_lane_before_the_burst_does_not_count() -> None:
+    assert [_left(left_s, blown_s) for left_s, blown_s in (
+        (None, 3.5), (1.98, 3.5), (3.5, 3.5), (1.98, None))] == [0.0, 0.0, 1.0, 1.0]
 
 
 def test_a_stop_is_timed_and_measured(truck: Packed) -> None:

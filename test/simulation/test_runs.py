@@ -123,6 +123,16 @@ def test_the_summary_says_what_happened(truck: Packed, name: str, words: str) ->
     assert "rolled over" not in line
 
 
+def test_a_truck_that_stood_and_rolls_back_is_told() -> None:
+    time_s = np.arange(5.0)
+    values = {"tractor_vx_mps": [10.0, 0.0, -1.0, -2.0, -3.0], "tractor_x_m": [0.0, 5, 4.5, 3, 0.5],
+              **dict.fromkeys(("tractor_vy_mps", "tractor_yaw_rate_radps", "tractor_y_m",
+                               "tractor_yaw_rad"), [0.0] * 5)}
+    run = Recording("run", {n: Series(time_s, np.array(v)) for n, v in values.items()})
+    assert ("to standstill in 16 ft at 1.0 s, then rolling back, 6.7 mph at the end;"
+            in summarize(run))
+
+
 def test_a_truck_that_slides_sideways_does_not_stand() -> None:
     time_s = np.array([0.0, 1.0, 2.0])
     values = {"tractor_vx_mps": [20.0, 10.0, 0.0], "tractor_vy_mps": [0.0, 8.0, 10.0],

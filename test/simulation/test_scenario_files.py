@@ -182,6 +182,12 @@ def test_an_unknown_name_lists_the_shipped_ones() -> None:
         load_scenario("fishok")
 
 
+def test_the_few_tires_of_a_car_are_listed() -> None:
+    """`rear_left` resembles `steer_left` most, and is the wrong end."""
+    with pytest.raises(InputError, match="expected one of front_left, front_right, rear_left, rea"):
+        simulate(load_vehicle("bmw_320i"), "steer_axle_blowout")
+
+
 def test_a_vehicle_without_these_tires_is_named(truck: Packed) -> None:
     with pytest.raises(InputError, match="no hub or tire of ferrari_250lm"):
         simulate(load_vehicle("ferrari_250lm"), "fishhook")

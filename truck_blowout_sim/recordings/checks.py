@@ -39,7 +39,7 @@ def check_values(
     unit = "" if channel.unit == "1" else f" {channel.unit}"
     expected = f"{channel.quantity}: {channel.lowest:g} to {channel.highest:g}{unit}"
     if not np.isfinite(value):
-        expected = f"a finite number{unit and ' in' + unit}"
+        expected = f"a finite number{unit and ' in' + unit}, or nothing where none was measured"
     raise InputError(
         f"{channel.name} is {float(value)!r}", file=file, where=where(first), expected=expected
     )

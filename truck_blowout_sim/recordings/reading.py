@@ -27,6 +27,8 @@ from truck_blowout_sim.recordings.recording import Blowout, Recording
 from truck_blowout_sim.recordings.stray_time import stray_times
 from truck_blowout_sim.recordings.topic_names import channels_on
 
+_TABLES = (".csv", ".txt")
+
 
 def read_recording(
     path: str | os.PathLike[str],
@@ -71,7 +73,7 @@ def read_recording(
         _check_stamps(read, path)
         foreign = channels_on((remap or {}).values(), read.channels)
         read = with_local_origin(without_planar_zeros(read, foreign))
-        read = replace(read, notes=(*read.notes, *stray_times(read)))
+        read = replace(read, notes=(*read.notes, *(stray_times(read) or _doubts(read, path))))
         return with_blowouts(read, blow, tires=tires, hubs=hubs) if blow else read
     rules = mapping if isinstance(mapping, Rules) else load_mapping(mapping) if mapping else Rules()
     files = open_test(path, rules, also=map(Path, also), namespace=namespace, source=source)
@@ -98,6 +100,13 @@ def _check_stamps(read: Recording, path: Path) -> None:
     if not (start_s >= EARLIEST_S and end_s - min(0.0, start_s) < STAMPS_END_S):
         raise InputError(f"time from {start_s:.10g} s to {end_s:.10g} s", file=path,
                          expected=f"seconds, {EARLIEST_S:.0f} to {STAMPS_END_S:.0f}")  # fmt: skip
+
+
+def _doubts(read: Recording, path: Path) -> tuple[str, ...]:
+    """Notes on units of a table, which a person may have written; a bag's are those of its type."""
+    if path.suffix.lower() not in _TABLES:
+        return ()
+    return (*contradictions(read), *odd_sizes(read))
 
 
 def _foreign(files: Iterable[Opened], rules: Rules, read: Recording) -> set[str]:

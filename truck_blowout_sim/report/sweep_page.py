@@ -46,7 +46,8 @@ class Outcome:
 OUTCOMES = (
     Outcome("lane_departure_m", "Lane departure", "m"),
     Outcome("sideways_m", "Sideways movement", "m"),
-    Outcome("left_lane", "Runs in which a tire leaves the lane", "%", 100.0, rate=True),
+    Outcome("left_lane", "Runs in which a tire leaves the lane, after a burst if there is one",
+            "%", 100.0, rate=True),
     Outcome("peak_hand_wheel_rad", "Hand wheel turned by", "deg", 180.0 / np.pi),
     Outcome("peak_articulation_rad", "Articulation", "deg", 180.0 / np.pi),
     Outcome("peak_load_transfer", "Load transfer", "%", 100.0),
@@ -175,12 +176,19 @@ def _worst(batch: Batch, keys: Sequence[str]) -> list[list[str]]:
 
 
 def _values(batch: Batch, name: str) -> Floats:
-    """A measure as numbers; NaN where a run failed. Whether the lane was left comes from when."""
+    """A measure as numbers; NaN where a run failed. Whether the lane was left comes from when.
+
+    A truck that had left it before the first tire burst says nothing about the burst.
+    """
     if name == "left_lane":
-        status = batch.column("status")
-        return np.array([np.nan if s == _FAILED else float(t is not None)
-                         for s, t in zip(status, batch.column("left_lane_s"), strict=True)])
+        when = (batch.column(key) for key in ("status", "left_lane_s", "blown_s"))
+        return np.array([np.nan if status == _FAILED else _left(left_s, blown_s)
+                         for status, left_s, blown_s in zip(*when, strict=True)])
     return np.array([np.nan if v is None else float(v) for v in batch.column(name)])
+
+
+def _left(left_s: float | None, blown_s: float | None) -> float:
+    return float(left_s is not None and (blown_s is None or left_s >= blown_s))
 
 
 def _text(value: object) -> str:

@@ -37,7 +37,7 @@ class Measures:
         distance_m: driven since the burst.
         lane_departure_m: farthest that a base_link came from the middle of the lane.
         sideways_m: farthest that a base_link moved across the lane from where it was at the burst.
-        left_lane_s: instant at which a tire left the lane; None: none did.
+        left_lane_s: instant at which a tire left the lane, also before the burst; None: none did.
         peak_hand_wheel_rad, peak_hand_wheel_rate_radps: largest turn of the hand wheel from where
             it was, and its fastest.
         peak_articulation_rad, peak_yaw_rate_radps, peak_lateral_acceleration_mps2, peak_roll_rad:
@@ -142,7 +142,10 @@ def _transfer(packed: Packed, table: dict[str, Floats], unit: str, since: slice)
 
 def _lane(packed: Packed, drive: Drive, table: dict[str, Floats], since: slice,
           lane_width_m: float) -> tuple[float, float, int | None]:
-    """How far base_links came off the lane, and moved in it; the row at which it was left."""
+    """How far base_links came off the lane, and moved in it; the row at which it was left.
+
+    A truck that was outside when the first tire burst had left it before.
+    """
     path = drive.path
     if not path.size:
         start = np.array([table["tractor_x_m"][0], table["tractor_y_m"][0]])
@@ -159,6 +162,8 @@ def _lane(packed: Packed, drive: Drive, table: dict[str, Floats], since: slice,
             out = np.flatnonzero(np.abs(off) + half_m > 0.5 * lane_width_m)
             if out.size and (first is None or since.start + out[0] < first):
                 first = int(since.start + out[0])
+    if first == since.start > 0:
+        first = _lane(packed, drive, table, slice(0, since.start + 1), lane_width_m)[2]
     return farthest, moved, first
 
 

@@ -26,6 +26,7 @@ from truck_blowout_sim.vehicle.reading import Notes, build, to_number, unknown
 from truck_blowout_sim.vehicle.schema.axle import CIRCUITS
 
 _KIND = "scenarios"
+_FEW_PARTS = 8  # so many hubs and tires are listed
 NOTHING = "none"  # in place of tires: nothing bursts
 
 
@@ -102,6 +103,8 @@ class Scenario:
             else:
                 problem = f"{quoted(word)} is no hub or tire of {vehicle.name}"
                 parts = tuple(dict.fromkeys((*vehicle.hubs, *vehicle.tires)))
+                if len(parts) <= _FEW_PARTS:  # a name of another vehicle resembles the wrong one
+                    raise self._tires_place(event).error(problem, "one of " + ", ".join(parts))
                 raise unknown(self._tires_place(event), problem, word, parts)
         return tuple(dict.fromkeys(tires))
 

@@ -1,4 +1,4 @@
-"""Silences of the inputs that drive a run: bridged by a straight line, and told.
+"""Silences of the inputs that drive a run: bridged by a straight line or held, and told.
 
 Validated with: test/simulation/test_silences.py.
 """
@@ -13,10 +13,41 @@ _INTERVALS = 2.5
 
 
 def silences(recording: Recording) -> tuple[str, ...]:
-    """A note on each input that has no samples for a second or more; commands are held."""
+    """A note on each input that has no samples for a second or more; commands are held.
+
+    Also where the speed, from which a run starts, begins that late.
+    """
+    late = _late(recording, "tractor_vx_mps", "the run starts at its first value")
     if recording.inputs_are_held:
+        return late
+    return (*late, *(note for name in INPUT_NAMES for note in (
+        *_late(recording, name, "its first value stands for them"),
+        *filter(None, [_note(recording, name)]), *_early(recording, name))))
+
+
+def _late(recording: Recording, name: str, then: str) -> tuple[str, ...]:
+    """Words on samples that begin later than the record."""
+    if name not in recording or not len(recording[name]):
         return ()
-    return tuple(note for name in INPUT_NAMES for note in [_note(recording, name)] if note)
+    first_s = float(recording[name].time_s[0])
+    if first_s - recording.start_s < _least_s(recording, name):
+        return ()
+    return (f"{name} has no samples before {first_s:.2f} s: {then}",)
+
+
+def _early(recording: Recording, name: str) -> tuple[str, ...]:
+    """Words on samples that end earlier than the record."""
+    if name not in recording or not len(recording[name]):
+        return ()
+    last_s = float(recording[name].time_s[-1])
+    if recording.end_s - last_s < _least_s(recording, name):
+        return ()
+    return (f"{name} has no samples after {last_s:.2f} s: its last value is held",)
+
+
+def _least_s(recording: Recording, name: str) -> float:
+    series = recording[name]
+    return max(_LEAST_S, _INTERVALS * series.period_s if len(series) > 1 else 0.0)
 
 
 def _note(recording: Recording, name: str) -> str:
@@ -24,7 +55,7 @@ def _note(recording: Recording, name: str) -> str:
     if name not in recording:
         return ""
     series = recording[name]
-    found = series.gaps(max(_LEAST_S, _INTERVALS * series.period_s)) if len(series) > 1 else ()
+    found = series.gaps(_least_s(recording, name)) if len(series) > 1 else ()
     if not found:
         return ""
     start_s, end_s = max(found, key=lambda gap: gap[1] - gap[0])

@@ -22,7 +22,7 @@ def initial_state(recording: Recording) -> InitialState:
     start = start_time_s(recording)
     yaw = _heading(recording, start)
     return InitialState(
-        speed_mps=max(_value(recording, "tractor_vx_mps", start), 0.0),
+        speed_mps=max(_speed(recording, start), 0.0),
         lateral_speed_mps=_value(recording, "tractor_vy_mps", start),
         yaw_rate_radps=_value(recording, "tractor_yaw_rate_radps", start),
         x_m=_value(recording, "tractor_x_m", start),
@@ -54,6 +54,14 @@ def _heading(recording: Recording, start_s: float) -> float:
     # a straight line through the second has the direction of its middle
     turned = 0.5 * _WINDOW_S * _value(recording, "tractor_yaw_rate_radps", start_s)
     return float(np.arctan2(speeds[1], speeds[0])) - turned
+
+
+def _speed(recording: Recording, start_s: float) -> float:
+    """Forward speed; where its samples begin later than the run, the first of them (`silences`)."""
+    name = "tractor_vx_mps"
+    if name in recording and len(recording[name]):
+        start_s = max(start_s, float(recording[name].time_s[0]))
+    return _value(recording, name, start_s)
 
 
 def _value(recording: Recording, name: str, start_s: float) -> float:

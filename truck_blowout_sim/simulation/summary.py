@@ -52,10 +52,18 @@ def _speed(recording: Recording, units: _Units) -> str:
         stop = int(standing[0])
         way = _travelled(recording)[stop] / units.length_m
         return (f"{start} {units.speed} to standstill in {way:.0f} {units.length}"
-                f" at {forward.time_s[stop]:.1f} s")
+                f" at {forward.time_s[stop]:.1f} s{_again(float(forward.value[-1]), units)}")
     way = _travelled(recording)[-1] / units.length_m
     return (f"{start} to {_tenths(last / units.speed_mps)} {units.speed}"
             f" over {way:.0f} {units.length}")
+
+
+def _again(speed_mps: float, units: _Units) -> str:
+    """Words on a truck that stood and rolls at the end."""
+    if abs(speed_mps) < STANDING_MPS:
+        return ""
+    return (f", then rolling {'on' if speed_mps > 0.0 else 'back'},"
+            f" {_tenths(abs(speed_mps) / units.speed_mps)} {units.speed} at the end")
 
 
 def _tenths(value: float) -> str:

@@ -90,7 +90,7 @@ def contradictions(recording: Recording) -> tuple[str, ...]:
             notes.append(f"{name} is {ratio:.2g} times gravity: reads like accelerations without"
                          f" it; if so, map metadata: {{{unit}_accelerometers: gravity removed}}")
         words = _meaning(other, ratio)
-        if other == _HEADING and ratio * _DEG < 2.0 and name.partition("_")[0] in sound:
+        if other == _HEADING and 0.0 < ratio * _DEG < 2.0 and name.partition("_")[0] in sound:
             words = words and _WRONG_HEADING  # the rate agrees with the lateral acceleration
         if words:
             notes.append(f"{name} is {ratio:.3g} times what {other} says: {words}")
