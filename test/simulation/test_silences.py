@@ -49,7 +49,7 @@ def test_a_command_that_begins_late_or_ends_early_is_told() -> None:
                    for hole in ((-1.0, 3.0), (7.0, 10.0)))
     assert late == ("steering_wheel_angle_rad has no samples before 3.00 s: its first value stands"
                     " for them",)  # fmt: skip
-    assert early == ("steering_wheel_angle_rad has no samples after 6.99 s: its last value is"
+    assert early == ("steering_wheel_angle_rad has no samples after 7.00 s: its last value is"
                      " held",)  # fmt: skip
 
 
