@@ -28,6 +28,8 @@ MATLAB = "Time\tSpeed\tSWA\n" + "".join(
     f"00:00:{0.01 * i:06.3f}\t{22.2 + 0.1 * i}\t{-i}\n" for i in ROWS)  # fmt: skip
 DATED = "timestamp,speed (mph),swa (deg),note\n" + "".join(
     f"2024-02-01 12:00:{0.01 * i:06.3f},{50 + 0.1 * i:.1f},{-i},ok\n" for i in ROWS)  # fmt: skip
+QUOTED = "Time [s],Speed [km/h],SWA\n" + "".join(
+    f'"{0.01 * i:.2f}","{80 + 0.1 * i:.1f}","{-i}"\n'.replace(".", ",") for i in ROWS)
 BLANKS = "  Time   Speed   SWA\n" + "".join(
     f"  {0.01 * i:.2f}   {80 + i}   {-i}\n" for i in ROWS)  # fmt: skip
 VBO = """File created on 01/02/2024 at 12:00:00
@@ -57,6 +59,7 @@ def log(tmp_path: Path, text: str, name: str = "log.csv", coding: str = "utf-8")
     (MATLAB, "log.txt", {"Speed": "", "SWA": ""}),
     (DATED, "log.csv", {"speed": "mph", "swa": "deg"}),
     (BLANKS, "log.dat", {"Speed": "", "SWA": ""}),
+    (QUOTED, "log.csv", {"Speed": "km/h", "SWA": ""}),
     (VBO, "log.vbo", {"velocity": "kmh", "LWS_Angle": ""}),
 ])  # fmt: skip
 def test_columns_units_and_time_are_found(

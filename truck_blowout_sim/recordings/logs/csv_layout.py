@@ -95,8 +95,8 @@ def _best(lines: Sequence[str], numbered: Sequence[int]) -> tuple[str, str, int]
     best = (0.0, ",", ".", 0)
     for separator in _SEPARATORS:
         for decimal in (".", ","):
-            if separator == decimal:
-                continue
+            if separator == decimal and not any('"' in lines[i] for i in sample):
+                continue  # a comma within a number is one only in quotes
             rows = [split(lines[i], separator) for i in sample]
             width = Counter(len(row) for row in rows).most_common(1)[0][0]
             fitting = [row for row in rows if len(row) == width]
