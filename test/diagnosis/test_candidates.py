@@ -49,6 +49,16 @@ def test_the_gauge_tells_when_a_tire_began_to_lose_its_air(truck: Packed, lasts_
     assert found["steer_right"]["run"] == pytest.approx(2.5, abs=0.02 + 0.02 * lasts_s)
 
 
+def test_a_gauge_that_reads_once_a_second_tells_a_tire_that_is_flat_for_most_of_the_run(
+    truck: Packed
+) -> None:
+    time_s = np.arange(15.0)
+    pressure_pa = np.array([748, 752, 752, 752, 352, 136, 28] + [0] * 8) * 1e3
+    run = Recording("run", {"tire_pressure_steer_left_pa": Series(time_s, pressure_pa)})
+    found = failed_tires(gauges(truck, run), [0])
+    assert 2.9 <= found["steer_left"]["run"] <= 4.0
+
+
 def test_a_tire_blown_on_command_has_not_failed_by_itself(truck: Packed) -> None:
     run = pressures(2.5, 0.3, "steer_right")
     told = Recording("run", run.channels, (Blowout(2.5, ("steer_right",)),))

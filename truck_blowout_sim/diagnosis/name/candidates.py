@@ -16,6 +16,8 @@ from truck_blowout_sim.vehicle.schema.axle import CIRCUITS
 
 Floats = NDArray[np.float64]
 _PRESSURE_SEEN = 0.03  # share that stands out of a gauge's noise
+_FULL_S, _FEWEST_FULL = 0.2, 3  # readings that tell the pressure at the start
+_FEWEST_LOW = 3  # fewer may be a gauge that slips
 _PRESSURE_LOST = 0.3  # share of its pressure a tire must lose to count as failed by itself
 
 
@@ -96,9 +98,10 @@ def failed_tires(study: Study, runs: Sequence[int]) -> Mapping[str, Mapping[str,
             if tire in told or name not in run.recording:
                 continue
             series = run.recording[name]
-            start = float(np.median(series.value[:20]))
+            full = max(round(_FULL_S / series.period_s), _FEWEST_FULL)
+            start = float(np.median(series.value[:full]))
             low = np.flatnonzero(series.value < (1.0 - _PRESSURE_LOST) * start)
-            if low.size > 3:
+            if low.size >= _FEWEST_LOW:
                 began = _began(series.time_s[:low[0] + 1], series.value[:low[0] + 1] / start)
                 found.setdefault(tire, {})[run.recording.name] = began
     return found
