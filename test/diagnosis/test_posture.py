@@ -9,13 +9,14 @@ import numpy as np
 import pytest
 
 from truck_blowout_sim.diagnosis.case.study import Study
-from truck_blowout_sim.diagnosis.effects import LIBRARY
+from truck_blowout_sim.diagnosis.effects import LIBRARY, secondary_blowout
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.fit.attribute import Ranked
 from truck_blowout_sim.diagnosis.fit.models import models_at
 from truck_blowout_sim.diagnosis.fit.refit import refit
 from truck_blowout_sim.diagnosis.fit.scatter import SCATTERS, Scatter
 from truck_blowout_sim.diagnosis.locate.posture import postures, turned_body
+from truck_blowout_sim.recordings import Blowout
 from truck_blowout_sim.vehicle import Packed
 
 Studies = Callable[..., Study]
@@ -66,3 +67,14 @@ def test_a_bank_that_is_named_turns_nothing(study_of: Studies, truck: Packed) ->
     for i, model in models_at(study, [named], ())[0].items():
         study.models[i] = model
     assert turned_body(study, [named], STILL) is None
+
+
+def test_a_body_that_leans_on_a_flat_tire_stands_on_its_springs(study_of: Studies) -> None:
+    study = leaning(study_of, 0.012)
+    i = study.train[0]
+    run = study.runs[i]
+    flat = replace(run, recording=replace(run.recording, blowouts=(Blowout(2.0, ("steer_left",)),)))
+    blown = replace(study, runs=tuple(flat if k == i else r for k, r in enumerate(study.runs)))
+    assert turned_body(blown, [], STILL) is None
+    place = next(p for p in secondary_blowout.EFFECT.places(study.packed.vehicle) if p.tire)
+    assert turned_body(study, [Hypothesis(secondary_blowout.EFFECT, place, 1.0)], STILL) is None

@@ -20,6 +20,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from truck_blowout_sim.diagnosis.case.study import Study
+from truck_blowout_sim.diagnosis.effects import secondary_blowout
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.fit.one_channel import ask_channel, asked_of
 from truck_blowout_sim.diagnosis.fit.quantiles import NINETY
@@ -79,9 +80,10 @@ def turned_body(study: Study, named: Sequence[Hypothesis], scatter: Scatter) -> 
 def postures(study: Study, named: Sequence[Hypothesis], scatter: Scatter) -> list[Posture]:
     """How each body stands about each axis for which an angle was recorded.
 
-    One body strays in this from another, and from day to day, as gyros do in how they sit.
+    One body strays in this from another, and from day to day, as gyros do in how they sit. Nothing
+    is asked where only training lost a tire: on a flat one a body leans, as far as its tire's law.
     """
-    if not study.baseline:
+    if not study.baseline or _lost_a_tire(study, named):
         return []
     projector, found = study.projector(named), []
     removed = projector.remove(study.residual())
@@ -95,3 +97,10 @@ def postures(study: Study, named: Sequence[Hypothesis], scatter: Scatter) -> lis
                 found.append(Posture(body, angle, one.score.amount, one.score.sigma,
                                      one.score.delta, one.support))
     return found
+
+
+def _lost_a_tire(study: Study, named: Sequence[Hypothesis]) -> bool:
+    """Whether a tire is flat in training and in no baseline run."""
+    flat = [bool(study.runs[i].recording.blowouts) for i in (*study.train, *study.baseline)]
+    commanded = any(flat[:len(study.train)]) and not any(flat[len(study.train):])
+    return commanded or any(h.effect.name == secondary_blowout.EFFECT.name for h in named)
