@@ -78,6 +78,7 @@ NOT_COMPARABLE: Mapping[str, str] = {
     "steering_ratio": "another gear or one that bends with the angle: two laws of one name",
     "wheel_drag": "has no name of the list: it stands for whatever drags a wheel",
     "corner_drag": "has no name of the list: the verdict is unknown",
+    "yaw_moment": "has no name of the list: the verdict is unknown",
     "lever_arm": "multiple of a vector against its components",
 }
 
