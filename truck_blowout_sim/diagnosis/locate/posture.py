@@ -7,7 +7,8 @@ or broke, a frame that bent. No known effect turns a body without the forces tha
 
 References: as `scatter.py`.
 Known limits: without baseline runs a lean is how the instrument is mounted, and nothing is said;
-angles that were not recorded show none; nothing is asked where an instrument was found faulty.
+angles that were not recorded show none; nothing is asked where an instrument was found faulty, or
+where only training lost a tire.
 Validated with: test/diagnosis/test_posture.py (a body that leans is named, and by how much).
 """
 

@@ -102,7 +102,7 @@ def _failed(study: Study, named: Sequence[Hypothesis], chi2: float, tire: str,
             times: Mapping[str, float]) -> Ranked:
     """A tire seen to lose its pressure: the hypothesis at those instants, its hole refitted.
 
-    No motion of the truck tells the instant as well as the gauge does.
+    Its instants begin where the gauge has them, and are fitted: a gauge may read once a second.
     """
     effect = secondary_blowout.EFFECT
     place = next(p for p in effect.places(study.packed.vehicle) if p.tire == tire)
