@@ -139,7 +139,9 @@ def parse(path: Path) -> Branch:
         state = path.stat()
     except OSError:
         return _parse(path)  # says what is wrong
-    return _parsed(path, state.st_mtime_ns, state.st_size)
+    whole = _parsed(path, state.st_mtime_ns, state.st_size)
+    # readers take keys out of the top of a document; below it nothing is ever changed
+    return Branch(whole.place, dict(whole.entries))
 
 
 @lru_cache(maxsize=_KEPT_DOCUMENTS)
