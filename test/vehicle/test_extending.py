@@ -8,7 +8,6 @@ from pathlib import Path
 import pytest
 
 from truck_blowout_sim.errors import InputError
-from truck_blowout_sim.resources import config_file
 from truck_blowout_sim.vehicle import Packed, Vehicle, load_vehicle, pack, write_vehicle
 
 Extending = Callable[[str], Path]
@@ -92,14 +91,6 @@ def test_a_single_tire_of_a_hub_can_be_another(extending: Extending) -> None:
     assert files["trailer_2_left_outer"] == "drive_295_75r22_5"
     assert files["trailer_2_left_inner"] == "trailer_11r22_5"
     assert files["trailer_2_right_outer"] == "trailer_11r22_5"
-
-
-def test_a_whole_file_loads_again(tmp_path: Path) -> None:
-    """Without `extends`, what a reader takes out of its top must be there again."""
-    path = tmp_path / "own.yaml"
-    text = config_file("vehicles", "ferrari_250lm").read_text(encoding="utf-8")
-    path.write_text(text + "\neffects: {world.road_grade_rad: 0.01}\n", encoding="utf-8")
-    assert [pack(load_vehicle(path))["world.road_grade_rad"] for _ in range(2)] == [0.01, 0.01]
 
 
 @pytest.mark.parametrize("text", ["blowout: {extends: continuous, flat_rolling: 0.5}",
