@@ -41,7 +41,8 @@ def test_names_are_the_canonical_ones() -> None:
     names = [effect.name for effect in OF_TRUCKS]
     assert len(names) == len(set(names))
     assert {e.name for e in LIBRARY if e.kind == "physics" and e.listed} == PHYSICS
-    assert {e.name for e in LIBRARY if not e.listed} == {"wheel_drag", "corner_drag"}
+    assert {e.name for e in LIBRARY if not e.listed} == {
+        "wheel_drag", "corner_drag", "yaw_moment"}
     assert {e.name for e in LIBRARY if e.kind == "sensor"} == {
         "steering_angle_offset", "yaw_rate_scale"}
 
