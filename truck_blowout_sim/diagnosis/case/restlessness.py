@@ -29,6 +29,7 @@ from truck_blowout_sim.diagnosis.case.runs import Run
 from truck_blowout_sim.diagnosis.case.study import Study, row_ranges
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.fit.color import Color, autocovariance
+from truck_blowout_sim.diagnosis.fit.linear import Projector
 
 Floats = NDArray[np.float64]
 _LASTS_S = 1.0  # as far back as a bin is foretold from
@@ -65,10 +66,8 @@ def _left_of_telling(study: Study) -> Floats:
         return left_by_fit(study)
     residual, ranges = study.residual(), row_ranges(study)
     rows = np.concatenate([np.arange(ranges[i].start, ranges[i].stop) for i in study.baseline])
-    columns = study.columns[rows]
-    gram = np.eye(columns.shape[1]) + columns.T @ columns
     left = np.zeros_like(residual)
-    left[rows] = residual[rows] - columns @ np.linalg.solve(gram, columns.T @ residual[rows])
+    left[rows] = Projector.of(study.columns[rows]).remove(residual[rows])
     return left
 
 
