@@ -147,6 +147,27 @@ def test_a_zero_error_of_a_pressure_gauge_is_no_bad_input(tmp_path: Path) -> Non
     assert recording["brake_pressure_trailer_pa"].value.tolist() == [-350.0]
 
 
+def with_glitches(column: str, bad: str, many: int) -> str:
+    cells = (bad if 50 <= i < 50 + many else "30" for i in range(300))
+    return f"time_s,{column}\n" + "".join(f"{i},{cell}\n" for i, cell in enumerate(cells))
+
+
+@pytest.mark.parametrize(("column", "bad"), [
+    ("hub_speed_steer_left_radps", "6553.5"), ("tire_pressure_steer_left_pa", "-120000"),
+])  # fmt: skip
+def test_rare_impossible_readings_are_left_out(tmp_path: Path, column: str, bad: str) -> None:
+    recording = parse(tmp_path, with_glitches(column, bad, 3))
+    assert len(recording[column]) == 297
+    assert f"{column}: 3 of 300 readings are left out as impossible" in recording.notes[0]
+    with pytest.raises(InputError, match="line 52"):
+        parse(tmp_path, with_glitches(column, bad, 4))
+
+
+def test_an_impossible_command_is_refused_however_rare(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match="line 52"):
+        parse(tmp_path, with_glitches("brake_pressure_steer_pa", "-120000", 1))
+
+
 def test_a_column_of_no_concern_is_ignored_and_said(tmp_path: Path) -> None:
     recording = parse(tmp_path, "time_s,throttle,gps_satellites\n0,0.1,9\n")
     assert set(recording.channels) == {"throttle"}

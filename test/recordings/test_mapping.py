@@ -155,6 +155,15 @@ def test_one_absurd_cell_is_no_matter_of_units(log: Path, cell: str) -> None:
     assert "unit" not in words
 
 
+def test_an_absurd_reading_of_an_instrument_is_left_out(log: Path) -> None:
+    rows = "".join(f"{10 * i},{9000 if i == 200 else 80},0,0,1\n" for i in range(400))
+    log.write_text(HEAD + rows)
+    recording = read_recording(log, mapping=rules(log, channels()))
+    assert len(recording.channels["tractor_vx_mps"]) == 399
+    assert any("1 of 400 readings are left out as impossible (the first: 2500 m/s at 2 s)" in note
+               for note in recording.notes)  # fmt: skip
+
+
 def test_a_unit_is_suggested_only_where_all_numbers_fit_it() -> None:
     numbers = np.append(30.0 * np.sin(np.arange(300.0)), np.full(5, 1e300))
     unit = find_unit("rad")

@@ -22,7 +22,7 @@ from truck_blowout_sim.recordings.bag_topics import TopicSeries, read_topic
 from truck_blowout_sim.recordings.bag_writer import ORIGIN_KEY
 from truck_blowout_sim.recordings.channel import IMU, ODOMETRY
 from truck_blowout_sim.recordings.channels import BLOWOUT_EVENT, Channel, Place
-from truck_blowout_sim.recordings.checks import EARLIEST_S, check_values
+from truck_blowout_sim.recordings.checks import EARLIEST_S, check_values, without_glitches
 from truck_blowout_sim.recordings.names import Parts, parts_of
 from truck_blowout_sim.recordings.recording import Blowout, Recording, Series
 from truck_blowout_sim.recordings.resets import reset_times_s
@@ -200,7 +200,7 @@ class _Reader:
             )
         if place.field.endswith(":yaw"):
             values = np.asarray(np.unwrap(values), dtype=np.float64)
-        return Series(times_ns[last] / _NS, values[last])
+        return Series(*without_glitches(channel, times_ns[last] / _NS, values[last], self.notes))
 
     def _check_order(self, topic: TopicSeries, index: NDArray[np.int64],
                      times_ns: NDArray[np.int64]) -> None:

@@ -12,9 +12,54 @@ from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.recordings.channels import Channel
 
 FloatArray = NDArray[np.float64]
+BoolArray = NDArray[np.bool_]
 # header stamps of ROS 2 count seconds in 32 bits
 STAMPS_END_S = 2.0**31
 EARLIEST_S = -1.0e9
+# A bus or an encoder now and then reads nonsense; a wrong unit does so more often than this.
+_GLITCHES = 0.01
+
+
+def without_glitches(
+    channel: Channel, times: FloatArray, values: FloatArray, notes: list[str]
+) -> tuple[FloatArray, FloatArray]:
+    """Leave out an instrument's impossible readings where they are rare, with a note.
+
+    Args:
+        channel: row of the table.
+        times: of the samples, in s.
+        values: in the channel's unit, as `check_values` let them pass.
+        notes: gets a line for what is left out.
+    """
+    return leave_out(_glitches(channel, values), channel, times, values, notes)
+
+
+def leave_out(
+    glitch: BoolArray, channel: Channel, times: FloatArray, values: FloatArray, notes: list[str]
+) -> tuple[FloatArray, FloatArray]:
+    """The other samples, with a note on those that are left out."""
+    if not glitch.any():
+        return times, values
+    unit = "" if channel.unit == "1" else f" {channel.unit}"
+    notes.append(
+        f"{channel.name}: {np.count_nonzero(glitch)} of {values.size} readings are left out as"
+        f" impossible (the first: {values[glitch][0]:g}{unit} at {times[glitch][0]:g} s)")
+    return times[~glitch], values[~glitch]
+
+
+def _glitches(channel: Channel, values: FloatArray) -> BoolArray:
+    """Impossible readings among a hundred times as many others.
+
+    None of a command, which the simulated truck has to obey; none where there are more, as under a
+    wrong unit.
+    """
+    beyond = np.isfinite(values) & ~_possible(channel, values)
+    few = channel.group != "input" and np.count_nonzero(beyond) <= _GLITCHES * values.size
+    return beyond if few else np.zeros(values.size, dtype=bool)
+
+
+def _possible(channel: Channel, values: FloatArray) -> BoolArray:
+    return np.isfinite(values) & (values >= channel.lowest) & (values <= channel.highest)
 
 
 def check_values(
@@ -29,9 +74,10 @@ def check_values(
         where: place in the file of the i-th value.
 
     Raises:
-        InputError: for the first NaN, infinity, or value out of the channel's bounds.
+        InputError: for the first NaN, infinity, or value out of the channel's bounds that is no
+            glitch.
     """
-    good = np.isfinite(values) & (values >= channel.lowest) & (values <= channel.highest)
+    good = _possible(channel, values) | _glitches(channel, values)
     if good.all():
         return
     first = int(np.flatnonzero(~good)[0])

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from truck_blowout_sim.errors import InputError, quoted
 from truck_blowout_sim.recordings.channels import BLOWOUT_EVENT, Channel
-from truck_blowout_sim.recordings.checks import check_times, check_values
+from truck_blowout_sim.recordings.checks import check_times, check_values, without_glitches
 from truck_blowout_sim.recordings.csv_header import Header, parse_header
 from truck_blowout_sim.recordings.names import parts_of
 from truck_blowout_sim.recordings.recording import Blowout, Recording, Series
@@ -58,13 +58,13 @@ def read_csv(
     header = parse_header(path, lines, tires=tires, hubs=hubs, strict=strict)
     body = _Body(path, header, _rows(path, lines, header))
     time_s = body.times()
-    channels = {}
+    channels, notes = {}, list(header.notes)
     for column, channel in header.channels.items():
-        series = body.series(column, channel, time_s)
+        series = body.series(column, channel, time_s, notes)
         if len(series):
             channels[channel.name] = series
     blowouts = body.blowouts(time_s, reset_times_s(channels))
-    return Recording(path.stem, channels, blowouts, header.metadata, header.notes)
+    return Recording(path.stem, channels, blowouts, header.metadata, tuple(notes))
 
 
 @dataclass(frozen=True)
@@ -86,7 +86,9 @@ class _Body:
         check_times(time_s, file=self.path, where=lambda i: self.where(i, "time_s"))
         return time_s
 
-    def series(self, column: int, channel: Channel, time_s: FloatArray) -> Series:
+    def series(
+        self, column: int, channel: Channel, time_s: FloatArray, notes: list[str]
+    ) -> Series:
         cells = [row[column] for row in self.rows]
         if "" in cells or any(cell.isspace() for cell in cells):
             index = [i for i, cell in enumerate(cells) if cell and not cell.isspace()]
@@ -96,7 +98,7 @@ class _Body:
         check_values(
             channel, values, file=self.path, where=lambda i: self.where(index[i], channel.name)
         )
-        return Series(time_s[index], values)
+        return Series(*without_glitches(channel, time_s[index], values, notes))
 
     def numbers(self, cells: Sequence[str], index: Sequence[int], name: str) -> FloatArray:
         try:

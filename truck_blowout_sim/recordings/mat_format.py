@@ -24,7 +24,7 @@ import numpy as np
 from truck_blowout_sim.errors import InputError, quoted
 from truck_blowout_sim.recordings.atomic import replacing
 from truck_blowout_sim.recordings.channels import Channel, by_name
-from truck_blowout_sim.recordings.checks import check_times, check_values
+from truck_blowout_sim.recordings.checks import check_times, check_values, without_glitches
 from truck_blowout_sim.recordings.mat_file import Variable, read_variables
 from truck_blowout_sim.recordings.mat_thesis import has_thesis_variables, read_thesis_mat
 from truck_blowout_sim.recordings.names import Parts, parts_of
@@ -61,8 +61,9 @@ def read_mat(
     if TIME not in held and thesis:
         return read_thesis_mat(path, source=source, held=held)
     parts = parts_of(held, hubs, tires)
+    notes: list[str] = []
     channels = {
-        channel.name: _series(path, held, channel)
+        channel.name: _series(path, held, channel, notes)
         for channel in parts.table()
         if channel.name in held and TIME in held
     }
@@ -76,7 +77,7 @@ def read_mat(
         )  # fmt: skip
     name = _METADATA
     metadata = {part.name: part.text for part in held[name].inside} if name in held else {}
-    return Recording(path.stem, channels, _blowouts(path, held, parts), metadata)
+    return Recording(path.stem, channels, _blowouts(path, held, parts), metadata, tuple(notes))
 
 
 def write_mat(recording: Recording, path: Path) -> None:
@@ -123,7 +124,9 @@ def _field_name(key: str) -> str:
     return (name if name[:1].isalpha() else f"key_{name}")[:_LONGEST_NAME]
 
 
-def _series(path: Path, held: Mapping[str, Variable], channel: Channel) -> Series:
+def _series(
+    path: Path, held: Mapping[str, Variable], channel: Channel, notes: list[str]
+) -> Series:
     own = channel.name + OWN_TIME
     time_name = own if own in held else TIME
     time_s, values = (_vector(path, held[name]) for name in (time_name, channel.name))
@@ -139,7 +142,7 @@ def _series(path: Path, held: Mapping[str, Variable], channel: Channel) -> Serie
                          expected="times in seconds")  # fmt: skip
     check_times(time_s, file=path, where=partial(_where, time_name))
     check_values(channel, values, file=path, where=partial(_where, channel.name))
-    return Series(time_s, values)
+    return Series(*without_glitches(channel, time_s, values, notes))
 
 
 def _vector(path: Path, variable: Variable) -> np.ndarray[Any, np.dtype[np.float64]]:

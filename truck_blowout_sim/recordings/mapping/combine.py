@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from truck_blowout_sim.errors import InputError, nearest, quoted
 from truck_blowout_sim.recordings.bag_reader import NOT_MEASURED_WORDS
 from truck_blowout_sim.recordings.channels import DEFAULT_HUBS, DEFAULT_TIRES, Channel, by_name
-from truck_blowout_sim.recordings.checks import check_values
+from truck_blowout_sim.recordings.checks import check_values, leave_out, without_glitches
 from truck_blowout_sim.recordings.logs.bag_log import BagLog
 from truck_blowout_sim.recordings.logs.log import Column, no_column
 from truck_blowout_sim.recordings.mapping.opened import Opened, other_unit
@@ -156,10 +156,12 @@ def _mapped(
         raise InputError("holds no number", file=opened.path, where=where, expected="samples")
     numbers, values, times = column.values[there], values[there], times[there]
     _check_size(opened.path, where, channel, (numbers, unit), values, times)
+    times, values = leave_out(lone(channel, values), channel, times, values, made.notes)
     if note := hydraulic(channel, values):
         made.notes.append(note)
     times, values = _in_order(opened.path, where, times, values, made)
     check_values(channel, values, file=opened.path, where=lambda i: f"{where}, at {times[i]:g} s")
+    times, values = without_glitches(channel, times, values, made.notes)
     if channel.name.endswith("_yaw_rad"):
         values = np.asarray(np.unwrap(values), dtype=np.float64)
     return Series(times, values)
@@ -220,7 +222,9 @@ def _check_size(
         return
     numbers, unit = taken
     problem = f"{numbers[at]:g} {unit.name} at {times[at]:g} s is beyond what a truck can do"
-    if lone(channel, values):
+    if lone(channel, values).any():
+        if channel.group != "input":
+            return
         raise InputError(f"{problem}, unlike the other values", file=file, where=where,
                          expected="nothing in a cell where nothing was measured")  # fmt: skip
     like = reads_like(numbers, unit.quantity, channel.name, unit)

@@ -19,6 +19,7 @@ from truck_blowout_sim.recordings.channels import Channel
 from truck_blowout_sim.recordings.units import GRAVITY_MPS2, Unit, find_unit, units_of
 
 FloatArray = NDArray[np.float64]
+BoolArray = NDArray[np.bool_]
 
 _MOST = {
     "steering_wheel_angle_rad": 25.0,
@@ -61,13 +62,12 @@ def beyond(channel: Channel, values: FloatArray) -> int | None:
     return int(wrong[0]) if wrong.size else None
 
 
-def lone(channel: Channel, values: FloatArray) -> bool:
-    """Whether the few values that no truck has stand alone among others: not a matter of units."""
+def lone(channel: Channel, values: FloatArray) -> BoolArray:
+    """The few values that no truck has among many others: not a matter of units."""
     most = most_of(channel.name)
-    if most is None:
-        return False
-    wrong = int(np.count_nonzero(np.abs(values) > most))
-    return 0 < wrong <= _FEW and wrong < _FEW_SHARE * values.size
+    wrong = np.abs(values) > (np.inf if most is None else most)
+    few = np.count_nonzero(wrong) <= min(_FEW, _FEW_SHARE * values.size)
+    return wrong if few else np.zeros(values.size, dtype=bool)
 
 
 def hydraulic(channel: Channel, values: FloatArray) -> str:
