@@ -17,6 +17,7 @@ from truck_blowout_sim.diagnosis.fit.shown import SCATTERS
 from truck_blowout_sim.diagnosis.fit.support import Beside
 from truck_blowout_sim.diagnosis.name import events
 from truck_blowout_sim.diagnosis.result.parts import Place
+from truck_blowout_sim.vehicle import load_vehicle
 
 CHANCE = Chance(Scatter(np.eye(SCATTERS.size)[0]), 20.0, 0.009)  # 12.4 of many, 6.8 alone
 
@@ -26,6 +27,32 @@ def moved(amount: float, delta: float, support: float) -> Ranked:
     place = Place(body="trailer")
     return Ranked(Hypothesis(effect, place, amount, {"run": (1.0, 2.0)}), delta, 0.01,
                   refitted=True, support=support)
+
+
+def scanned(name: str, delta: float, support: float) -> Ranked:
+    effect = next(e for e in LIBRARY if e.name == name and e.timed)
+    place = next(p for p in effect.places(load_vehicle("international_9400i_trailmobile"))
+                 if p.body != "trailer" or name != "crosswind")
+    return Ranked(Hypothesis(effect, place, effect.amount.step, {"run 1": (1.0, 2.0)}), delta, 0.1,
+                  support=support, evidence=delta)
+
+
+def test_the_event_that_explains_most_is_fitted_though_others_scatter_less(
+    study_of: Callable[..., Study], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    study = study_of()
+    found = [scanned("crosswind", 300.0, 20.0), scanned("payload_shift", 200.0, 50.0),
+             scanned("secondary_blowout", 5000.0, 0.0), scanned("road_bank", 250.0, 0.0)]
+    monkeypatch.setattr(events, "_scanned", lambda *_: found)
+    monkeypatch.setattr(events, "_confirmed", lambda study, found, *_: list(found))
+    monkeypatch.setattr(events, "supported", lambda study, one, *_: one)
+    for fit in ("refine_times", "refit", "fit_event"):
+        monkeypatch.setattr(events, fit, lambda study, one, *_: replace(one, refitted=True))
+    assert study.refits[1] == 2
+    ranked = events.rank_events(study, Beside.of(study, (), study.models), 1e4, CHANCE, (), (),
+                                None)
+    assert {one.hypothesis.effect.name for one in ranked if one.refitted} == {
+        "crosswind", "payload_shift", "secondary_blowout"}
 
 
 @pytest.mark.parametrize(("delta", "again", "left"), [

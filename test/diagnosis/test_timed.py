@@ -15,7 +15,7 @@ from truck_blowout_sim.diagnosis.fit.attribute import Ranked
 from truck_blowout_sim.diagnosis.fit.event_fit import fit_event
 from truck_blowout_sim.diagnosis.fit.instants import delayed
 from truck_blowout_sim.diagnosis.fit.refit import refit
-from truck_blowout_sim.diagnosis.fit.timed import refine_times, scan
+from truck_blowout_sim.diagnosis.fit.timed import refine_times, scan, simulated_start
 from truck_blowout_sim.diagnosis.name.candidates import failed_tires, unwatched_tires
 from truck_blowout_sim.diagnosis.prove.intervals import time_intervals
 from truck_blowout_sim.recordings import Series
@@ -79,6 +79,23 @@ def test_the_block_that_moved_explains_more_than_the_other(study_of: Studies, tr
     front, rear = (scan(study, projector, e, place) for e in (foremost, rearmost))
     assert rear.delta > 1.2 * front.delta
     assert rear.hypothesis.times["run 1"][0] == pytest.approx(2.5, abs=0.3)
+
+
+def test_a_large_loss_of_grip_begins_where_simulations_have_it(study_of: Studies, truck: Packed
+                                                              ) -> None:
+    effect = next(e for e in LIBRARY if e.name == "friction_change")
+    place, = effect.places(truck.vehicle)
+    assert effect.timed is not None
+    study = study_of({**effect.values(truck, place, -0.85),
+                      **effect.timed(truck, place, 2.4, np.inf)})
+    chi2 = study.projector().chi2(study.residual())
+    away = Ranked(Hypothesis(effect, place, -0.2, {"run 1": (0.4, np.inf)}), 0.0, 1.0)
+    begun = simulated_start(study, away, chi2)
+    assert begun.hypothesis.amount == min(effect.amount.grid)
+    assert begun.hypothesis.times["run 1"][0] == pytest.approx(2.4, abs=1.0)
+    found = fit_event(study, refine_times(study, begun, chi2), chi2)
+    assert found.hypothesis.amount == pytest.approx(-0.85, abs=0.03)
+    assert found.delta > 0.9 * chi2
 
 
 def test_numbers_of_an_event_settle_together(study_of: Studies, truck: Packed) -> None:

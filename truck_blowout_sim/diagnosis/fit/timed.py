@@ -1,7 +1,9 @@
 """Effects that begin at an instant: find the instant in each run, then the amount.
 
 Linear first: the response to the effect switched on at each grid time is simulated once; for a
-pulse the responses to short windows add up. Then the instants are refined by simulation.
+pulse the responses to short windows add up. Then the instants are refined by simulation. What is
+far from linear in its amount, as a loss of grip, begins where simulations of several amounts at
+each grid time explain most.
 """
 
 from __future__ import annotations
@@ -134,6 +136,37 @@ def refine_times(study: Study, start: Ranked, chi2_null: float,
                 models[i] = results[k]
     return Ranked(best, fall, start.sigma, refitted=True,
                   evidence=fall + start.evidence - start.delta)
+
+
+def simulated_start(study: Study, start: Ranked, chi2_null: float,
+                    named: Sequence[Hypothesis] = ()) -> Ranked:
+    """Instants and amount to begin with, of an event that is far from linear in its amount.
+
+    For each amount of the effect's grid, the best instant of each run by simulation; the amount is
+    the one that explains most of all runs together.
+    """
+    projector = study.projector([*named, start.hypothesis])
+
+    def fall(models: Mapping[int, Floats]) -> float:
+        return chi2_null - chi2_of(study, projector, models)
+
+    best, most = start, fall(models_at(study, [start.hypothesis], named)[0])
+    for amount in start.hypothesis.effect.amount.grid:
+        times: dict[str, tuple[float, float]] = {}
+        for i in study.train:
+            run, name = study.runs[i], study.runs[i].recording.name
+            spans = [(float(t), np.inf) for t in grid_of(run, start.hypothesis.effect)]
+            truck = with_effects(study.packed, named, name)
+            results = study.simulate([study.job(run, truck, replace(
+                start.hypothesis.at(amount), times={name: span})) for span in spans])
+            falls = [fall({i: model}) for model in results]
+            if max(falls) > 0.0:
+                times[name] = spans[int(np.argmax(falls))]
+        tried = replace(start.hypothesis.at(amount), times=times)
+        explained = fall(models_at(study, [tried], named)[0]) if times else 0.0
+        if explained > most:
+            best, most = replace(start, hypothesis=tried), explained
+    return best
 
 
 def _moved(hypothesis: Hypothesis, run: str, width: float) -> list[Hypothesis]:

@@ -17,13 +17,14 @@ from truck_blowout_sim.diagnosis.fit.models import models_at
 from truck_blowout_sim.diagnosis.fit.refit import chi2_of, refit
 from truck_blowout_sim.diagnosis.fit.scatter import Chance
 from truck_blowout_sim.diagnosis.fit.support import Beside, supported
-from truck_blowout_sim.diagnosis.fit.timed import refine_times, scan
+from truck_blowout_sim.diagnosis.fit.timed import refine_times, scan, simulated_start
 from truck_blowout_sim.diagnosis.locate.sinking import sinking_hubs
 from truck_blowout_sim.diagnosis.name.candidates import (
     failed_tires,
     timed_effects,
     unwatched_tires,
 )
+from truck_blowout_sim.diagnosis.name.judging import at_bound
 from truck_blowout_sim.diagnosis.result.parts import Place
 
 _TIMED_COST = 8.0  # evidence that choosing an instant in a run costs
@@ -82,13 +83,18 @@ def rank_events(study: Study, beside: Beside, chi2: float, chance: Chance,
         cost = _TIMED_COST * len(one.hypothesis.times) + _TIMED_SHARE * one.delta
         # what acts only near a limit shows little to a linear scan: looked at where much is open
         curved = bool(one.hypothesis.effect.amount.grid) and large and (
-            max((r.delta for r in found), default=0.0) < _MUCH * excess)
-        among = one.hypothesis.key in keys or len(keys) < study.refits[1]
-        worth = max(worth, _HALF * max((r.delta for r in found), default=0.0))
+            max((r.delta for r in found if not at_bound(r.hypothesis)), default=0.0)
+            < _MUCH * excess)
+        most = max((r.delta for r in found), default=0.0)
+        among = (one.hypothesis.key in keys or len(keys) < study.refits[1]
+                 or one.delta - cost > most)
+        worth = max(worth, _HALF * most)
         if one.hypothesis.times and (curved or (among and (
                 one.delta - cost > worth or one.support > chance.asked))):
             keys.add(one.hypothesis.key)
             support = one.support
+            if curved:
+                one = simulated_start(study, one, chi2, named)
             one = refine_times(study, one, chi2, named)
             one = fit_event(study, refit(study, one, chi2, named), chi2, named)
             one = (replace(one, support=support) if one.hypothesis.effect.adds_up
