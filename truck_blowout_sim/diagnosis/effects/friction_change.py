@@ -14,11 +14,13 @@ from truck_blowout_sim.diagnosis.effects.base import (
     whole_truck,
 )
 
+_ICE = -0.95  # wet ice, 0.05, instead of dry asphalt (Wong 2008, ch. 1: 0.07 to 0.1)
+
 EFFECT = Effect(
     name="friction_change",
-    amount=Amount("friction_factor", "1", step=-0.45, low=-0.9, high=0.5, material=0.12,
+    amount=Amount("friction_factor", "1", step=-0.45, low=_ICE, high=0.5, material=0.12,
                   source="dry asphalt from place to place: 6 % (1 sigma)",
-                  report=lambda a: 1.0 + a, grid=(-0.5, -0.7)),
+                  report=lambda a: 1.0 + a, grid=(-0.5, -0.7, -0.85)),
     places=whole_truck,
     values=lambda packed, place, a: {"world.friction_change_scale": 1.0 + a},
     onset_form_s=0.15,

@@ -8,11 +8,13 @@ from truck_blowout_sim.diagnosis.effects.base import (
     steered_axle,
 )
 
+_LOOSE = 19.0  # a twentieth of the stiffness: what is softer is a broken linkage
+
 EFFECT = Effect(
     name="steering_compliance",
-    amount=Amount("compliance_factor", "1", step=0.15, low=-1.0, high=8.0, material=0.4,
+    amount=Amount("compliance_factor", "1", step=0.15, low=-1.0, high=_LOOSE, material=0.4,
                   source="column, gear and drag link in series, seldom measured: 20 % (1 sigma)",
-                  report=lambda a: 1.0 + a, grid=(0.5, 1.5, 3.0)),
+                  report=lambda a: 1.0 + a, grid=(0.5, 1.5, 3.0, 9.0)),
     places=steered_axle,
     values=lambda packed, place, a: {
         "steering.stiffness_gain": packed["steering.stiffness_gain"] / max(1.0 + a, 0.02),

@@ -9,9 +9,11 @@ from truck_blowout_sim.diagnosis.effects.base import (
     steered_axle,
 )
 
+_QUARTER_TURN = 1.6  # rad; 49 CFR 393.209 allows 0.5 with power steering
+
 EFFECT = Effect(
     name="steering_lash",
-    amount=Amount("extra_lash_rad", "rad", step=0.03, low=0.0, high=0.6, material=0.04,
+    amount=Amount("extra_lash_rad", "rad", step=0.03, low=0.0, high=_QUARTER_TURN, material=0.04,
                   source="wear by 20 % of a play of 6 deg (1 sigma)",
                   grid=(0.1, 0.25)),
     places=steered_axle,

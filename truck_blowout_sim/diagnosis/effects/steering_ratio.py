@@ -12,11 +12,13 @@ from truck_blowout_sim.diagnosis.effects.base import (
 
 _SPLITS = "the path, or the yaw rate over speed, against the hand wheel below 5 m/s"
 
+_HARDLY = 4.0  # the road wheels turn a fifth as far: what turns less is a broken linkage
+
 EFFECT = Effect(
     name="steering_ratio",
-    amount=Amount("ratio_factor", "1", step=0.05, low=-0.5, high=1.0, material=0.06,
+    amount=Amount("ratio_factor", "1", step=0.05, low=-0.5, high=_HARDLY, material=0.06,
                   source="gear and arm lengths by catalogue: 3 % (1 sigma)",
-                  report=lambda a: 1.0 + a, grid=(-0.15, 0.15)),
+                  report=lambda a: 1.0 + a, grid=(-0.15, 0.15, 1.0)),
     places=steered_axle,
     values=lambda packed, place, a: scaled(packed, ("steering.ratio",), a),
     sentence="The hand wheel must turn {value} times as far as the sheet's ratio says for the same "

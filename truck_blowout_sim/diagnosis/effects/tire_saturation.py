@@ -47,11 +47,13 @@ def _less_peak(packed: Packed, place: Place, amount: float) -> Values:
     return scaled(packed, names, amount)
 
 
+_SLIPPERY = -0.95  # as on wet ice, 0.05 instead of 0.9: no rubber holds less
+
 EFFECT = Effect(
     name="tire_saturation",
-    amount=Amount("peak_factor", "1", step=-0.1, low=-0.8, high=0.0, material=0.08,
+    amount=Amount("peak_factor", "1", step=-0.1, low=_SLIPPERY, high=0.0, material=0.08,
                   source="peak friction of tires of one type: 4 % (1 sigma)",
-                  report=lambda a: 1.0 + a, grid=(-0.2, -0.4)),
+                  report=lambda a: 1.0 + a, grid=(-0.2, -0.4, -0.7)),
     places=_formula_axles,
     values=_less_peak,
     sentence="The tires of {axles} give out earlier: their lateral force levels off at "

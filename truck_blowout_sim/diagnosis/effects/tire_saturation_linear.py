@@ -21,9 +21,11 @@ def is_linear(vehicle: Vehicle, axle: str) -> bool:
                for tire in vehicle.tires_of_hub(hub))
 
 
+_SLIPPERY = 20.0  # a peak of 0.05, as on wet ice
+
 EFFECT = Effect(
     name="tire_saturation",
-    amount=Amount("inverse_peak_friction", "1", step=0.2, low=0.0, high=4.0, material=0.1,
+    amount=Amount("inverse_peak_friction", "1", step=0.2, low=0.0, high=_SLIPPERY, material=0.1,
                   source="peak friction between 0.8 and 1.1: 5 % of its inverse (1 sigma)",
                   grid=(0.5, 0.8, 1.1)),
     places=linear_axles,
