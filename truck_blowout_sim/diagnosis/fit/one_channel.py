@@ -17,6 +17,7 @@ from truck_blowout_sim.diagnosis.case.driven import driven
 from truck_blowout_sim.diagnosis.case.runs import Run
 from truck_blowout_sim.diagnosis.case.study import Study, row_ranges
 from truck_blowout_sim.diagnosis.fit.linear import Projector, Score, score
+from truck_blowout_sim.diagnosis.fit.run_weights import run_weights
 from truck_blowout_sim.diagnosis.fit.scatter import Scatter
 from truck_blowout_sim.diagnosis.fit.shown import Shown, parts_of
 
@@ -36,25 +37,29 @@ class ChannelChange:
     support: float
 
 
-def ask_channel(study: Study, projector: Projector, removed: Floats, scatter: Scatter,
+def ask_channel(study: Study, projector: Projector, residual: Floats, scatter: Scatter,
                 channel: str, change: Callable[[Run, Floats], Floats], stray: float
                 ) -> ChannelChange | None:
     """What a change of one channel buys in training; None where no training run shows it.
 
+    A run that nothing explains weighs less: what is left of it is no change of one channel.
+
     Args:
-        removed: what is left, as :meth:`Projector.remove` gives it.
+        residual: [rows], with everything named in force.
         change: by run and its bin means of the channel, what these would change by for each unit
             of the amount.
         stray: 1 sigma by which single vehicles have some of it.
     """
-    columns, manners = {i: _column(run, channel, change) for i, run in enumerate(study.runs)
-                        }, tuple(driven(study))
+    size = np.sqrt(run_weights(study, projector, residual))
+    projector, rows = projector.weighed(size), row_ranges(study)
+    columns = [_column(run, channel, change) * size[rows[i]] for i, run in enumerate(study.runs)]
+    removed = projector.remove(residual * size)
     column = study.stack({i: columns[i] for i in study.train})
     clean = projector.remove(column)
     found = score(projector, removed, column, clean=clean)
-    rows = row_ranges(study)
-    parts = [part for i, run in enumerate(study.runs) for part in parts_of(
-        run, rows[i].start, columns[i], i in study.train, study.settings.episode_s, manners[i])]
+    parts = [part for i, (run, manner) in enumerate(zip(study.runs, driven(study), strict=False))
+             for part in parts_of(run, rows[i].start, columns[i], i in study.train,
+                                  study.settings.episode_s, manner)]
     shown = Shown.of(projector, removed, parts, (stray,), left=removed - found.amount * clean)
     return None if shown is None else ChannelChange(found, scatter.support(shown))
 

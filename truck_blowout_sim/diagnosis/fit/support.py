@@ -90,10 +90,9 @@ class _Asked:
         size = np.sqrt(run_weights(study, self.projector, self.residual - away * self.column))
         if not (size < 1.0).any():
             return self
-        columns = self.projector.columns * size[:, None]
-        return _Asked(Projector.of(columns, self.projector.kept.tolist()), self.residual * size,
-                      self.column * size, tuple(replace(part, column=part.column * size[part.rows])
-                                                for part in self.parts))
+        return _Asked(self.projector.weighed(size), self.residual * size, self.column * size,
+                      tuple(replace(part, column=part.column * size[part.rows])
+                            for part in self.parts))
 
     def left(self, away: float) -> Floats:
         """What remains of the rows with the hypothesis ``away`` from neutral."""

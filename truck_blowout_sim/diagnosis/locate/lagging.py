@@ -83,9 +83,9 @@ def lagging_wheel(study: Study, named: Sequence[Hypothesis], scatter: Scatter) -
     taken = {h.place.hub for h in named} | {
         vehicle.hub_of_tire(tire) for i in study.train
         for event in study.runs[i].recording.blowouts for tire in event.tires}
-    removed = projector.remove(study.residual())
+    residual = study.residual()
     asked = {hub: one for hub in vehicle.hubs if hub not in taken and (one := ask_channel(
-        study, projector, removed, scatter, f"hub_speed_{hub}_radps",
+        study, projector, residual, scatter, f"hub_speed_{hub}_radps",
         lambda run, mean: mean * _free(run), _RADIUS))}
     least = asked_of(_DOUBT, len(asked))
     behind = [Lag(hub, -one.score.amount, one.score.sigma, one.support)

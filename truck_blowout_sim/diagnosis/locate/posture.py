@@ -86,13 +86,12 @@ def postures(study: Study, named: Sequence[Hypothesis], scatter: Scatter) -> lis
     """
     if not study.baseline or _lost_a_tire(study, named):
         return []
-    projector, found = study.projector(named), []
-    removed = projector.remove(study.residual())
+    projector, residual, found = study.projector(named), study.residual(), []
     for body in study.packed.vehicle.units:
         for angle in _ANGLES:
             channel = f"{body}_{angle}_rad"
             rule = study.settings.rule(channel)
-            one = rule and ask_channel(study, projector, removed, scatter, channel,
+            one = rule and ask_channel(study, projector, residual, scatter, channel,
                                        lambda _, mean: np.ones_like(mean), rule.bias)
             if one:
                 found.append(Posture(body, angle, one.score.amount, one.score.sigma,
