@@ -346,6 +346,14 @@ def test_a_burst_tire_is_no_odd_size() -> None:
     assert not odd_sizes(Recording("drive", {"tire_pressure_steer_left_pa": gauge}))
 
 
+def test_noise_of_a_gauge_is_no_pressure_in_another_unit() -> None:
+    noise = np.abs(np.random.default_rng(1).normal(0.0, 200.0, 300))
+    gauge = Series(0.01 * np.arange(300), noise)
+    assert not odd_sizes(Recording("drive", {"brake_pressure_steer_pa": gauge}))
+    applied = Series(gauge.time_s, 500.0 * np.sin(gauge.time_s) ** 2)
+    assert odd_sizes(Recording("drive", {"brake_pressure_steer_pa": applied}))
+
+
 @pytest.mark.parametrize(("name", "value", "words"), [
     ("tire_pressure_steer_left_pa", 110.0, "is 110 Pa: reads like psi taken for Pa"),
     ("tire_pressure_steer_left_pa", 7.58e3, "reads like bar taken for kPa"),

@@ -49,13 +49,18 @@ def _low_pressures(recording: Recording) -> Iterator[str]:
             size, least, usual = float(series.value.max()), _LEAST_TIRE_PA, _TIRE_PA
         elif name.startswith(("brake_pressure_", "brake_chamber_")):
             size, least, usual = float(series.value.max()), _LEAST_BRAKE_PA, _BRAKE_PA
-            if series.value.min() < -_NOISE * size:
+            if series.value.min() < -_NOISE * size or _trembles(series.value):
                 continue  # a gauge about zero
         else:
             continue
         words = _taken(size, usual)
         if _ZERO_PA < size < least and words:
             yield f"{name} is {size:.3g} Pa: reads like {words}"
+
+
+def _trembles(values: FloatArray) -> bool:
+    """Whether each sample is unlike the one before: noise, and no pressure that is applied."""
+    return bool(np.std(np.diff(values)) > np.std(values))
 
 
 def _taken(size_pa: float, usual: tuple[float, float]) -> str:
