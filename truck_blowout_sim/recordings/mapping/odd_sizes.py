@@ -6,7 +6,7 @@
 References: truck tires hold 0.5 to 1 MPa, those of cars from 0.15 MPa; wheels of road vehicles roll
 on 0.25 to 0.65 m; no tire holds a road vehicle in 1.5 g.
 Known limits: notes only. A wheel of 0.28 m in rad/s looks like one in km/h.
-Validated with: test/recordings/test_mapping.py.
+Validated with: test/recordings/test_odd_sizes.py.
 """
 
 from __future__ import annotations
