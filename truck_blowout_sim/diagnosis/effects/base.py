@@ -37,7 +37,6 @@ class Amount:
         grid: where a nonlinear search may start.
         at_low: what to say at the lower bound, where nature reaches it; ``{percent}`` is the end
             of the 90 % interval. Empty where the bound is only the end of the search.
-        usual: of an event, 1 sigma of what it may be; 0 for a quarter of the upper bound.
     """
 
     name: str
@@ -50,7 +49,6 @@ class Amount:
     report: Callable[[float], float] = lambda amount: amount
     grid: tuple[float, ...] = ()
     at_low: str = ""
-    usual: float = 0.0
 
 
 @dataclass(frozen=True)

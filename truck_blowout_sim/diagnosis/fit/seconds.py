@@ -56,8 +56,7 @@ def windows_of(study: Study, projector: Projector, effect: Effect, place: Place,
     return Windows(
         block_diag(*own) - shared.T @ projector.solve(shared), np.concatenate(gradient),
         np.array(run), np.array(time_s), np.isin(run, study.train), effect.timing,
-        (amount.low, amount.high), effect.strays(study.packed)[0],
-        amount.usual or _WIDE * amount.high)
+        (amount.low, amount.high), effect.strays(study.packed)[0], _WIDE * amount.high)
 
 
 def _quiet(study: Study, effect: Effect, place: Place
