@@ -30,12 +30,9 @@ def _wind(packed: Packed, place: Place, amount: float, ahead: float) -> Values:
             f"unit.{unit}.gust_ahead_m": ahead * length_m(packed, unit) if amount else 0.0}
 
 
-_STRONGEST = 60.0  # m/s; the strongest microburst on record had 67 m/s (Fujita 1985)
-
 EFFECT = Effect(
     name="crosswind",
-    amount=Amount("wind_speed_mps", "m/s", step=3.0, low=-_STRONGEST, high=_STRONGEST,
-                  material=4.5,
+    amount=Amount("wind_speed_mps", "m/s", step=3.0, low=-40.0, high=40.0, material=4.5,
                   source="turbulence of a fifth of a fresh breeze, 11 m/s: 2.2 m/s (1 sigma)"),
     places=each_unit,
     values=lambda packed, place, a: _wind(packed, place, a, 0.0),
