@@ -25,7 +25,7 @@ from numpy.typing import NDArray
 from truck_blowout_sim.errors import InputError, quoted
 from truck_blowout_sim.recordings.atomic import replacing
 from truck_blowout_sim.recordings.channels import by_name, channels_for
-from truck_blowout_sim.recordings.checks import check_times, check_values
+from truck_blowout_sim.recordings.checks import check_times, check_values, without_glitches
 from truck_blowout_sim.recordings.mat_file import Variable, read_variables
 from truck_blowout_sim.recordings.recording import Blowout, Recording, Series
 from truck_blowout_sim.recordings.units import FOOT_M, MILE_PER_HOUR_MPS
@@ -88,8 +88,9 @@ def read_thesis_mat(
             continue
         values = _vector(path, held, name) * variable.factor * _sign(variable, suffix)
         _check_length(path, name, values, time_s)
-        check_values(table[variable.channel], values, file=path, where=partial(_where, name))
-        channels[variable.channel] = Series(time_s, values)
+        channel = table[variable.channel]
+        check_values(channel, values, file=path, where=partial(_where, name))
+        channels[channel.name] = Series(*without_glitches(channel, time_s, values, notes))
     if not channels:
         wanted = ", ".join(v.stem + suffix for v in _VARIABLES)
         raise InputError(

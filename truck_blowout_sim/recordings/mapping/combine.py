@@ -155,8 +155,11 @@ def _mapped(
     if not there.any():
         raise InputError("holds no number", file=opened.path, where=where, expected="samples")
     numbers, values, times = column.values[there], values[there], times[there]
+    if channel.group != "input":
+        odd = lone(channel, values)
+        times, values = leave_out(odd, channel, times, values, made.notes)
+        numbers = numbers[~odd]
     _check_size(opened.path, where, channel, (numbers, unit), values, times)
-    times, values = leave_out(lone(channel, values), channel, times, values, made.notes)
     if note := hydraulic(channel, values):
         made.notes.append(note)
     times, values = _in_order(opened.path, where, times, values, made)
@@ -223,8 +226,6 @@ def _check_size(
     numbers, unit = taken
     problem = f"{numbers[at]:g} {unit.name} at {times[at]:g} s is beyond what a truck can do"
     if lone(channel, values).any():
-        if channel.group != "input":
-            return
         raise InputError(f"{problem}, unlike the other values", file=file, where=where,
                          expected="nothing in a cell where nothing was measured")  # fmt: skip
     like = reads_like(numbers, unit.quantity, channel.name, unit)

@@ -66,7 +66,8 @@ def lone(channel: Channel, values: FloatArray) -> BoolArray:
     """The few values that no truck has among many others: not a matter of units."""
     most = most_of(channel.name)
     wrong = np.abs(values) > (np.inf if most is None else most)
-    few = np.count_nonzero(wrong) <= min(_FEW, _FEW_SHARE * values.size)
+    count = np.count_nonzero(wrong)
+    few = count <= _FEW and count < _FEW_SHARE * values.size
     return wrong if few else np.zeros(values.size, dtype=bool)
 
 
