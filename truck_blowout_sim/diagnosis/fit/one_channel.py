@@ -6,7 +6,7 @@ Validated with: test/diagnosis/test_posture.py, test/diagnosis/test_lagging.py.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -16,6 +16,7 @@ from scipy.stats import chi2
 from truck_blowout_sim.diagnosis.case.driven import driven
 from truck_blowout_sim.diagnosis.case.runs import Run
 from truck_blowout_sim.diagnosis.case.study import Study, row_ranges
+from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.fit.linear import Projector, Score, score
 from truck_blowout_sim.diagnosis.fit.run_weights import run_weights
 from truck_blowout_sim.diagnosis.fit.scatter import Scatter
@@ -37,23 +38,41 @@ class ChannelChange:
     support: float
 
 
-def ask_channel(study: Study, projector: Projector, residual: Floats, scatter: Scatter,
-                channel: str, change: Callable[[Run, Floats], Floats], stray: float
-                ) -> ChannelChange | None:
+@dataclass(frozen=True, eq=False)
+class Weighed:
+    """What is left of the runs; one that nothing explains weighs less, as it shows no one channel.
+
+    Attributes:
+        size: [rows] square root of each row's weight; ``projector`` of the nuisances and
+            ``removed``, what it leaves of the residual, over rows so multiplied.
+    """
+
+    size: Floats
+    projector: Projector
+    removed: Floats
+
+    @staticmethod
+    def of(study: Study, named: Sequence[Hypothesis]) -> Weighed:
+        """Study's models have ``named`` in force."""
+        plain, residual = study.projector(named), study.residual()
+        size = np.sqrt(run_weights(study, plain, residual))
+        projector = plain.weighed(size)
+        return Weighed(size, projector, projector.remove(residual * size))
+
+
+def ask_channel(study: Study, left: Weighed, scatter: Scatter, channel: str,
+                change: Callable[[Run, Floats], Floats], stray: float) -> ChannelChange | None:
     """What a change of one channel buys in training; None where no training run shows it.
 
-    A run that nothing explains weighs less: what is left of it is no change of one channel.
-
     Args:
-        residual: [rows], with everything named in force.
+        left: of the runs, with everything named in force.
         change: by run and its bin means of the channel, what these would change by for each unit
             of the amount.
         stray: 1 sigma by which single vehicles have some of it.
     """
-    size = np.sqrt(run_weights(study, projector, residual))
-    projector, rows = projector.weighed(size), row_ranges(study)
-    columns = [_column(run, channel, change) * size[rows[i]] for i, run in enumerate(study.runs)]
-    removed = projector.remove(residual * size)
+    projector, removed, rows = left.projector, left.removed, row_ranges(study)
+    columns = [_column(run, channel, change) * left.size[rows[i]]
+               for i, run in enumerate(study.runs)]
     column = study.stack({i: columns[i] for i in study.train})
     clean = projector.remove(column)
     found = score(projector, removed, column, clean=clean)

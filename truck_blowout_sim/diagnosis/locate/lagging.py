@@ -25,7 +25,12 @@ from truck_blowout_sim.diagnosis.case.runs import Run
 from truck_blowout_sim.diagnosis.case.study import Study
 from truck_blowout_sim.diagnosis.case.trust import BRAKES_ON_PA
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
-from truck_blowout_sim.diagnosis.fit.one_channel import ChannelChange, ask_channel, asked_of
+from truck_blowout_sim.diagnosis.fit.one_channel import (
+    ChannelChange,
+    Weighed,
+    ask_channel,
+    asked_of,
+)
 from truck_blowout_sim.diagnosis.fit.quantiles import NINETY
 from truck_blowout_sim.diagnosis.fit.scatter import Scatter
 from truck_blowout_sim.vehicle import Vehicle
@@ -79,13 +84,12 @@ def lagging_wheel(study: Study, named: Sequence[Hypothesis], scatter: Scatter) -
     """
     if not any(h.effect.drags for h in named):
         return None
-    vehicle, projector = study.packed.vehicle, study.projector(named)
+    vehicle, left = study.packed.vehicle, Weighed.of(study, named)
     taken = {h.place.hub for h in named} | {
         vehicle.hub_of_tire(tire) for i in study.train
         for event in study.runs[i].recording.blowouts for tire in event.tires}
-    residual = study.residual()
     asked = {hub: one for hub in vehicle.hubs if hub not in taken and (one := ask_channel(
-        study, projector, residual, scatter, f"hub_speed_{hub}_radps",
+        study, left, scatter, f"hub_speed_{hub}_radps",
         lambda run, mean: mean * _free(run), _RADIUS))}
     least = asked_of(_DOUBT, len(asked))
     behind = [Lag(hub, -one.score.amount, one.score.sigma, one.support)

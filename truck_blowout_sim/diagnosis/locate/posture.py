@@ -23,7 +23,7 @@ import numpy as np
 from truck_blowout_sim.diagnosis.case.study import Study
 from truck_blowout_sim.diagnosis.effects import secondary_blowout
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
-from truck_blowout_sim.diagnosis.fit.one_channel import ask_channel, asked_of
+from truck_blowout_sim.diagnosis.fit.one_channel import Weighed, ask_channel, asked_of
 from truck_blowout_sim.diagnosis.fit.quantiles import NINETY
 from truck_blowout_sim.diagnosis.fit.scatter import Scatter
 
@@ -86,12 +86,12 @@ def postures(study: Study, named: Sequence[Hypothesis], scatter: Scatter) -> lis
     """
     if not study.baseline or _lost_a_tire(study, named):
         return []
-    projector, residual, found = study.projector(named), study.residual(), []
+    left, found = Weighed.of(study, named), []
     for body in study.packed.vehicle.units:
         for angle in _ANGLES:
             channel = f"{body}_{angle}_rad"
             rule = study.settings.rule(channel)
-            one = rule and ask_channel(study, projector, residual, scatter, channel,
+            one = rule and ask_channel(study, left, scatter, channel,
                                        lambda _, mean: np.ones_like(mean), rule.bias)
             if one:
                 found.append(Posture(body, angle, one.score.amount, one.score.sigma,
