@@ -54,6 +54,7 @@ def physics_effect(ranked: Ranked, study: Study, timings: Mapping[str, Timing] |
             parameters[f"duration_s in {run}"] = Parameter(end - start, "s", known or _OPEN)
     sentence, equation = words.fill(h, value, onset)
     sentence = limit_sentence(h, ends) or sentence + words.open_ends(ends)
+    sentence += words.unseen_before(onset, interval)
     return Effect(name=h.effect.name, kind=h.effect.kind, where=h.place, parameters=parameters,
                   equation=equation, sentence=sentence, onset_s=onset, onset_ci90_s=interval)
 

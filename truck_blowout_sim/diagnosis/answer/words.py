@@ -17,6 +17,7 @@ from truck_blowout_sim.diagnosis.result import Effect, Verdict
 from truck_blowout_sim.diagnosis.result.parts import Interval
 from truck_blowout_sim.diagnosis.sensors import GateResult
 
+_LONG_S = 0.5  # by so much more may an event have been there before it was found than after
 _SPLITTERS = (
     ("hub_speed_", "wheel speeds", "which wheel drags, brakes or slips"),
     ("tire_pressure_", "tire pressures", "a failing tire from a moving load or a dragging brake"),
@@ -59,6 +60,16 @@ def open_ends(ends: Interval) -> str:
     """What to say where the recordings set no bound on one side, or on neither."""
     open_ = [word for word, end in zip(("lower", "upper"), ends, strict=True) if not isfinite(end)]
     return f" These recordings set no {' and no '.join(open_)} bound." if open_ else ""
+
+
+def unseen_before(onset_s: float | None, known: Interval | None) -> str:
+    """What to say of an event that may have been there long before it showed."""
+    if onset_s is None or known is None:
+        return ""
+    before, after = onset_s - known[0], known[1] - onset_s
+    if not isfinite(before) or before < after + _LONG_S:
+        return ""
+    return f" It may have begun as early as {known[0]:.2f} s, because it need not show at once."
 
 
 def verdict_sentence(verdict: Verdict, effects: Sequence[Effect],

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
 Floats = NDArray[np.float64]
 BRAKES_ON_PA = 20_000.0
-_LASTS_S = 0.5
+LASTS_S = 0.5
 
 
 def wider(recording: Recording, drive: Drive, packed: Packed, edges_s: Floats,
@@ -88,8 +88,12 @@ def grip_used(study: Study) -> float:
                  for values in (run.measured, study.models[i])]
         lateral = np.abs(rates) * np.interp(middles, speed.time_s, speed.value)
         lasting = uniform_filter1d(np.nan_to_num(lateral), max(round(
-            _LASTS_S / study.settings.bin_s), 1), axis=1)
+            LASTS_S / study.settings.bin_s), 1), axis=1)
         hardest = max(hardest, float(lasting.max(initial=0.0)))
-    peaks = [study.packed[f"tire.{tire}.peak_y"] for tire in study.packed.vehicle.tires]
-    grip = float(np.mean(peaks)) * study.packed["world.friction_scale"]
-    return min(hardest / max(grip * study.packed["world.gravity_mps2"], 1e-9), 1.0)
+    return min(hardest / max(grip_mps2(study.packed), 1e-9), 1.0)
+
+
+def grip_mps2(packed: Packed) -> float:
+    """Acceleration at which the tires let go, by their sheet."""
+    peaks = [packed[f"tire.{tire}.peak_y"] for tire in packed.vehicle.tires]
+    return float(np.mean(peaks)) * packed["world.friction_scale"] * packed["world.gravity_mps2"]

@@ -71,6 +71,8 @@ class Effect:
         splits: what observation tells it from look-alikes.
         kind: of what it is.
         onset_form_s: 1 sigma by which a real onset may differ for beginning in another way.
+        hides: what may have begun before it shows: a leak that no gauge reads, a loss of grip; see
+            ``diagnosis/prove/hidden.py``.
         met: met on the way (wind, slope, grip, an event) and not a property of the truck, so that
             runs of the same truck elsewhere say nothing about it.
         variant: another form of an effect of the same name. One with an onset is tried where the
@@ -104,6 +106,7 @@ class Effect:
     far_from_limit: float = 0.0
     near_limit: float = 0.0
     onset_form_s: float = 0.0
+    hides: Literal["nothing", "leak", "grip"] = "nothing"
     met: bool = False
     variant: bool = False
     drags: bool = False

@@ -24,6 +24,7 @@ EFFECT = Effect(
     places=whole_truck,
     values=lambda packed, place, a: {"world.friction_change_scale": 1.0 + a},
     onset_form_s=0.15,
+    hides="grip",
     met=True,
     timing="step",
     timed=lambda packed, place, start, end: {"world.friction_change_time_s": start},

@@ -3,7 +3,8 @@
 The instants are first searched one by one; then all numbers of the event move at once along the
 least-squares step, nuisances projected out, because a later start and a stronger amount look alike.
 
-References: Gauss-Newton with halved steps (Nocedal and Wright 2006, section 10.3).
+References: Levenberg-Marquardt (Nocedal and Wright 2006, section 10.3): on the curved valley of a
+weaker and earlier event, a straight Gauss-Newton step soon leaves it.
 Known limits: one descent, from where the search of the instants ended.
 Validated with: test/diagnosis/test_timed.py (instants between the steps of the search are found).
 """
@@ -26,7 +27,7 @@ Floats = NDArray[np.float64]
 _STEP_S = 0.06  # finite difference of an instant
 _SHORTEST_S = 0.06  # an event lasts at least this long
 _ROUNDS = 8
-_SHARES = (1.0, 0.5, 0.25, 0.1)
+_DAMPING = (0.0, 0.1, 1.0, 10.0, 100.0)  # times the information on each number alone
 _ENOUGH = 0.5  # fall of the sum of squares below which a round is the last
 
 
@@ -69,11 +70,12 @@ def fit_event(study: Study, start: Ranked, chi2_null: float,
     for _ in range(_ROUNDS):
         columns, ranges = event_columns(study, event, named)
         information = event_information(study, event, named, columns, ranges)
-        step = np.linalg.solve(information, columns.T @ projector.remove(study.residual(models)))
+        slope = columns.T @ projector.remove(study.residual(models))
         sigma = float(np.linalg.inv(information)[0, 0] ** 0.5)
-        before = fall
-        for share in _SHARES:
-            trial = _moved(study, event, np.asarray(share * step, dtype=np.float64))
+        before, alone = fall, np.diag(np.diag(information))
+        for damping in _DAMPING:
+            step = np.linalg.solve(information + damping * alone, slope)
+            trial = _moved(study, event, np.asarray(step, dtype=np.float64))
             tried = models_at(study, [trial], named)[0]
             gain = chi2_null - chi2_of(study, projector, tried)
             if gain > fall:

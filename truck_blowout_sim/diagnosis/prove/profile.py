@@ -7,8 +7,8 @@ far the amount then moves shows misfits that last longer than the weights assume
 
 References: A. Raue et al., Bioinformatics 25 (2009) 1923 (profile likelihood); H. R. Kuensch, Ann.
 Statist. 17 (1989) 1217 (jackknife and bootstrap by blocks).
-Known limits: other effects and instants are held; the jackknife is linear in the amount, and a few
-blocks say little.
+Known limits: other effects are held, and instants by the profile; the jackknife is linear, and a
+few blocks say little.
 Validated with: test/diagnosis/test_profile.py (both against the closed form of a Gaussian model).
 """
 
@@ -23,6 +23,7 @@ from numpy.typing import NDArray
 from truck_blowout_sim.diagnosis.case.study import Study, row_ranges
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.fit.attribute import Ranked
+from truck_blowout_sim.diagnosis.fit.event_fit import event_columns
 from truck_blowout_sim.diagnosis.fit.models import models_at
 from truck_blowout_sim.diagnosis.fit.quantiles import NINETY
 from truck_blowout_sim.diagnosis.fit.refit import chi2_of
@@ -100,21 +101,45 @@ def _crossing(rise: Callable[[float], float], value: float, bound: float, sigma:
 
 def block_sigma(study: Study, found: Ranked, others: Sequence[Hypothesis] = (),
                 block_s: float = _BLOCK_S) -> float:
-    """Scatter of the amount when one block of the runs after the other is left out."""
-    h, step = found.hypothesis, found.hypothesis.effect.amount.step
+    """Scatter of the amount when one block of the runs after the other is left out.
+
+    The instants of an event move with it.
+    """
+    h = found.hypothesis
+    columns, ranges = (event_columns(study, h, others) if h.times
+                       else (_amount_column(study, h, others), np.array([np.inf])))
+    return float(np.sqrt(block_covariance(study, h, others, columns, ranges, block_s)[0, 0]))
+
+
+def block_covariance(study: Study, h: Hypothesis, others: Sequence[Hypothesis], columns: Floats,
+                     ranges: Floats, block_s: float = _BLOCK_S) -> Floats:
+    """Scatter of the numbers of a hypothesis as one block of the runs after the other is left out.
+
+    ``columns``, ``ranges``: whitened change of the runs per unit of each number, and how far it
+    may go (:func:`truck_blowout_sim.diagnosis.fit.event_fit.event_columns`).
+    """
+    nuisances = study.columns[:, study.kept([*others, h])]
+    design = np.column_stack([nuisances, columns])
+    residual = study.residual(models_at(study, [h], others)[0])
+    prior = np.concatenate([np.ones(nuisances.shape[1]), np.square(1.0 / ranges)])
+    information, gradient = np.diag(prior) + design.T @ design, design.T @ residual
+    moved = []
+    for rows in _blocks(study, block_s):
+        part, left = design[rows], residual[rows]
+        moved.append(np.linalg.solve(information - part.T @ part, gradient - part.T @ left)
+                     [nuisances.shape[1]:])
+    scatter = np.atleast_2d(np.cov(np.stack(moved), rowvar=False, bias=True))
+    return np.asarray((len(moved) - 1) * scatter, dtype=np.float64)
+
+
+def _amount_column(study: Study, h: Hypothesis, others: Sequence[Hypothesis]) -> Floats:
+    """[rows, 1] whitened change of the training runs per unit of the amount."""
+    step = h.effect.amount.step
     if not h.effect.amount.low <= h.amount + step <= h.effect.amount.high:
         step = -step
     here, ahead = models_at(study, [h, h.at(h.amount + step)], others)
-    column = study.stack({i: study.runs[i].change(ahead[i], here[i]) for i in study.train}) / step
-    nuisances = study.columns[:, study.kept([*others, h])]
-    design, residual = np.column_stack([nuisances, column]), study.residual(here)
-    prior = np.append(np.ones(nuisances.shape[1]), 0.0)
-    information, gradient = np.diag(prior) + design.T @ design, design.T @ residual
-    amounts = []
-    for rows in _blocks(study, block_s):
-        part, left = design[rows], residual[rows]
-        amounts.append(np.linalg.solve(information - part.T @ part, gradient - part.T @ left)[-1])
-    return float(np.sqrt((len(amounts) - 1) * np.var(amounts)))
+    return study.stack({i: study.runs[i].change(ahead[i], here[i])
+                        for i in study.train})[:, None] / step
 
 
 def _blocks(study: Study, block_s: float) -> list[slice]:
