@@ -13,14 +13,14 @@ RUNS = 5  # the first two are training
 
 
 def windows(amounts: np.ndarray, sigma: float = 0.5, timing: Timing = "pulse", ambient: float = 0.5,
-            low: float = -40.0) -> Windows:
+            low: float = -40.0, unseen: int = 0) -> Windows:
     """Seconds [runs, seconds] that show independent amounts, with the same standard error."""
     runs, seconds = amounts.shape
     information = np.eye(amounts.size) / sigma**2
     run = np.repeat(np.arange(runs), seconds)
     return Windows(information, information @ amounts.ravel(), run,
-                   np.tile(np.arange(float(seconds)), runs), run < 2, timing, (low, 40.0), ambient,
-                   10.0)
+                   np.tile(np.arange(float(seconds)), runs), run < 2, run >= runs - unseen,
+                   timing, (low, 40.0), ambient, 10.0)
 
 
 def noise(rng: np.random.Generator, size: float, length_s: float = 0.0) -> np.ndarray:
@@ -93,5 +93,43 @@ def test_where_nothing_shows_the_force_nothing_is_said() -> None:
     blind = windows(np.zeros((RUNS, SECONDS)), sigma=1e9)
     assert blind.support() < 1.0
     empty = Windows(np.zeros((2, 2)), np.zeros(2), np.array([0, 1]), np.zeros(2),
-                    np.array([True, False]), True, (-1.0, 1.0), 0.1, 0.5)
+                    np.array([True, False]), np.array([False, False]), "step", (-1.0, 1.0), 0.1,
+                    0.5)
     assert empty.support() == 0.0
+
+
+def test_the_clearest_event_is_supported_most() -> None:
+    """With it, the force is calm; without it, only a wild one explains the runs."""
+    rng = np.random.default_rng(12)
+    calm = noise(rng, 1.0)
+    found = [windows(gust(calm, strength)).support() for strength in (3.0, 4.0, 6.0, 9.0)]
+    assert (np.diff(found) > 5.0).all()
+
+
+def test_an_unseen_run_with_the_event_supports_it_and_one_without_costs_little() -> None:
+    """At most ln 4 a run; the amount must be that of training."""
+    changes = []
+    for seed in range(8):
+        faint = gust(noise(np.random.default_rng(seed), 1.0), 4.0)
+        with_it, other = faint.copy(), faint.copy()
+        for run, first in ((3, 5), (4, 9)):
+            with_it[run, first:first + 3] += 4.0
+            other[run, first:first + 3] -= 4.0
+        trained = windows(faint[:3]).support()
+        changes.append([windows(one, unseen=2).support() - trained
+                        for one in (faint, with_it, other)])
+    without, acting, opposite = np.transpose(changes)
+    assert without.min() > -2.0 * np.log(4.0) - 0.5
+    assert np.mean(acting) > 8.0
+    assert np.mean(opposite) < 0.0
+
+
+@pytest.mark.parametrize(("size", "length_s", "at_most"), [
+    (0.0, 0.0, 0.05), (2.0, 0.0, 0.05), (2.0, 3.0, 0.05), (2.0, 20.0, 0.1)])
+def test_unseen_runs_make_no_event_of_a_restless_force(size: float, length_s: float,
+                                                       at_most: float) -> None:
+    """Of one that wanders for longer than a run lasts a little more often."""
+    rng = np.random.default_rng(11)
+    found = np.array([windows(noise(rng, size, length_s), unseen=2).support() for _ in range(50)])
+    assert np.mean(found > 2.0 * np.log(50.0)) <= at_most
+    assert np.median(found) < 0.0

@@ -25,6 +25,7 @@ from truck_blowout_sim.diagnosis.fit.models import models_at, with_effects
 from truck_blowout_sim.diagnosis.fit.refit import chi2_of
 from truck_blowout_sim.diagnosis.fit.seconds import responses, windows_of
 from truck_blowout_sim.diagnosis.fit.stretches import of_stretches, parts_of, stretches
+from truck_blowout_sim.diagnosis.fit.support import Beside
 from truck_blowout_sim.diagnosis.result.parts import Place
 
 Floats = NDArray[np.float64]
@@ -34,8 +35,11 @@ _DIM = 1e-12  # information on an amount: less shows nothing
 
 
 def scan(study: Study, projector: Projector, effect: Effect, place: Place,
-         named: Sequence[Hypothesis] = ()) -> Ranked:
-    """Best instants on the grid in all training runs, the common amount, and its support."""
+         named: Sequence[Hypothesis] = (), beside: Beside | None = None) -> Ranked:
+    """Best instants on the grid in all training runs, the common amount, and its support.
+
+    ``beside``: what is in force, to ask the unseen runs too whether they show such an event.
+    """
     step = effect.amount.step
     jobs, keys = [], []
     for i in study.train:
@@ -51,7 +55,7 @@ def scan(study: Study, projector: Projector, effect: Effect, place: Place,
     removed = projector.remove(study.residual())
     support = 0.0
     if effect.adds_up:
-        support = windows_of(study, projector, effect, place, removed, results).support()
+        support = windows_of(study, projector, effect, place, results, beside).support()
     best: Ranked | None = None
     for sign in (1.0, -1.0):
         found = _best_of_sign(study, projector, effect, place, results, removed, sign)
@@ -88,7 +92,8 @@ def _responses(study: Study, effect: Effect, i: int, results: Mapping[tuple[int,
     run = study.runs[i]
     models = [results[(i, k)] for k in range(grid_of(run, effect).size)]
     delays = bins_between(effect, run, study.settings.bin_s)
-    times, found = zip(*responses(study, effect, i, models, delays), strict=True)
+    times, found = zip(*responses(study, effect, run, study.models[i], models, delays),
+                        strict=True)
     return np.array(times), list(found)
 
 

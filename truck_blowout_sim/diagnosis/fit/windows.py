@@ -13,7 +13,7 @@ the log of
 
 with the stretches of each run averaged over, so that a free choice costs what it must, and with
 wind, slope and sliding of everyday size on the other side. Size, share and length of the process
-are summed over a grid: the recordings decide.
+are summed over a grid: the recordings decide. An unseen run may have the event, or not: even odds.
 
 References: Kass and Raftery 1995 (Bayes factors); Rasmussen and Williams 2006, ch. 2 and 5 (process
 and its marginal likelihood).
@@ -24,7 +24,7 @@ Validated with: test/diagnosis/test_windows.py (closed forms; false alarms of si
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import product
@@ -41,8 +41,8 @@ Floats = NDArray[np.float64]
 _SIZES: Floats = np.concatenate([[0.0], 2.0 ** np.arange(-4.0, 7.0)])
 _SHARES = (0.5, 0.9)  # rho: from half of it to nearly all
 _LENGTHS_S = (3.0, np.inf)  # l: of a maneuver, or as long as the run
-_UNLIKELY = 20.0  # log-likelihood by which a size is worse than the best: not looked at
 _AMOUNTS: Floats = np.geomspace(0.5, 200.0, 30)  # standard errors of the clearest stretch
+_UNLIKELY = 20.0  # log-likelihood by which what is not looked at is worse than the best
 _DIM = 1e-9
 
 
@@ -54,7 +54,7 @@ class Windows:
         information: [n, n] w_i' C^-1 w_j of the responses to a force over one second; ``gradient``:
             [n] w_i' C^-1 r.
         run: [n] position of the run; ``time_s``: [n] when the second begins.
-        trained: [n] whether the event may act in the run.
+        trained: [n] whether the event acts in the run; ``unseen``: [n] whether it may.
         timing: of the event: a pulse ends again, a step lasts, a ramp grows and lasts.
         bounds: between which the amount lies; ``ambient``: its everyday size, 1 sigma; ``wide``: 1
             sigma of what an event may be.
@@ -65,6 +65,7 @@ class Windows:
     run: NDArray[np.int64]
     time_s: Floats
     trained: NDArray[np.bool_]
+    unseen: NDArray[np.bool_]
     timing: Timing
     bounds: tuple[float, float]
     ambient: float
@@ -95,38 +96,46 @@ class Windows:
         return (np.linalg.cholesky(kind) for kind in kinds)
 
     def _weighed(self, root: Floats) -> Iterator[tuple[float, float, float]]:
-        """Log-likelihoods for each size: nothing, an everyday event, an event of any size."""
+        """Log-likelihoods for each size: nothing, an everyday event, an event of any size.
+
+        Also for sizes that are unlikely without the event: with it, the force may be calm.
+        """
         value, vector = np.linalg.eigh(root.T @ self.information @ root / self.scale)
-        value = np.maximum(value, 0.0)
-        seen = vector.T @ (root.T @ self.gradient) / np.sqrt(self.scale)
+        value, loaded = np.maximum(value, 0.0), root @ vector / np.sqrt(self.scale)
+        seen, reach = loaded.T @ self.gradient, self.information @ loaded
         widened = 1.0 + np.square(_SIZES)[:, None] * value
         idle = 0.5 * (np.square(_SIZES)[:, None] * np.square(seen) / widened
                       - np.log(widened)).sum(axis=1)
-        loaded = root @ vector
+        owners = [np.flatnonzero(self.run == k)
+                  for k in np.unique(self.run[self.trained | self.unseen])]
         for size, wide, rest in zip(_SIZES, widened, idle, strict=True):
-            if rest < idle.max() - _UNLIKELY:
-                continue
-            taken = (loaded * (size**2 / wide)) @ loaded.T / self.scale
-            ambient, event = self._events(
-                self.gradient - self.information @ (taken @ self.gradient),
-                self.information - self.information @ taken @ self.information)
-            yield rest, rest + ambient, rest + event
+            taken = size**2 / wide
+            runs = [(*self._stretches(
+                self.gradient[own] - reach[own] @ (taken * seen),
+                self.information[np.ix_(own, own)] - (reach[own] * taken) @ reach[own].T),
+                bool(self.unseen[own[0]])) for own in owners]
+            if rest + _most(runs) > idle.max() - _UNLIKELY:
+                ambient, event = self._events(runs)
+                yield rest, rest + ambient, rest + event
 
-    def _events(self, slope: Floats, bend: Floats) -> tuple[float, float]:
-        """Log-likelihood gained by an everyday event and by one of any size, stretches averaged."""
-        stretches = [self._stretches(slope[own], bend[np.ix_(own, own)])
-                     for own in (np.flatnonzero(self.run == k)
-                                 for k in np.unique(self.run[self.trained]))]
-        stretches = [one for one in stretches if one[0].size]
-        clearest = max((float(one[1].max()) for one in stretches), default=0.0)
+    def _events(self, runs: Sequence[tuple[Floats, Floats, bool]]) -> tuple[float, float]:
+        """Log-likelihood gained by an everyday event and by one of any size, stretches averaged.
+
+        ``runs``: slope and bend of the stretches of each run, and whether it is an unseen one.
+        """
+        clearest = max((float(b.max(initial=0.0)) for _, b, unseen in runs if not unseen),
+                       default=0.0)
         if clearest <= 0.0:
             return 0.0, 0.0
         amounts = np.concatenate([-_AMOUNTS[::-1], _AMOUNTS]) / np.sqrt(clearest)
         amounts = amounts[(amounts > self.bounds[0]) & (amounts < self.bounds[1])]
         if amounts.size < 2:
             return 0.0, 0.0
-        gained = np.sum([logsumexp(np.outer(amounts, s) - 0.5 * np.outer(amounts**2, b), axis=1)
-                         - np.log(s.size) for s, b in stretches], axis=0)
+        gained = np.zeros(amounts.size)
+        for s, b, unseen in (one for one in runs if one[0].size):
+            with_it = logsumexp(np.outer(amounts, s) - 0.5 * np.outer(amounts**2, b), axis=1)
+            with_it = with_it - np.log(s.size)
+            gained = gained + (np.logaddexp(with_it, 0.0) - np.log(2.0) if unseen else with_it)
         return self._over(amounts, gained, self.ambient), self._over(amounts, gained, self.wide)
 
     def _stretches(self, slope: Floats, bend: Floats) -> tuple[Floats, Floats]:
@@ -141,3 +150,9 @@ class Windows:
         """Log of the mean of a likelihood over amounts of this sigma."""
         density = gained - 0.5 * np.square(amounts / sigma) + np.log(np.abs(np.gradient(amounts)))
         return float(logsumexp(density)) - np.log(sigma * np.sqrt(2.0 * np.pi))
+
+
+def _most(runs: Sequence[tuple[Floats, Floats, bool]]) -> float:
+    """Log-likelihood that an event could gain at most, each run its own best stretch and amount."""
+    return sum(float(np.max(np.square(s) / (2.0 * np.maximum(b, _DIM)), initial=0.0))
+               for s, b, _ in runs)

@@ -74,7 +74,7 @@ def rank_events(study: Study, beside: Beside, chi2: float, chance: Chance,
     excess = chi2 - study.level * study.columns.shape[0]
     found = [supported(study, _failed(study, named, chi2, tire, times), beside, chance)
              for tire, times in failed_tires(study, study.train).items()]
-    scanned = sorted(_scanned(study, named, places, chance.asked, progress),
+    scanned = sorted(_scanned(study, beside, places, chance.asked, progress),
                      key=lambda r: (r.support < chance.asked, -r.delta))
     large = _large([*steady, *scanned], chance)
     worth = max(chance.asked, _HALF * max((r.delta for r in steady if r.refitted), default=0.0))
@@ -120,7 +120,7 @@ def _failed(study: Study, named: Sequence[Hypothesis], chi2: float, tire: str,
     return fit_event(study, found, chi2, named)
 
 
-def _scanned(study: Study, named: Sequence[Hypothesis], places: Sequence[tuple[Effect, Place]],
+def _scanned(study: Study, beside: Beside, places: Sequence[tuple[Effect, Place]],
              asked: float, progress: Progress | None) -> list[Ranked]:
     """Each event at its best instants; another form of it only where the plain one is supported.
 
@@ -129,13 +129,13 @@ def _scanned(study: Study, named: Sequence[Hypothesis], places: Sequence[tuple[E
     Forms of one event, as the places where a wind may take hold, share their support: its mean
     odds. Which of them it is, the sum of squares says.
     """
-    projector = study.projector(named)
+    projector = study.projector(beside.named)
     forms: dict[tuple[str, str], list[Ranked]] = {}
     for k, (effect, place) in enumerate(sorted(places, key=lambda one: one[0].variant)):
         of_event = forms.setdefault((effect.name, str(place)), [])
         plain = of_event[0] if of_event and effect.adds_up else None
         if plain is None or plain.support > 0.0 or plain.delta > _LARGE * asked:
-            of_event.append(scan(study, projector, effect, place, named))
+            of_event.append(scan(study, projector, effect, place, beside.named, beside))
         if progress:
             progress("events", (k + 1) / len(places))
     for key, found in forms.items():

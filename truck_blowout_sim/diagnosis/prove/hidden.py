@@ -5,7 +5,8 @@ pressure from the first moment on, and only when the carcass touches the rim. Th
 two sigmas apart, for one and the same change of the forces.
 
 Less grip shows once the vehicle asks for more than is left. Up to the last moment at which the
-recording asks for more, the grip was still there; from then on it may have been gone.
+recording asks for more than 95 % sure is left, the grip was still there; from then on it may have
+been gone.
 
 References: thesis L659-L733 (forces fall with the pressure); Goodyear's measurements of a truck
 tire at four pressures (cornering stiffness holds down to 40 psi).
@@ -25,6 +26,8 @@ from truck_blowout_sim.diagnosis.case.runs import Run
 from truck_blowout_sim.diagnosis.case.study import Study
 from truck_blowout_sim.diagnosis.case.trust import LASTS_S, grip_mps2
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
+from truck_blowout_sim.diagnosis.fit.attribute import Ranked
+from truck_blowout_sim.diagnosis.fit.quantiles import NINETY
 from truck_blowout_sim.physics.tires.gas import pressure_rate_paps
 from truck_blowout_sim.vehicle import Packed
 
@@ -87,15 +90,17 @@ def asked_for_mps2(study: Study, run: Run) -> Floats:
     return np.hypot(uniform_filter1d(speed * rate, lasts), uniform_filter1d(forward, lasts))
 
 
-def earliest_s(study: Study, run: Run, event: Hypothesis, low_s: float) -> float:
+def earliest_s(study: Study, run: Run, found: Ranked, low_s: float) -> float:
     """Lower end of an onset's interval: as early as an event may have begun without showing.
 
     ``low_s``: the lower end by what shows. What hides and began before the run is in force from
     the run's beginning.
     """
-    begin = run.drive.initial.time_s
+    event, begin = found.hypothesis, run.drive.initial.time_s
     if event.effect.hides == "grip":
-        left = event.effect.amount.report(event.amount) * grip_mps2(study.packed)
+        form = study.settings.form(event.effect.name) * event.amount
+        most = event.amount + NINETY * float(np.hypot(found.sigma, form))
+        left = event.effect.amount.report(most) * grip_mps2(study.packed)
         before = run.edges_s[1:] <= event.times[run.recording.name][0]
         needed = run.edges_s[1:][before & (asked_for_mps2(study, run) > left)]
         low_s = min(float(needed[-1]) if needed.size else begin, low_s)

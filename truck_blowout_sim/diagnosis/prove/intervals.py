@@ -56,19 +56,20 @@ def time_intervals(study: Study, found: Ranked, others: Sequence[Hypothesis] = (
         np.linalg.inv(event_information(study, event, others, matrix, priors)), dtype=np.float64)
     blocks = block_covariance(study, event, others, matrix, priors)
     return {study.runs[i].recording.name: _timing(
-        study, study.runs[i], event, (covariance[np.ix_(at, at)], blocks[np.ix_(at, at)]))
+        study, study.runs[i], found, (covariance[np.ix_(at, at)], blocks[np.ix_(at, at)]))
         for k, i in enumerate(runs) for at in [1 + edges * k + np.arange(edges)]}
 
 
-def _timing(study: Study, run: Run, event: Hypothesis, covariances: Sequence[Floats]) -> Timing:
+def _timing(study: Study, run: Run, found: Ranked, covariances: Sequence[Floats]) -> Timing:
     """Intervals of one run: the wider of what each covariance of its start (and end) says."""
+    event = found.hypothesis
     start, end = event.times[run.recording.name]
     form, ends = event.effect.onset_form_s**2, event.effect.edges > 1
     later, leak = leak_shift_s(run, event, study.packed)
     shape = (_SHAPE * (end - start)) ** 2 if ends and end < run.edges_s[-1] else 0.0
     known = max(float(c[0, 0]) for c in covariances)
     low, high = _interval(start + later, known + form + leak**2 + shape, run)
-    onset = earliest_s(study, run, event, low), high
+    onset = earliest_s(study, run, found, low), high
     if not ends:
         return Timing(onset, None)
     spread = np.array([-1.0, 1.0])
