@@ -33,6 +33,7 @@ class Ranked:
         promise: linear fall with that number held, by which candidates are ranked before a refit.
         support: twice the log of the likelihood ratio, the amount allowed to scatter from run to
             run, less what choosing its instants brings by chance; see `scatter.py`.
+        unseen: share of the support of an event that unseen runs add to what the others say.
     """
 
     hypothesis: Hypothesis
@@ -42,6 +43,7 @@ class Ranked:
     evidence: float = 0.0
     promise: float = 0.0
     support: float = 0.0
+    unseen: float = 0.0
 
 
 @dataclass(frozen=True, eq=False)

@@ -53,16 +53,18 @@ def scan(study: Study, projector: Projector, effect: Effect, place: Place,
             keys.append((i, k))
     results = dict(zip(keys, study.simulate(jobs), strict=True))
     removed = projector.remove(study.residual())
-    support = 0.0
+    support = unseen = 0.0
     if effect.adds_up:
-        support = windows_of(study, projector, effect, place, results, beside).support()
+        windows = windows_of(study, projector, effect, place, results, beside)
+        support = windows.support()
+        unseen = support - windows.without_unseen.support() if windows.unseen.any() else 0.0
     best: Ranked | None = None
     for sign in (1.0, -1.0):
         found = _best_of_sign(study, projector, effect, place, results, removed, sign)
         if best is None or found.delta > best.delta:
             best = found
     assert best is not None
-    return replace(best, support=support)
+    return replace(best, support=support, unseen=unseen)
 
 
 def _best_of_sign(study: Study, projector: Projector, effect: Effect, place: Place,

@@ -25,7 +25,7 @@ Validated with: test/diagnosis/test_windows.py (closed forms; false alarms of si
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import product
 
@@ -77,6 +77,14 @@ class Windows:
         own = np.diag(self.information)
         seen = own[own > _DIM * max(float(own.max(initial=0.0)), 1e-300)]
         return float(np.median(seen)) if seen.size else 0.0
+
+    @property
+    def without_unseen(self) -> Windows:
+        """The same, but for the unseen runs."""
+        kept = np.flatnonzero(~self.unseen)
+        return replace(self, information=self.information[np.ix_(kept, kept)],
+                       gradient=self.gradient[kept], run=self.run[kept], time_s=self.time_s[kept],
+                       trained=self.trained[kept], unseen=self.unseen[kept])
 
     def support(self) -> float:
         """Twice the log of the odds, at even odds before; 0 where no run shows the event."""

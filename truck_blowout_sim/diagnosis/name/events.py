@@ -92,13 +92,13 @@ def rank_events(study: Study, beside: Beside, chi2: float, chance: Chance,
         if one.hypothesis.times and (curved or (among and (
                 one.delta - cost > worth or one.support > chance.asked))):
             keys.add(one.hypothesis.key)
-            support = one.support
+            seen = one
             if curved:
                 one = simulated_start(study, one, chi2, named)
             one = refine_times(study, one, chi2, named)
             one = fit_event(study, refit(study, one, chi2, named), chi2, named)
-            one = (replace(one, support=support) if one.hypothesis.effect.adds_up
-                   else supported(study, one, beside, chance))
+            one = (replace(one, support=seen.support, unseen=seen.unseen)
+                   if one.hypothesis.effect.adds_up else supported(study, one, beside, chance))
             cost = _TIMED_COST * len(one.hypothesis.times) + _TIMED_SHARE * max(one.delta, 0.0)
         found.append(replace(one, delta=one.delta - cost, evidence=one.evidence - cost))
     return _confirmed(study, found, beside, chance)
@@ -149,8 +149,9 @@ def _confirmed(study: Study, found: Sequence[Ranked], beside: Beside, chance: Ch
                ) -> list[Ranked]:
     """Events that stand out of their own force, less what scatters so much for all hypotheses.
 
-    How far runs scatter at all, the other hypotheses know. The event was chosen before, so it is
-    asked as a single question. No odds are better than what is explained, free instants paid.
+    How far runs scatter at all, the other hypotheses know; or else unseen runs show the same event.
+    It was chosen before, so either is asked as a single question. No odds are better than what is
+    explained, free instants paid.
     """
     checked = list(found)
     strong = [k for k, one in enumerate(found) if one.refitted and one.hypothesis.effect.adds_up
@@ -158,8 +159,9 @@ def _confirmed(study: Study, found: Sequence[Ranked], beside: Beside, chance: Ch
     for key in {found[k].hypothesis.key for k in strong}:
         forms = [k for k in strong if found[k].hypothesis.key == key]
         again = _mean_odds([supported(study, found[k], beside, chance).support for k in forms])
+        shown = max(again, _mean_odds([found[k].unseen for k in forms]))
         for k in forms:
-            most = found[k].support if again >= chance.alone.asked else again
+            most = found[k].support if shown >= chance.alone.asked else again
             checked[k] = replace(found[k], support=min(found[k].support, most, found[k].delta))
     return checked
 
