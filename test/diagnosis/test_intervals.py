@@ -90,6 +90,7 @@ def test_the_sum_of_squares_rises_by_what_an_interval_says(
     effect, place = found.hypothesis.effect, found.hypothesis.place
     assert effect.timed is not None
     study = study_of({**effect.values(truck, place, 0.02), **effect.timed(truck, place, 3.17, 9e9)})
+    study = replace(study, settings=replace(study.settings, form_share=0.0, forms={}))
     low, high = timing(study, found).onset_s
     projector, run = study.projector([found.hypothesis]), study.runs[0]
 
@@ -106,3 +107,11 @@ def test_the_sum_of_squares_rises_by_what_an_interval_says(
     away = 0.1
     rise = 0.5 * (least(3.17 - away) + least(3.17 + away)) - least(3.17)
     assert rise == pytest.approx((away / sigma) ** 2, rel=0.15)
+
+
+def test_another_law_of_a_leak_moves_its_onset(study_of: Studies, truck: Packed) -> None:
+    """The amount is 10 % uncertain for its form, and the onset moves with it."""
+    study = study_of()
+    plain = replace(study, settings=replace(study.settings, form_share=0.0, forms={}))
+    found = event(truck, "payload_shift", 0.4, 2.5, 3.1)
+    assert width(timing(study, found).onset_s) > width(timing(plain, found).onset_s)

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from truck_blowout_sim.diagnosis.fit.linear import Projector
-from truck_blowout_sim.diagnosis.fit.run_weights import run_weights
+from truck_blowout_sim.diagnosis.fit.run_weights import run_weights, weighed
 
 BINS, CHANNELS = 200, 3
 ROWS = BINS * CHANNELS
@@ -17,7 +17,7 @@ ROWS = BINS * CHANNELS
 def study(runs: int) -> SimpleNamespace:
     """Runs of as many samples each."""
     run = SimpleNamespace(measured=np.zeros((BINS, CHANNELS)))
-    return SimpleNamespace(runs=(run,) * (runs - 1), holdout=(run,))
+    return SimpleNamespace(runs=(run,) * (runs - 1), holdout=(run,), run_grams={})
 
 
 def rows(k: int) -> slice:
@@ -55,6 +55,9 @@ def test_a_spoiled_run_does_not_set_what_the_others_show(rng: np.random.Generato
     assert weights[rows(3)].max() < 1e-5
     size = np.sqrt(weights)
     there = Projector.of(columns * size[:, None])
+    again = weighed(study(4), projector, weights)
+    assert again.amounts(rest * size) == pytest.approx(there.amounts(rest * size))
+    assert again.remove(rest * size) == pytest.approx(there.remove(rest * size))
     found, sigma = there.amounts(rest * size)[0], there.covariance()[0, 0] ** 0.5
     assert found == pytest.approx(0.3, abs=4.0 * sigma)
     assert sigma < 0.05

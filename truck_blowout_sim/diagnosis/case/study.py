@@ -57,7 +57,9 @@ class Study:
             is an effect, and both can be fitted together.
         quiet: by law of a candidate, what it would change in the baseline runs for each unit of
             its amount.
-        seconds: by event, what it would change over each second of the baseline runs.
+        seconds: by event, what it would change over each second of the baseline and unseen runs.
+        run_grams: products of the nuisance columns over each run, unseen ones last; see
+            ``fit/run_weights.py``.
         simulations: how many were asked for; ``simulated`` gives the bin means of one,
             ``simulated_abreast`` those of up to eight.
     """
@@ -82,6 +84,7 @@ class Study:
     simulations: int = 0
     simulated: Alone = Run.simulated
     simulated_abreast: Abreast = simulated_abreast
+    run_grams: dict[int, Floats] = field(default_factory=dict)
     _projectors: dict[frozenset[str], Projector] = field(default_factory=dict)
     _gram: Floats = field(default_factory=lambda: np.zeros((0, 0)))
     _courses: dict[tuple[Run, bytes], Course] = field(default_factory=dict)
@@ -131,6 +134,7 @@ class Study:
     def forget(self) -> None:
         """Drop what was made of columns that are no longer these."""
         self._projectors.clear()
+        self.run_grams = {}
         self._gram = np.zeros((0, 0))
 
     def simulate(self, jobs: Sequence[Job], what: str = "",

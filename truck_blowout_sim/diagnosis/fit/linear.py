@@ -48,10 +48,6 @@ class Projector:
         return Projector(columns, which, cho_factor(
             np.eye(which.size) + gram[np.ix_(which, which)]))
 
-    def weighed(self, size: Floats) -> Projector:
-        """The same nuisances over rows that are multiplied by ``size`` [n] each."""
-        return Projector.of(self.columns * size[:, None], self.kept.tolist())
-
     def reach(self, matrix: Floats, rows: slice = slice(None)) -> Floats:
         """What a vector or columns over some rows have in common with each nuisance kept."""
         return np.asarray((self.columns[rows].T @ matrix)[self.kept])

@@ -18,7 +18,7 @@ from truck_blowout_sim.diagnosis.case.runs import Run
 from truck_blowout_sim.diagnosis.case.study import Study, row_ranges
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.fit.linear import Projector, Score, score
-from truck_blowout_sim.diagnosis.fit.run_weights import run_weights
+from truck_blowout_sim.diagnosis.fit.run_weights import run_weights, weighed
 from truck_blowout_sim.diagnosis.fit.scatter import Scatter
 from truck_blowout_sim.diagnosis.fit.shown import Shown, parts_of
 
@@ -55,8 +55,8 @@ class Weighed:
     def of(study: Study, named: Sequence[Hypothesis]) -> Weighed:
         """Study's models have ``named`` in force."""
         plain, residual = study.projector(named), study.residual()
-        size = np.sqrt(run_weights(study, plain, residual))
-        projector = plain.weighed(size)
+        weights = run_weights(study, plain, residual)
+        size, projector = np.sqrt(weights), weighed(study, plain, weights)
         return Weighed(size, projector, projector.remove(residual * size))
 
 

@@ -12,6 +12,8 @@ Validated with: test/diagnosis/test_run_weights.py.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -36,7 +38,8 @@ def run_weights(study: Study, projector: Projector, rest: Floats) -> Floats:
     every = (*study.runs, *study.holdout)
     runs = [(run, rows) for run, rows in zip(every, rows_of(every), strict=True)
             if rows.start < rest.size]
-    grams = np.stack([_gram(projector, rows) for _, rows in runs])
+    kept = np.ix_(projector.kept, projector.kept)
+    grams = np.stack([gram[kept] for gram in _grams(study, projector, [r for _, r in runs])])
     common = np.stack([projector.reach(rest[rows], rows) for _, rows in runs])
     weights: Floats = np.ones(len(runs))
     for _ in range(_ROUNDS):
@@ -53,9 +56,24 @@ def run_weights(study: Study, projector: Projector, rest: Floats) -> Floats:
     return found
 
 
-def _gram(projector: Projector, rows: slice) -> Floats:
-    block = projector.columns[rows]  # the matrix is large: no copy
-    return np.asarray((block.T @ block)[np.ix_(projector.kept, projector.kept)])
+def _grams(study: Study, projector: Projector, rows: Sequence[slice]) -> list[Floats]:
+    """[k, k] products of all nuisances over each run, found once for a case's sensitivities."""
+    known = study.run_grams
+    for k, at in enumerate(rows):
+        if k not in known:
+            block = projector.columns[at]  # the matrix is large: no copy
+            known[k] = np.asarray(block.T @ block)
+    return [known[k] for k in range(len(rows))]
+
+
+def weighed(study: Study, projector: Projector, weights: Floats) -> Projector:
+    """The same nuisances over rows that are multiplied by the root of their run's weight."""
+    every = (*study.runs, *study.holdout)
+    rows = [at for at in rows_of(every) if at.start < weights.size]
+    grams = _grams(study, projector, rows)
+    gram = np.sum([weights[at.start] * one for at, one in zip(rows, grams, strict=True)], axis=0)
+    return Projector.of(projector.columns * np.sqrt(weights)[:, None], projector.kept.tolist(),
+                        np.asarray(gram))
 
 
 def _weight(run: Run, left: Floats) -> float:

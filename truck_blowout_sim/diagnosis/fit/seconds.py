@@ -12,6 +12,7 @@ from scipy.linalg import block_diag
 from truck_blowout_sim.diagnosis.case.runs import Run
 from truck_blowout_sim.diagnosis.case.study import Study, rows_of
 from truck_blowout_sim.diagnosis.effects import Effect
+from truck_blowout_sim.diagnosis.effects.base import Timing
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.fit.instants import (
     PARTS,
@@ -21,12 +22,15 @@ from truck_blowout_sim.diagnosis.fit.instants import (
     spacing_s,
 )
 from truck_blowout_sim.diagnosis.fit.linear import Projector
+from truck_blowout_sim.diagnosis.fit.run_weights import run_weights, weighed
+from truck_blowout_sim.diagnosis.fit.stretches import of_stretches, parts_of, stretches
 from truck_blowout_sim.diagnosis.fit.support import Beside
 from truck_blowout_sim.diagnosis.fit.windows import Windows
 from truck_blowout_sim.diagnosis.result.parts import Place
 
 Floats = NDArray[np.float64]
 _WIDE = 0.25  # of its bound: an event is rarely as strong as can be
+_DIM = 1e-9  # of the information that the clearest stretch shows: less is nothing
 
 
 def windows_of(study: Study, projector: Projector, effect: Effect, place: Place,
@@ -50,24 +54,53 @@ def windows_of(study: Study, projector: Projector, effect: Effect, place: Place,
         residual = np.concatenate([residual, *(run.residual(model) for run, model in zip(
             study.holdout, beside.unseen, strict=True))])
         every = (*study.runs, *study.holdout)
-    removed, rows = projector.remove(residual), rows_of(every)
-    quiet = _quiet(study, effect, place, asked)
-    own, reach, gradient, run, time_s = [], [], [], list[int](), list[float]()
-    for i in (*study.train, *study.baseline, *range(fitted, len(every))):
-        found = quiet[i] if i in quiet else _seconds(study, effect, every[i], study.models[i], [
-            trained[i, k] for k in range(grid_of(every[i], effect).size)])
-        columns = np.stack([column for _, column in found], axis=1)
-        own.append(columns.T @ columns)
-        reach.append(projector.reach(columns, rows[i]))
-        gradient.append(columns.T @ removed[rows[i]])
-        run += [i] * len(found)
-        time_s += [time for time, _ in found]
-    shared = np.concatenate(reach, axis=1)
-    amount, owner = effect.amount, np.array(run)
+    rows, quiet = rows_of(every), _quiet(study, effect, place, asked)
+    asked_of = [*study.train, *study.baseline, *range(fitted, len(every))]
+    found = {i: quiet[i] if i in quiet else _seconds(study, effect, every[i], study.models[i], [
+        trained[i, k] for k in range(grid_of(every[i], effect).size)]) for i in asked_of}
+    columns = {i: np.stack([column for _, column in found[i]], axis=1) for i in asked_of}
+    acting = [i for i in asked_of if i not in study.baseline]
+    projector, size = _weighed(study, effect.timing, projector, residual,
+                               {i: (rows[i], columns[i]) for i in acting})
+    columns = {i: one * size[rows[i], None] for i, one in columns.items()}
+    removed = projector.remove(residual * size)
+    own = [columns[i].T @ columns[i] for i in asked_of]
+    shared = np.concatenate([projector.reach(columns[i], rows[i]) for i in asked_of], axis=1)
+    gradient = np.concatenate([columns[i].T @ removed[rows[i]] for i in asked_of])
+    owner = np.repeat(asked_of, [len(found[i]) for i in asked_of])
+    time_s = np.array([time for i in asked_of for time, _ in found[i]])
     return Windows(
-        block_diag(*own) - shared.T @ projector.solve(shared), np.concatenate(gradient),
-        owner, np.array(time_s), np.isin(owner, study.train), owner >= fitted, effect.timing,
-        (amount.low, amount.high), effect.strays(study.packed)[0], _WIDE * amount.high)
+        block_diag(*own) - shared.T @ projector.solve(shared), gradient, owner, time_s,
+        np.isin(owner, study.train), owner >= fitted, effect.timing,
+        (effect.amount.low, effect.amount.high), effect.strays(study.packed)[0],
+        _WIDE * effect.amount.high)
+
+
+def _weighed(study: Study, timing: Timing, projector: Projector, residual: Floats,
+             acting: Mapping[int, tuple[slice, Floats]]) -> tuple[Projector, Floats]:
+    """Nuisances over weighed rows, and the root [rows] of each row's weight.
+
+    A run weighs less where it is left with more than its widths allow, the event in force over its
+    best stretch. ``acting``: rows of each run that may have it, and the responses of its seconds.
+    """
+    rest, removed = residual.copy(), projector.remove(residual)
+    for rows, seconds in acting.values():
+        rest[rows] -= _best_event(timing, seconds, removed[rows])
+    weights = run_weights(study, projector, rest)
+    if not (weights < 1.0).any():
+        return projector, np.ones(rest.size)
+    return weighed(study, projector, weights), np.sqrt(weights)
+
+
+def _best_event(timing: Timing, seconds: Floats, residual: Floats) -> Floats:
+    """[rows] what the event changes in a run, over the stretch and at the amount that fit best."""
+    columns = seconds if timing == "pulse" else seconds[:, ::-1].cumsum(axis=1)[:, ::-1]
+    first, end = stretches(timing, columns.shape[1])
+    slope, bend = of_stretches(timing, columns.T @ residual, columns.T @ columns, first, end)
+    shown = np.maximum(bend, _DIM * max(float(bend.max(initial=0.0)), _DIM))
+    k = int(np.argmax(np.square(slope) / shown))
+    event = columns[:, first[k]:end[k]].sum(axis=1) * parts_of(timing, first, end)[k]
+    return np.asarray(event * slope[k] / shown[k])
 
 
 def _quiet(study: Study, effect: Effect, place: Place, unseen: bool

@@ -27,7 +27,7 @@ from truck_blowout_sim.diagnosis.fit.attribute import Ranked
 from truck_blowout_sim.diagnosis.fit.instants import grid_of
 from truck_blowout_sim.diagnosis.fit.linear import Projector
 from truck_blowout_sim.diagnosis.fit.models import models_at, with_effects
-from truck_blowout_sim.diagnosis.fit.run_weights import run_weights
+from truck_blowout_sim.diagnosis.fit.run_weights import run_weights, weighed
 from truck_blowout_sim.diagnosis.fit.scatter import Chance
 from truck_blowout_sim.diagnosis.fit.shown import Part, Shown, parts_of
 from truck_blowout_sim.diagnosis.fit.width_error import degrees_of, most_supported
@@ -87,10 +87,12 @@ class _Asked:
 
         Else a run that nothing explains would set the nuisances of all.
         """
-        size = np.sqrt(run_weights(study, self.projector, self.residual - away * self.column))
-        if not (size < 1.0).any():
+        weights = run_weights(study, self.projector, self.residual - away * self.column)
+        if not (weights < 1.0).any():
             return self
-        return _Asked(self.projector.weighed(size), self.residual * size, self.column * size,
+        size = np.sqrt(weights)
+        return _Asked(weighed(study, self.projector, weights), self.residual * size,
+                      self.column * size,
                       tuple(replace(part, column=part.column * size[part.rows])
                             for part in self.parts))
 

@@ -32,6 +32,7 @@ _TIMED_SHARE = 0.15  # and the share that freedom of shape costs: steady causes 
 _HOLES = (0.1, 0.3, 1.0)  # of that of a commanded blowout: where to begin
 _HALF = 0.5  # of what the best explains: less is no rival
 _MUCH = 0.5  # of what is unusual: an event that explains it leaves no call for others
+_DWARFED = 0.1  # of what the best explains: an event that explains less is not what happened
 _LARGE = 8.0  # times what is asked: a mismatch from which on a tire may have been lost unseen
 
 
@@ -101,7 +102,9 @@ def rank_events(study: Study, beside: Beside, chi2: float, chance: Chance,
                    if one.hypothesis.effect.adds_up else supported(study, one, beside, chance))
             cost = _TIMED_COST * len(one.hypothesis.times) + _TIMED_SHARE * max(one.delta, 0.0)
         found.append(replace(one, delta=one.delta - cost, evidence=one.evidence - cost))
-    return _confirmed(study, found, beside, chance)
+    most = max((r.delta for r in (*steady, *found) if r.refitted and not at_bound(r.hypothesis)),
+               default=0.0)
+    return _confirmed(study, found, beside, chance, _DWARFED * most)
 
 
 def _failed(study: Study, named: Sequence[Hypothesis], chi2: float, tire: str,
@@ -145,13 +148,14 @@ def _scanned(study: Study, beside: Beside, places: Sequence[tuple[Effect, Place]
     return [one for found in forms.values() for one in found]
 
 
-def _confirmed(study: Study, found: Sequence[Ranked], beside: Beside, chance: Chance
-               ) -> list[Ranked]:
+def _confirmed(study: Study, found: Sequence[Ranked], beside: Beside, chance: Chance,
+               least: float) -> list[Ranked]:
     """Events that stand out of their own force, less what scatters so much for all hypotheses.
 
     How far runs scatter at all, the other hypotheses know; or else unseen runs show the same event.
     It was chosen before, so either is asked as a single question. No odds are better than what is
-    explained, free instants paid.
+    explained, free instants paid. What explains less than ``least`` is no event: its force is not
+    what moves the vehicle, and linear responses say little of what does.
     """
     checked = list(found)
     strong = [k for k, one in enumerate(found) if one.refitted and one.hypothesis.effect.adds_up
@@ -162,6 +166,7 @@ def _confirmed(study: Study, found: Sequence[Ranked], beside: Beside, chance: Ch
         shown = max(again, _mean_odds([found[k].unseen for k in forms]))
         for k in forms:
             most = found[k].support if shown >= chance.alone.asked else again
+            most = most if found[k].delta >= least else 0.0
             checked[k] = replace(found[k], support=min(found[k].support, most, found[k].delta))
     return checked
 

@@ -54,9 +54,13 @@ def time_intervals(study: Study, found: Ranked, others: Sequence[Hypothesis] = (
     matrix, priors = event_columns(study, event, others)
     covariance = np.asarray(
         np.linalg.inv(event_information(study, event, others, matrix, priors)), dtype=np.float64)
-    blocks = block_covariance(study, event, others, matrix, priors)
+    # another form of law has another amount, and the instants move with it
+    moved = covariance[0] / covariance[0, 0] * study.settings.form(event.effect.name) * (
+        event.amount - event.effect.neutral(study.packed))
+    form = np.outer(moved, moved)
+    both = (covariance + form, block_covariance(study, event, others, matrix, priors) + form)
     return {study.runs[i].recording.name: _timing(
-        study, study.runs[i], found, (covariance[np.ix_(at, at)], blocks[np.ix_(at, at)]))
+        study, study.runs[i], found, [one[np.ix_(at, at)] for one in both])
         for k, i in enumerate(runs) for at in [1 + edges * k + np.arange(edges)]}
 
 
