@@ -55,20 +55,25 @@ def test_the_event_that_explains_most_is_fitted_though_others_scatter_less(
         "crosswind", "payload_shift", "secondary_blowout"}
 
 
-@pytest.mark.parametrize(("delta", "again", "left"), [
-    (300.0, [8.0, 8.0], 30.0),  # beyond chance as a single question
-    (300.0, [2.0, 2.0], 2.0),  # other hypotheses scatter as much
-    (300.0, [7.0, -30.0], 7.0 - 2.0 * np.log(2.0)),  # of two forms one holds: their mean odds
-    (7.0, [8.0, 8.0], 7.0),  # explains hardly more than its free instants
+@pytest.mark.parametrize(("delta", "again", "unseen", "least", "left"), [
+    (300.0, [8.0, 8.0], 0.0, 0.0, 30.0),  # beyond chance as a single question
+    (300.0, [2.0, 2.0], 0.0, 0.0, 2.0),  # other hypotheses scatter as much
+    (300.0, [5.0, 5.0], 9.0, 0.0, 30.0),  # but unseen runs show the same event
+    (300.0, [5.0, 5.0], 5.0, 0.0, 5.0),  # or not clearly enough
+    (300.0, [2.0, 2.0], 40.0, 0.0, 2.0),  # a form of model that errs in all runs alike
+    (300.0, [7.0, -30.0], 0.0, 0.0, 7.0 - 2.0 * np.log(2.0)),  # one of two forms: mean odds
+    (7.0, [8.0, 8.0], 0.0, 0.0, 7.0),  # explains hardly more than its free instants
+    (300.0, [8.0, 8.0], 9.0, 400.0, 0.0),  # something else explains ten times as much
 ])  # fmt: skip
 def test_an_event_must_stand_out_of_what_all_hypotheses_scatter(
     study_of: Callable[..., Study], monkeypatch: pytest.MonkeyPatch, delta: float,
-    again: list[float], left: float
+    again: list[float], unseen: float, least: float, left: float
 ) -> None:
     asked = iter(again)
     monkeypatch.setattr(events, "supported", lambda study, one, beside, chance: replace(
         one, support=next(asked)))
     study = study_of()
-    found = [moved(0.1, delta, 30.0), moved(0.2, delta, 30.0), moved(0.3, delta, 3.0)]
-    checked = events._confirmed(study, found, Beside.of(study, (), study.models), CHANCE)
+    found = [replace(moved(amount, delta, support), unseen=unseen)
+             for amount, support in ((0.1, 30.0), (0.2, 30.0), (0.3, 3.0))]
+    checked = events._confirmed(study, found, Beside.of(study, (), study.models), CHANCE, least)
     assert [one.support for one in checked] == pytest.approx([left, left, 3.0], abs=1e-3)

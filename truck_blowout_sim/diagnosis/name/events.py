@@ -32,6 +32,7 @@ _TIMED_SHARE = 0.15  # and the share that freedom of shape costs: steady causes 
 _HOLES = (0.1, 0.3, 1.0)  # of that of a commanded blowout: where to begin
 _HALF = 0.5  # of what the best explains: less is no rival
 _MUCH = 0.5  # of what is unusual: an event that explains it leaves no call for others
+_SEEN_TWICE = 3.84  # support of an event that unseen runs show, too: chance reaches it in 5 %
 _DWARFED = 0.1  # of what the best explains: an event that explains less is not what happened
 _LARGE = 8.0  # times what is asked: a mismatch from which on a tire may have been lost unseen
 
@@ -144,7 +145,10 @@ def _scanned(study: Study, beside: Beside, places: Sequence[tuple[Effect, Place]
     for key, found in forms.items():
         if found[0].hypothesis.effect.adds_up:
             mean = _mean_odds([r.support for r in found])
-            forms[key] = [replace(r, support=mean) for r in found]
+            fitted = _mean_odds([r.support - r.unseen for r in found])
+            # unseen runs confirm what the others show, or refute it; alone they show no event
+            mean = mean if fitted > 0.0 else min(mean, fitted)
+            forms[key] = [replace(r, support=mean, unseen=mean - fitted) for r in found]
     return [one for found in forms.values() for one in found]
 
 
@@ -152,10 +156,11 @@ def _confirmed(study: Study, found: Sequence[Ranked], beside: Beside, chance: Ch
                least: float) -> list[Ranked]:
     """Events that stand out of their own force, less what scatters so much for all hypotheses.
 
-    How far runs scatter at all, the other hypotheses know; or else unseen runs show the same event.
-    It was chosen before, so either is asked as a single question. No odds are better than what is
-    explained, free instants paid. What explains less than ``least`` is no event: its force is not
-    what moves the vehicle, and linear responses say little of what does.
+    How far runs scatter at all, the other hypotheses know. The event was chosen before, so it is
+    asked as a single question; less is asked where unseen runs show the same event, though not
+    nothing: a model's form errs in all runs alike. No odds are better than what is explained, free
+    instants paid. What explains less than ``least`` is no event: its force is not what moves the
+    vehicle, and linear responses say little of what does.
     """
     checked = list(found)
     strong = [k for k, one in enumerate(found) if one.refitted and one.hypothesis.effect.adds_up
@@ -163,9 +168,10 @@ def _confirmed(study: Study, found: Sequence[Ranked], beside: Beside, chance: Ch
     for key in {found[k].hypothesis.key for k in strong}:
         forms = [k for k in strong if found[k].hypothesis.key == key]
         again = _mean_odds([supported(study, found[k], beside, chance).support for k in forms])
-        shown = max(again, _mean_odds([found[k].unseen for k in forms]))
+        asked = chance.alone.asked
+        asked = min(_SEEN_TWICE, asked) if found[forms[0]].unseen >= asked else asked
         for k in forms:
-            most = found[k].support if shown >= chance.alone.asked else again
+            most = found[k].support if again >= asked else again
             most = most if found[k].delta >= least else 0.0
             checked[k] = replace(found[k], support=min(found[k].support, most, found[k].delta))
     return checked
