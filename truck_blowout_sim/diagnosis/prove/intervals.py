@@ -3,11 +3,11 @@
 The sum of squares about its least is a parabola in the amount and in the start and end of each run,
 all together; its curvature, nuisances projected out, is the information of a Gaussian model. An
 onset alone would be taken for better known than it is: a later start and a stronger amount look
-alike. Misfits that last longer than the weights assume show in a jackknife by blocks; the wider of
-both holds. What begins gradually, in another way than modelled, adds `onset_form_s` of its effect,
-and what also ends a share of its duration: a gust (1 - cos) of the same force, middle and width as
-one that is on or off begins 0.29 of that duration earlier; a load that slides faster and faster
-begins 0.32 earlier than one that slides evenly. What was there before it showed is in `hidden.py`.
+alike. Another form of law has another amount, and the instants move with it. What begins gradually,
+in another way than modelled, adds `onset_form_s` of its effect, and what also ends a share of its
+duration: a gust (1 - cos) of the same force, middle and width as one that is on or off begins 0.29
+of that duration earlier; a load that slides faster and faster begins 0.32 earlier than one that
+slides evenly. What was there before it showed is in `hidden.py`.
 
 Known limits: symmetric, but for what hides; an edge that no recording shows has an open interval.
 Validated with: test/diagnosis/test_intervals.py (coverage over noise).
@@ -28,7 +28,6 @@ from truck_blowout_sim.diagnosis.fit.attribute import Ranked
 from truck_blowout_sim.diagnosis.fit.event_fit import event_columns, event_information, runs_with
 from truck_blowout_sim.diagnosis.fit.quantiles import NINETY
 from truck_blowout_sim.diagnosis.prove.hidden import earliest_s, leak_shift_s
-from truck_blowout_sim.diagnosis.prove.profile import block_covariance
 from truck_blowout_sim.diagnosis.result.parts import Interval
 
 Floats = NDArray[np.float64]
@@ -58,26 +57,24 @@ def time_intervals(study: Study, found: Ranked, others: Sequence[Hypothesis] = (
     moved = covariance[0] / covariance[0, 0] * study.settings.form(event.effect.name) * (
         event.amount - event.effect.neutral(study.packed))
     form = np.outer(moved, moved)
-    both = (covariance + form, block_covariance(study, event, others, matrix, priors) + form)
     return {study.runs[i].recording.name: _timing(
-        study, study.runs[i], found, [one[np.ix_(at, at)] for one in both])
+        study, study.runs[i], found, (covariance + form)[np.ix_(at, at)])
         for k, i in enumerate(runs) for at in [1 + edges * k + np.arange(edges)]}
 
 
-def _timing(study: Study, run: Run, found: Ranked, covariances: Sequence[Floats]) -> Timing:
-    """Intervals of one run: the wider of what each covariance of its start (and end) says."""
+def _timing(study: Study, run: Run, found: Ranked, covariance: Floats) -> Timing:
+    """Intervals of one run from the covariance of its start (and end)."""
     event = found.hypothesis
     start, end = event.times[run.recording.name]
     form, ends = event.effect.onset_form_s**2, event.effect.edges > 1
     later, leak = leak_shift_s(run, event, study.packed)
     shape = (_SHAPE * (end - start)) ** 2 if ends and end < run.edges_s[-1] else 0.0
-    known = max(float(c[0, 0]) for c in covariances)
-    low, high = _interval(start + later, known + form + leak**2 + shape, run)
+    low, high = _interval(start + later, float(covariance[0, 0]) + form + leak**2 + shape, run)
     onset = earliest_s(study, run, found, low), high
     if not ends:
         return Timing(onset, None)
     spread = np.array([-1.0, 1.0])
-    variance = max(float(spread @ c @ spread) for c in covariances) + form + 2.0 * shape
+    variance = float(spread @ covariance @ spread) + form + 2.0 * shape
     low, high = _interval(end - start, variance, run)
     return Timing(onset, (max(low, 0.0), high))
 

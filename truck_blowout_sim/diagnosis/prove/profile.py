@@ -108,28 +108,17 @@ def block_sigma(study: Study, found: Ranked, others: Sequence[Hypothesis] = (),
     h = found.hypothesis
     columns, ranges = (event_columns(study, h, others) if h.times
                        else (_amount_column(study, h, others), np.array([np.inf])))
-    return float(np.sqrt(block_covariance(study, h, others, columns, ranges, block_s)[0, 0]))
-
-
-def block_covariance(study: Study, h: Hypothesis, others: Sequence[Hypothesis], columns: Floats,
-                     ranges: Floats, block_s: float = _BLOCK_S) -> Floats:
-    """Scatter of the numbers of a hypothesis as one block of the runs after the other is left out.
-
-    ``columns``, ``ranges``: whitened change of the runs per unit of each number, and how far it
-    may go (:func:`truck_blowout_sim.diagnosis.fit.event_fit.event_columns`).
-    """
     nuisances = study.columns[:, study.kept([*others, h])]
     design = np.column_stack([nuisances, columns])
     residual = study.residual(models_at(study, [h], others)[0])
     prior = np.concatenate([np.ones(nuisances.shape[1]), np.square(1.0 / ranges)])
     information, gradient = np.diag(prior) + design.T @ design, design.T @ residual
-    moved = []
+    amounts = []
     for rows in _blocks(study, block_s):
         part, left = design[rows], residual[rows]
-        moved.append(np.linalg.solve(information - part.T @ part, gradient - part.T @ left)
-                     [nuisances.shape[1]:])
-    scatter = np.atleast_2d(np.cov(np.stack(moved), rowvar=False, bias=True))
-    return np.asarray((len(moved) - 1) * scatter, dtype=np.float64)
+        amounts.append(np.linalg.solve(information - part.T @ part, gradient - part.T @ left)
+                       [nuisances.shape[1]])
+    return float(np.sqrt((len(amounts) - 1) * np.var(amounts)))
 
 
 def _amount_column(study: Study, h: Hypothesis, others: Sequence[Hypothesis]) -> Floats:
