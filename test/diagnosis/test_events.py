@@ -44,7 +44,7 @@ def test_the_event_that_explains_most_is_fitted_though_others_scatter_less(
     found = [scanned("crosswind", 300.0, 20.0), scanned("payload_shift", 200.0, 50.0),
              scanned("secondary_blowout", 5000.0, 0.0), scanned("road_bank", 250.0, 0.0)]
     monkeypatch.setattr(events, "_scanned", lambda *_: found)
-    monkeypatch.setattr(events, "_confirmed", lambda study, found, *_: list(found))
+    monkeypatch.setattr(events, "_confirmed", lambda study, found, *_, **__: list(found))
     monkeypatch.setattr(events, "supported", lambda study, one, *_: one)
     for fit in ("refine_times", "refit", "fit_event"):
         monkeypatch.setattr(events, fit, lambda study, one, *_: replace(one, refitted=True))
@@ -55,19 +55,20 @@ def test_the_event_that_explains_most_is_fitted_though_others_scatter_less(
         "crosswind", "payload_shift", "secondary_blowout"}
 
 
-@pytest.mark.parametrize(("delta", "again", "unseen", "least", "left"), [
-    (300.0, [8.0, 8.0], 0.0, 0.0, 30.0),  # beyond chance as a single question
-    (300.0, [2.0, 2.0], 0.0, 0.0, 2.0),  # other hypotheses scatter as much
-    (300.0, [5.0, 5.0], 9.0, 0.0, 30.0),  # but unseen runs show the same event
-    (300.0, [5.0, 5.0], 5.0, 0.0, 5.0),  # or not clearly enough
-    (300.0, [2.0, 2.0], 40.0, 0.0, 2.0),  # a form of model that errs in all runs alike
-    (300.0, [7.0, -30.0], 0.0, 0.0, 7.0 - 2.0 * np.log(2.0)),  # one of two forms: mean odds
-    (7.0, [8.0, 8.0], 0.0, 0.0, 7.0),  # explains hardly more than its free instants
-    (300.0, [8.0, 8.0], 9.0, 400.0, 0.0),  # something else explains ten times as much
+@pytest.mark.parametrize(("delta", "again", "unseen", "least", "trusted", "left"), [
+    (300.0, [8.0, 8.0], 0.0, 0.0, True, 30.0),  # beyond chance as a single question
+    (300.0, [2.0, 2.0], 0.0, 0.0, True, 2.0),  # other hypotheses scatter as much
+    (300.0, [5.0, 5.0], 9.0, 0.0, True, 30.0),  # but unseen runs show the same event
+    (300.0, [5.0, 5.0], 9.0, 0.0, False, 5.0),  # and so does a cause that acts all the time
+    (300.0, [5.0, 5.0], 5.0, 0.0, True, 5.0),  # or not clearly enough
+    (300.0, [2.0, 2.0], 40.0, 0.0, True, 2.0),  # a form of model that errs in all runs alike
+    (300.0, [7.0, -30.0], 0.0, 0.0, True, 7.0 - 2.0 * np.log(2.0)),  # one of two forms: mean odds
+    (7.0, [8.0, 8.0], 0.0, 0.0, True, 7.0),  # explains hardly more than its free instants
+    (300.0, [8.0, 8.0], 9.0, 400.0, True, 0.0),  # something else explains ten times as much
 ])  # fmt: skip
 def test_an_event_must_stand_out_of_what_all_hypotheses_scatter(
     study_of: Callable[..., Study], monkeypatch: pytest.MonkeyPatch, delta: float,
-    again: list[float], unseen: float, least: float, left: float
+    again: list[float], unseen: float, least: float, trusted: bool, left: float
 ) -> None:
     asked = iter(again)
     monkeypatch.setattr(events, "supported", lambda study, one, beside, chance: replace(
@@ -75,5 +76,6 @@ def test_an_event_must_stand_out_of_what_all_hypotheses_scatter(
     study = study_of()
     found = [replace(moved(amount, delta, support), unseen=unseen)
              for amount, support in ((0.1, 30.0), (0.2, 30.0), (0.3, 3.0))]
-    checked = events._confirmed(study, found, Beside.of(study, (), study.models), CHANCE, least)
+    checked = events._confirmed(study, found, Beside.of(study, (), study.models), CHANCE, least,
+                                trusted)
     assert [one.support for one in checked] == pytest.approx([left, left, 3.0], abs=1e-3)

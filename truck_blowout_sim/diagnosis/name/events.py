@@ -103,9 +103,11 @@ def rank_events(study: Study, beside: Beside, chi2: float, chance: Chance,
                    if one.hypothesis.effect.adds_up else supported(study, one, beside, chance))
             cost = _TIMED_COST * len(one.hypothesis.times) + _TIMED_SHARE * max(one.delta, 0.0)
         found.append(replace(one, delta=one.delta - cost, evidence=one.evidence - cost))
-    most = max((r.delta for r in (*steady, *found) if r.refitted and not at_bound(r.hypothesis)),
-               default=0.0)
-    return _confirmed(study, found, beside, chance, _DWARFED * most)
+    rivals = [r for r in (*steady, *found) if r.refitted and not at_bound(r.hypothesis)]
+    least = _DWARFED * max((r.delta for r in rivals), default=0.0)
+    stands = any(r.support >= chance.asked for r in rivals if not r.hypothesis.effect.timed)
+    # what acts all the time shows in unseen runs, too, and a long event imitates it
+    return _confirmed(study, found, beside, chance, least, trusted=not stands)
 
 
 def _failed(study: Study, named: Sequence[Hypothesis], chi2: float, tire: str,
@@ -153,14 +155,14 @@ def _scanned(study: Study, beside: Beside, places: Sequence[tuple[Effect, Place]
 
 
 def _confirmed(study: Study, found: Sequence[Ranked], beside: Beside, chance: Chance,
-               least: float) -> list[Ranked]:
+               least: float, trusted: bool) -> list[Ranked]:
     """Events that stand out of their own force, less what scatters so much for all hypotheses.
 
     How far runs scatter at all, the other hypotheses know. The event was chosen before, so it is
-    asked as a single question; less is asked where unseen runs show the same event, though not
-    nothing: a model's form errs in all runs alike. No odds are better than what is explained, free
-    instants paid. What explains less than ``least`` is no event: its force is not what moves the
-    vehicle, and linear responses say little of what does.
+    asked as a single question. If unseen runs show the same event and are ``trusted``, less is
+    asked, though not nothing: a model's form errs in all runs alike. No odds are better than what
+    is explained, free instants paid. What explains less than ``least`` is no event: its force is
+    not what moves the vehicle, and linear responses say little of what does.
     """
     checked = list(found)
     strong = [k for k, one in enumerate(found) if one.refitted and one.hypothesis.effect.adds_up
@@ -169,7 +171,8 @@ def _confirmed(study: Study, found: Sequence[Ranked], beside: Beside, chance: Ch
         forms = [k for k in strong if found[k].hypothesis.key == key]
         again = _mean_odds([supported(study, found[k], beside, chance).support for k in forms])
         asked = chance.alone.asked
-        asked = min(_SEEN_TWICE, asked) if found[forms[0]].unseen >= asked else asked
+        if trusted and found[forms[0]].unseen >= asked:
+            asked = min(_SEEN_TWICE, asked)
         for k in forms:
             most = found[k].support if again >= asked else again
             most = most if found[k].delta >= least else 0.0
