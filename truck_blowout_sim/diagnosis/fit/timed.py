@@ -57,7 +57,8 @@ def scan(study: Study, projector: Projector, effect: Effect, place: Place,
     if effect.adds_up:
         windows = windows_of(study, projector, effect, place, results, beside)
         support = windows.support()
-        unseen = support - windows.without_unseen.support() if windows.unseen.any() else 0.0
+        if support > 0.0 and windows.unseen.any():
+            unseen = support - windows.without_unseen.support()
     best: Ranked | None = None
     for sign in (1.0, -1.0):
         found = _best_of_sign(study, projector, effect, place, results, removed, sign)
