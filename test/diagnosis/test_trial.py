@@ -40,7 +40,7 @@ def test_the_words_hold_value_and_limit() -> None:
 def test_the_rule_that_is_broken_decides(changes: dict, rule: str | None) -> None:
     good = {"hypothesis": Hypothesis(BANK, Place(), 0.01), "delta": 90.0, "sigma": 0.001,
             "refitted": True, "evidence": 90.0, "support": CHANCE.asked + 0.1}
-    fate = weakness(Ranked(**{**good, **changes}), CHANCE, 1000.0)
+    fate = weakness(Ranked(**{**good, **changes}), CHANCE, 80.0)
     assert (fate and fate.rule) == rule
     if rule in ("support", "remainder"):
         assert fate is not None

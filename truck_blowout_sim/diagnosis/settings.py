@@ -97,6 +97,14 @@ class Settings:
         """Those that each of three signs may raise: a body's stand, and two kinds of beat."""
         return 0.01 * self.false_alarms
 
+    @property
+    def law_leaves(self) -> float:
+        """Share of what an effect explains that an inexact form of its law may leave to others.
+
+        Squares go with the square of how far forms of one law differ, at most.
+        """
+        return max(self.form_share, *self.forms.values(), 0.0) ** 2
+
     def form(self, effect: str) -> float:
         """1 sigma of what another form of law does to an amount, as a share of it."""
         return self.forms.get(effect, self.form_share)

@@ -33,7 +33,6 @@ _HOLES = (0.1, 0.3, 1.0)  # of that of a commanded blowout: where to begin
 _HALF = 0.5  # of what the best explains: less is no rival
 _MUCH = 0.5  # of what is unusual: an event that explains it leaves no call for others
 _SEEN_TWICE = 3.84  # support of an event that unseen runs show, too: chance reaches it in 5 %
-_DWARFED = 0.1  # of what the best explains: an event that explains less is not what happened
 _LARGE = 8.0  # times what is asked: a mismatch from which on a tire may have been lost unseen
 
 
@@ -104,7 +103,7 @@ def rank_events(study: Study, beside: Beside, chi2: float, chance: Chance,
             cost = _TIMED_COST * len(one.hypothesis.times) + _TIMED_SHARE * max(one.delta, 0.0)
         found.append(replace(one, delta=one.delta - cost, evidence=one.evidence - cost))
     rivals = [r for r in (*steady, *found) if r.refitted and not at_bound(r.hypothesis)]
-    least = _DWARFED * max((r.delta for r in rivals), default=0.0)
+    least = study.settings.law_leaves * max((r.delta for r in rivals), default=0.0)
     stands = any(r.support >= chance.asked for r in rivals if not r.hypothesis.effect.timed)
     # what acts all the time shows in unseen runs, too, and a long event imitates it
     return _confirmed(study, found, beside, chance, least, trusted=not stands)

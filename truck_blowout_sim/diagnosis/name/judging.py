@@ -28,8 +28,6 @@ ODDS = 2.0 * np.log(20.0)  # support by which an explanation is 20 times as like
 _ALIKE = 0.4  # less evidence than the best by more than this share is no alias
 _AT_BOUND = 0.002  # of the range
 _EVENT_WORTH = 0.8
-_NEXT_SHARE = 0.08  # of a stronger effect: what its inexact law may leave to another
-_NEXT_EVENT_SHARE = 0.12  # its instant was free to choose
 
 
 @dataclass(eq=False)
@@ -112,8 +110,11 @@ def can_judge(study: Study, hypothesis: Hypothesis) -> bool:
     return any(run.shows(hypothesis.effect.applies) for run in study.holdout)
 
 
-def weakness(one: Ranked, chance: Chance, strongest: float = 0.0) -> Fate | None:
-    """Why a hypothesis is too weak to name; None if it is not."""
+def weakness(one: Ranked, chance: Chance, left: float = 0.0) -> Fate | None:
+    """Why a hypothesis is too weak to name; None if it is not.
+
+    ``left``: what the inexact law of a stronger effect may leave to another.
+    """
     h, event = one.hypothesis, bool(one.hypothesis.times)
     if not one.refitted:
         return Fate("refit", one.promise)
@@ -122,8 +123,7 @@ def weakness(one: Ranked, chance: Chance, strongest: float = 0.0) -> Fate | None
     if at_bound(h):
         low, high = h.effect.amount.low, h.effect.amount.high
         return Fate("bound", h.amount, low if h.amount - low < high - h.amount else high)
-    least = (_NEXT_EVENT_SHARE if event else _NEXT_SHARE) * strongest
-    return Fate("remainder", one.evidence, least) if one.evidence < least else None
+    return Fate("remainder", one.evidence, left) if one.evidence < left else None
 
 
 def at_bound(h: Hypothesis) -> bool:

@@ -129,12 +129,12 @@ def _accept(study: Study, found: Found, this: Round, named: Sequence[Hypothesis]
         It, and those that fell only because they do not predict the holdout better.
     """
     disbelieved: list[Ranked] = []
-    strongest = max((r.evidence for r in found.named), default=0.0)
+    left = study.settings.law_leaves * max((r.evidence for r in found.named), default=0.0)
     excess = excess_of(study, found)
     passing: list[_Believed] = []
     for one in this.ranked:
         # what explains most of the rest is no leftover of a stronger effect's inexactness
-        fate = weakness(one, this.chance, strongest if one.delta < _MOST * excess else 0.0)
+        fate = weakness(one, this.chance, left if one.delta < _MOST * excess else 0.0)
         most = max((worth(p.ranked) for p in passing), default=0.0)
         if fate is None and passing and worth(one) < most - slack(passing[0].ranked):
             fate = Fate("explains", worth(one), most)
