@@ -1,8 +1,8 @@
 """How far published tire laws differ: where the diagnosis has the spread of its amounts from.
 
-Five laws of side force over slip with one initial stiffness and one peak: brush (Pacejka 2012, ch. 3),
-Magic Formula (ch. 4), TMeasy (Rill 2012, ch. 3), Burckhardt (1993, dry asphalt), and tanh. Force is
-in units of the peak, slip in units of peak over stiffness.
+Five laws of side force over slip with one initial stiffness and one peak: brush (Pacejka 2012,
+ch. 3), Magic Formula (ch. 4), TMeasy (Rill 2012, ch. 3), Burckhardt (1993, dry asphalt), and tanh.
+Force is in units of the peak, slip in units of peak over stiffness.
 """
 
 from __future__ import annotations
@@ -52,7 +52,8 @@ def test_two_laws_of_one_stiffness_and_peak_differ_by_the_form_share() -> None:
     forces = np.stack([law(slip) for law in LAWS])
     spread = np.sqrt(2.0) * forces.std(axis=0, ddof=1) / forces.mean(axis=0)
     for name in ("default", "rebuilt_record"):
-        assert load_settings(pack(load_vehicle(NAME)), name).form_share == pytest.approx(spread.mean(), abs=0.01)
+        settings = load_settings(pack(load_vehicle(NAME)), name)
+        assert settings.form_share == pytest.approx(spread.mean(), abs=0.01)
 
 
 def test_two_laws_that_give_one_force_differ_in_grip_by_the_share_of_its_change() -> None:

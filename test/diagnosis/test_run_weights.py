@@ -14,14 +14,16 @@ BINS, CHANNELS = 200, 3
 ROWS = BINS * CHANNELS
 
 
-def study(runs: int) -> SimpleNamespace:
-    """Runs of as many samples each."""
-    run = SimpleNamespace(measured=np.zeros((BINS, CHANNELS)))
-    return SimpleNamespace(runs=(run,) * (runs - 1), holdout=(run,), run_grams={})
-
-
 def rows(k: int) -> slice:
     return slice(k * ROWS, (k + 1) * ROWS)
+
+
+def study(columns: np.ndarray) -> SimpleNamespace:
+    """Runs of as many samples each."""
+    run = SimpleNamespace(measured=np.zeros((BINS, CHANNELS)))
+    fitted = columns.shape[0] // ROWS - 1
+    return SimpleNamespace(runs=(run,) * fitted, holdout=(run,),
+                           gram=lambda k: columns[rows(k)].T @ columns[rows(k)])
 
 
 @pytest.fixture
@@ -32,14 +34,15 @@ def rng() -> np.random.Generator:
 def test_runs_that_are_explained_weigh_one(rng: np.random.Generator) -> None:
     columns = 5.0 * rng.standard_normal((3 * ROWS, 2))
     rest = columns @ np.array([0.3, -0.2]) + 0.9 * rng.standard_normal(3 * ROWS)
-    assert (run_weights(study(3), Projector.of(columns), rest) == 1.0).all()
+    assert (run_weights(study(columns), Projector.of(columns), rest) == 1.0).all()
 
 
 def test_a_run_weighs_the_inverse_of_its_mean_square(rng: np.random.Generator) -> None:
     """Nothing to explain it with: weights in closed form."""
     rest = rng.standard_normal(3 * ROWS)
     rest[rows(1)] *= 4.0
-    found = run_weights(study(3), Projector.of(np.zeros((3 * ROWS, 1))), rest)
+    nothing = np.zeros((3 * ROWS, 1))
+    found = run_weights(study(nothing), Projector.of(nothing), rest)
     assert found[rows(1)] == pytest.approx(1.0 / np.mean(rest[rows(1)] ** 2))
     assert found[rows(0)] == pytest.approx(min(1.0 / np.mean(rest[rows(0)] ** 2), 1.0))
 
@@ -51,11 +54,11 @@ def test_a_spoiled_run_does_not_set_what_the_others_show(rng: np.random.Generato
     rest[rows(3)] = 400.0 * (columns[rows(3), 0] + rng.standard_normal(ROWS))
     projector = Projector.of(columns)
     assert projector.amounts(rest)[0] > 50.0
-    weights = run_weights(study(4), projector, rest)
+    weights = run_weights(study(columns), projector, rest)
     assert weights[rows(3)].max() < 1e-5
     size = np.sqrt(weights)
     there = Projector.of(columns * size[:, None])
-    again = weighed(study(4), projector, weights)
+    again = weighed(study(columns), projector, weights)
     assert again.amounts(rest * size) == pytest.approx(there.amounts(rest * size))
     assert again.remove(rest * size) == pytest.approx(there.remove(rest * size))
     found, sigma = there.amounts(rest * size)[0], there.covariance()[0, 0] ** 0.5
@@ -67,4 +70,5 @@ def test_unseen_runs_are_weighed_only_where_there_are_rows_for_them(
     rng: np.random.Generator
 ) -> None:
     rest = rng.standard_normal(2 * ROWS)
-    assert run_weights(study(3), Projector.of(np.zeros((2 * ROWS, 1))), rest).shape == (2 * ROWS,)
+    found = run_weights(study(np.zeros((3 * ROWS, 1))), Projector.of(np.zeros((2 * ROWS, 1))), rest)
+    assert found.shape == (2 * ROWS,)

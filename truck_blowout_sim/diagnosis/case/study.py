@@ -58,8 +58,6 @@ class Study:
         quiet: by law of a candidate, what it would change in the baseline runs for each unit of
             its amount.
         seconds: by event, what it would change over each second of the baseline and unseen runs.
-        run_grams: products of the nuisance columns over each run, unseen ones last; see
-            ``fit/run_weights.py``.
         simulations: how many were asked for; ``simulated`` gives the bin means of one,
             ``simulated_abreast`` those of up to eight.
     """
@@ -84,9 +82,8 @@ class Study:
     simulations: int = 0
     simulated: Alone = Run.simulated
     simulated_abreast: Abreast = simulated_abreast
-    run_grams: dict[int, Floats] = field(default_factory=dict)
     _projectors: dict[frozenset[str], Projector] = field(default_factory=dict)
-    _gram: Floats = field(default_factory=lambda: np.zeros((0, 0)))
+    _grams: dict[int, Floats] = field(default_factory=dict)
     _courses: dict[tuple[Run, bytes], Course] = field(default_factory=dict)
 
     @property
@@ -120,11 +117,19 @@ class Study:
         """
         drop = frozenset(self.meaning(h) for h in hypotheses)
         if drop not in self._projectors:
-            if not self._gram.size:
-                self._gram = self.columns.T @ self.columns
             keep = [k for k, name in enumerate(self.names) if name not in drop]
-            self._projectors[drop] = Projector.of(self.columns, keep, self._gram)
+            gram = np.sum([self.gram(k) for k in range(len(self.runs))], axis=0)
+            self._projectors[drop] = Projector.of(self.columns, keep, gram)
         return self._projectors[drop]
+
+    def gram(self, k: int) -> Floats:
+        """[nuisances, nuisances] products of the columns over one run; unseen ones come last."""
+        if k not in self._grams:
+            fitted = len(self.runs)
+            block = (self.columns[rows_of(self.runs)[k]] if k < fitted
+                     else self.holdout_columns[k - fitted])
+            self._grams[k] = block.T @ block
+        return self._grams[k]
 
     def kept(self, hypotheses: Sequence[Hypothesis] = ()) -> list[int]:
         """Positions of the nuisances that :meth:`projector` keeps."""
@@ -134,8 +139,7 @@ class Study:
     def forget(self) -> None:
         """Drop what was made of columns that are no longer these."""
         self._projectors.clear()
-        self.run_grams = {}
-        self._gram = np.zeros((0, 0))
+        self._grams.clear()
 
     def simulate(self, jobs: Sequence[Job], what: str = "",
                  progress: Progress | None = None) -> list[Floats]:

@@ -12,8 +12,6 @@ Validated with: test/diagnosis/test_run_weights.py.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -39,7 +37,7 @@ def run_weights(study: Study, projector: Projector, rest: Floats) -> Floats:
     runs = [(run, rows) for run, rows in zip(every, rows_of(every), strict=True)
             if rows.start < rest.size]
     kept = np.ix_(projector.kept, projector.kept)
-    grams = np.stack([gram[kept] for gram in _grams(study, projector, [r for _, r in runs])])
+    grams = np.stack([study.gram(k)[kept] for k in range(len(runs))])
     common = np.stack([projector.reach(rest[rows], rows) for _, rows in runs])
     weights: Floats = np.ones(len(runs))
     for _ in range(_ROUNDS):
@@ -56,22 +54,11 @@ def run_weights(study: Study, projector: Projector, rest: Floats) -> Floats:
     return found
 
 
-def _grams(study: Study, projector: Projector, rows: Sequence[slice]) -> list[Floats]:
-    """[k, k] products of all nuisances over each run, found once for a case's sensitivities."""
-    known = study.run_grams
-    for k, at in enumerate(rows):
-        if k not in known:
-            block = projector.columns[at]  # the matrix is large: no copy
-            known[k] = np.asarray(block.T @ block)
-    return [known[k] for k in range(len(rows))]
-
-
 def weighed(study: Study, projector: Projector, weights: Floats) -> Projector:
     """The same nuisances over rows that are multiplied by the root of their run's weight."""
     every = (*study.runs, *study.holdout)
     rows = [at for at in rows_of(every) if at.start < weights.size]
-    grams = _grams(study, projector, rows)
-    gram = np.sum([weights[at.start] * one for at, one in zip(rows, grams, strict=True)], axis=0)
+    gram = np.sum([weights[at.start] * study.gram(k) for k, at in enumerate(rows)], axis=0)
     return Projector.of(projector.columns * np.sqrt(weights)[:, None], projector.kept.tolist(),
                         np.asarray(gram))
 

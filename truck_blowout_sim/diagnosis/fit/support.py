@@ -63,8 +63,9 @@ class Beside:
             return Beside(tuple(named), tuple(models), (), nothing, nothing, manners)
         unseen = _unseen(study, named) if named else study.holdout_models
         columns = np.concatenate([study.columns, *study.holdout_columns])
-        return Beside(tuple(named), tuple(models), tuple(unseen), columns, columns.T @ columns,
-                      manners)
+        runs = range(len(study.runs) + len(study.holdout))
+        return Beside(tuple(named), tuple(models), tuple(unseen), columns,
+                      np.sum([study.gram(k) for k in runs], axis=0), manners)
 
 
 @dataclass(frozen=True, eq=False)
