@@ -34,14 +34,13 @@ def test_what_is_not_finite_does_not_swing(few: Settings) -> None:
     assert (swings(signals, few) == 0.0).all()
 
 
-def test_a_flat_tire_that_was_braked_widens_what_models_differ_by_and_not_the_noise(
-    few: Settings
-) -> None:
-    noise, swing, ones = np.full((5, 2), 1e-6), np.full((5, 2), 0.1), np.ones(5)
-    plain, wide = (widths(CHANNELS, noise, swing, by * ones, few) for by in (1.0, 4.0))
-    np.testing.assert_allclose(wide, 4.0 * plain, rtol=1e-3)
-    loud = widths(CHANNELS, np.full((5, 2), 100.0), swing, 4.0 * ones, few)
+def test_noise_and_what_models_differ_by_add_in_squares(few: Settings) -> None:
+    swing = np.full((5, 2), 0.1)
+    models, loud, both = (widths(CHANNELS, np.full((5, 2), noise), swing, few)
+                          for noise in (0.0, 100.0, 1.0))
+    assert (models > 0.0).all()
     np.testing.assert_allclose(loud, 100.0, rtol=1e-3)
+    np.testing.assert_allclose(both, np.hypot(1.0, models))
 
 
 def uncorrected(study: Study) -> tuple[Run, Floats, int]:

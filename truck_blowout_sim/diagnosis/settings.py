@@ -57,7 +57,6 @@ class Settings:
         swing_s: time over which the size of a motion is taken.
         false_alarms: share of cases with nothing missing in which anything may be stated.
         form_share: 1 sigma of what another form of law does to an amount, as a share of it.
-        flat_braked: how much wider models differ once a flat tire was braked.
         forms: by effect, instead of ``form_share``, where laws of its kind differ more.
         without: names of effects that are not considered; asked for, not read from the file.
     """
@@ -73,7 +72,6 @@ class Settings:
     swing_s: float
     false_alarms: float
     form_share: float
-    flat_braked: float
     forms: Mapping[str, float] = field(default_factory=dict)
     without: tuple[str, ...] = ()
 

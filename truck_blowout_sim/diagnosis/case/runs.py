@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from truck_blowout_sim.diagnosis.case.leaning import Leaning, leaning_of
-from truck_blowout_sim.diagnosis.case.trust import BRAKES_ON_PA, wider
+from truck_blowout_sim.diagnosis.case.trust import BRAKES_ON_PA
 from truck_blowout_sim.diagnosis.case.widths import rms_around, swings, widths
 from truck_blowout_sim.diagnosis.fit.color import Color
 from truck_blowout_sim.diagnosis.result.evidence import Role
@@ -47,7 +47,7 @@ class Run:
         edges_s: bin edges, n + 1.
         measured, sigma: [n, m] bin means and their standard errors; NaN where not measured.
         noise: standard error from the instrument alone.
-        swing: [n, m] size of each signal's motion; ``wider``: [n] factor on what models differ by.
+        swing: [n, m] size of each signal's motion.
         correction: [n, m] what the fine step changes in the reference truck's bin means; added to
             those of every truck, which are simulated on the coarse step.
         color: of the residual in units of ``sigma``; what is whitened has it taken out.
@@ -65,7 +65,6 @@ class Run:
     sigma: Floats
     noise: Floats
     swing: Floats
-    wider: Floats
     fine: Drive
     correction: Floats
     color: Color
@@ -156,7 +155,7 @@ class Run:
         Its correction is still that for the coarse step.
         """
         swing = np.minimum(swings(model, settings), swings(self.measured, settings))
-        sigma = widths(self.channels, self.noise, swing, self.wider, settings,
+        sigma = widths(self.channels, self.noise, swing, settings,
                        rms_around(self.correction, settings))
         return replace(self, swing=swing, sigma=np.where(np.isfinite(self.sigma), sigma, np.nan))
 
@@ -204,7 +203,6 @@ def prepare_run(recording: Recording, role: Role, packed: Packed, settings: Sett
     _check_length(recording, n_bins, settings)
     start = drive.initial.time_s + settings.skip_s
     edges: Floats = (start + np.arange(n_bins + 1) * settings.bin_s).astype(np.float64)
-    factor = wider(recording, drive, packed, edges, settings)
     if not channels:
         raise InputError("no channel that can be diagnosed", file=recording.name,
                          expected="a speed, a rate, an angle or an acceleration of the vehicle")
@@ -212,10 +210,9 @@ def prepare_run(recording: Recording, role: Role, packed: Packed, settings: Sett
     measured, plain = (np.stack([p[k] for p in parts], axis=1) for k in range(2))
     swing = swings(measured, settings)
     # a bin without samples must not count as one in which nothing changed
-    sigma = np.where(np.isfinite(measured), widths(channels, plain, swing, factor, settings),
-                     np.nan)
+    sigma = np.where(np.isfinite(measured), widths(channels, plain, swing, settings), np.nan)
     return Run(recording, role, drive, channels, tuple(names.index(n) for n in channels), edges,
-               measured, sigma, plain, swing, factor, fine, np.zeros(measured.shape),
+               measured, sigma, plain, swing, fine, np.zeros(measured.shape),
                Color.white(len(channels)), leaning=leaning_of(recording, channels, names))
 
 

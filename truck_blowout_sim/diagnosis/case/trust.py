@@ -1,7 +1,7 @@
-"""Where the model is believed less: a flat tire that was braked, turns near the limit of grip.
+"""Where the model is believed less: after a lost tire, and in turns near the limit of grip.
 
-The flat tire widens the difference that good models of one truck are allowed, bin by bin. Baseline
-runs on sound tires say nothing of a lost one. Near the limit of grip laws of tires differ most.
+Baseline runs on sound tires say nothing of a lost one. Near the limit of grip laws of tires differ
+most.
 
 Known limits: lateral acceleration is that of the first unit's yaw rate and speed; without both
 channels no turn counts as hard.
@@ -16,9 +16,6 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import uniform_filter1d
 
-from truck_blowout_sim.diagnosis.settings import Settings
-from truck_blowout_sim.recordings import INPUT_NAMES, Recording
-from truck_blowout_sim.simulation.drive import Drive
 from truck_blowout_sim.vehicle import Packed
 
 if TYPE_CHECKING:
@@ -28,30 +25,6 @@ if TYPE_CHECKING:
 Floats = NDArray[np.float64]
 BRAKES_ON_PA = 20_000.0
 LASTS_S = 0.5
-
-
-def wider(recording: Recording, drive: Drive, packed: Packed, edges_s: Floats,
-          settings: Settings) -> Floats:
-    """Factor on the difference between models in each bin, 1 where nothing is special."""
-    return np.where(flat_was_braked(recording, drive, packed, edges_s), settings.flat_braked, 1.0)
-
-
-def flat_was_braked(recording: Recording, drive: Drive, packed: Packed, edges_s: Floats
-                    ) -> NDArray[np.bool_]:
-    """Bins from which on a tire blown on command has been braked.
-
-    What brakes a flat tire, its grip and its lever, no two models agree on; the speed keeps it.
-    """
-    vehicle, middles = packed.vehicle, 0.5 * (edges_s[1:] + edges_s[:-1])
-    rows = np.clip(((middles - drive.initial.time_s) / drive.step_s).astype(np.int64), 0,
-                   drive.inputs.shape[0] - 1)
-    braked = np.zeros(middles.size, dtype=np.bool_)
-    for event in recording.blowouts:
-        for tire in event.tires:
-            axle = vehicle.spec.axles[vehicle.axle_of_hub(vehicle.hub_of_tire(tire))]
-            column = INPUT_NAMES.index(f"brake_pressure_{axle.circuit}_pa")
-            braked |= (middles > event.time_s) & (drive.inputs[rows, column] > BRAKES_ON_PA)
-    return np.asarray(np.maximum.accumulate(braked))
 
 
 def comparable_until_s(study: Study, run: Run) -> float:

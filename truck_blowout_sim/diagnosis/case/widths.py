@@ -50,18 +50,18 @@ def rms_around(values: Floats, settings: Settings) -> Floats:
     return np.sqrt(np.maximum(squares, 0.0))  # its running sums leave less than nothing
 
 
-def widths(channels: Sequence[str], noise: Floats, swing: Floats, wider: Floats,
-           settings: Settings, step: Floats | float = 0.0) -> Floats:
+def widths(channels: Sequence[str], noise: Floats, swing: Floats, settings: Settings,
+           step: Floats | float = 0.0) -> Floats:
     """[n, m] standard error of each bin of each channel.
 
     Args:
         channels: names, m of them; ``noise``: [n, m] standard errors of the instrument alone.
-        swing: [n, m] of the model's signal; ``wider``: [n] factor on what models differ by.
+        swing: [n, m] of the model's signal.
         settings: floors and shares; ``step``: [n, m] rms of what a finer step changes.
     """
     floor, relative = _rules(channels, settings)
     lasts = np.sqrt(settings.correlation_s / settings.bin_s)
-    models = np.hypot(wider[:, None] * np.hypot(floor, relative * swing), step)
+    models = np.hypot(np.hypot(floor, relative * swing), step)
     return np.asarray(np.hypot(noise, lasts * models))
 
 
