@@ -17,6 +17,7 @@ from typing import Any
 
 from truck_blowout_sim.proof.blindfold import blindfold
 from truck_blowout_sim.proof.cases import Case
+from truck_blowout_sim.proof.orphan import end_with_parent
 from truck_blowout_sim.proof.seal import folder_hash
 from truck_blowout_sim.proof.worker import attempt
 from truck_blowout_sim.resources import code_hash
@@ -84,7 +85,7 @@ def run_cases(cases: Sequence[Case], out: Path, *, workers: int, step_s: float,
         return
     out.mkdir(parents=True, exist_ok=True)
     with one_thread(), ProcessPoolExecutor(workers, get_context("spawn"),
-                                           initializer=begin) as pool:
+                                           initializer=end_with_parent, initargs=(begin,)) as pool:
         jobs = [pool.submit(attempt, (case, step_s, with_baselines)) for case in mixed(todo)]
         try:
             for job in as_completed(jobs):
