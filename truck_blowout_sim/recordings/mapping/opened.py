@@ -20,6 +20,7 @@ from truck_blowout_sim.recordings.logs.bag_log import RECEIVE, BagLog, lateness_
 from truck_blowout_sim.recordings.logs.csv_log import text_note
 from truck_blowout_sim.recordings.logs.mat_log import variables_of
 from truck_blowout_sim.recordings.mapping.clocks import CLOCK_START, lay_on, set_clock, wanted
+from truck_blowout_sim.recordings.mapping.coarse_clock import spread_rows
 from truck_blowout_sim.recordings.mapping.rules import Rules, TimeRule
 from truck_blowout_sim.recordings.mapping.times import Times, times_of, unknown_time_unit
 from truck_blowout_sim.recordings.mat_format import OWN_TIME, TIME, read_mat
@@ -142,12 +143,12 @@ def _open(path: Path, stated: str, time: TimeRule, rules: Rules, namespace: str 
         return opened
     thesis_without_time = opened.native is not None and not time.column
     try:
-        opened.rows = times_of(opened.log, time)
+        opened.rows, coarse = spread_rows(times_of(opened.log, time))
     except InputError:
         if not thesis_without_time:
             raise
     else:
-        said = _notes_on(opened.rows, opened.log, time)
+        said = [*_notes_on(opened.rows, opened.log, time), *coarse]
         opened.notes += [f"{path.name}: {note}" for note in said]
     return opened
 
