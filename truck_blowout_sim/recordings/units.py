@@ -113,6 +113,7 @@ _TABLE: dict[str, dict[str, tuple[float, float, str]]] = {
         "ns": (1e-9, 0.0, "nsec nanosecond nanoseconds"),
         "min": (60.0, 0.0, "minute minutes"),
         "h": (3600.0, 0.0, "hour hours hr"),
+        "day": (86_400.0, 0.0, "days"),
         "hhmmss": (1.0, 0.0, "hhmmss.ss hhmmss.sss utc"),
     },
 }

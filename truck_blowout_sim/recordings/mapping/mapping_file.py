@@ -166,7 +166,7 @@ def _time(node: _Node) -> TimeRule:
     if unit:
         found = find_unit(unit)
         if found is None or found.quantity != "time":
-            node.get("unit").fail("s, ms, us, ns, min, h or hhmmss")
+            node.get("unit").fail("s, ms, us, ns, min, h, day or hhmmss")
     return TimeRule(_optional_text(node.get("from")), unit)
 
 

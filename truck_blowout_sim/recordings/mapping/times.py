@@ -30,6 +30,11 @@ _EPOCH_S = 1e8
 # from these numbers on a time since 1970 is in that unit
 _EPOCH_UNITS = ((1e17, "ns"), (1e14, "us"), (1e11, "ms"), (_EPOCH_S, "s"))
 _LARGEST_STEP_S = 0.5
+# no log of a vehicle has 50,000 rows a second: numbers that grow so slowly are days
+_SMALLEST_STEP_S = 2e-5
+_DAY_S = 86_400.0
+# spreadsheets count days from 1899-12-30; numbers from 1954 on are no elapsed days
+_FIRST_DATE, _DAY_OF_1970 = 20_000.0, 25_569.0
 CLOCK_UNITS = ("clock", "hhmmss")
 
 
@@ -88,7 +93,8 @@ def times_of(log: Log, rule: TimeRule, where: str = "key time") -> Times:
         )  # fmt: skip
     time_s = _seconds(column.values, unit)
     first = time_s[np.isfinite(time_s)][:1]
-    absolute = unit in CLOCK_UNITS or bool(first.size and first[0] > _EPOCH_S)
+    of_day = unit == "day" and bool(first.size and 0.0 < first[0] < _DAY_S)
+    absolute = unit in CLOCK_UNITS or of_day or bool(first.size and first[0] > _EPOCH_S)
     named = bool(rule.column or _NAME.fullmatch(name.strip()))
     return Times(time_s, name, unit, guessed, absolute, named)
 
@@ -136,7 +142,10 @@ def _unit_by_size(name: str, column: Column) -> str:
     for least, unit in _EPOCH_UNITS:
         if told.size and told[0] > least:
             return unit
-    step = float(np.median(np.diff(told))) if told.size > 1 else np.nan
+    steps = np.diff(told)
+    step = float(np.median(steps)) if steps.size else np.nan
+    if (steps > 0.0).any() and float(np.median(steps[steps > 0.0])) < _SMALLEST_STEP_S:
+        return "day"
     return "s" if step < _LARGEST_STEP_S else ""
 
 
@@ -146,6 +155,10 @@ def _seconds(values: FloatArray, unit: str) -> FloatArray:
     found = find_unit(unit)
     if found is None:
         raise ValueError(f"{unit} is no unit of time")
+    if found.name == "day":
+        told = values[np.isfinite(values)]
+        dated = bool(told.size and told[0] > _FIRST_DATE)
+        return (values - _DAY_OF_1970 if dated else values) * found.factor
     if found.name != "hhmmss":
         return values * found.factor
     hours, rest = np.divmod(values, 10_000.0)
