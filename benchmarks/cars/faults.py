@@ -65,7 +65,8 @@ def said(answer: Diagnosis, before: Diagnosis | None = None) -> str:
 
     ``before``: of the recordings as they are; what was named of these is left out.
     """
-    known = {_kind(effect) for effect in before.effects} if before else set()
+    known = {_kind(effect): label_of(effect, before.effects) for effect in before.effects
+             } if before else {}
     words = []
     for effect, aliases in zip(answer.effects, answer.alias_sets, strict=True):
         if _kind(effect) in known:
@@ -74,7 +75,10 @@ def said(answer: Diagnosis, before: Diagnosis | None = None) -> str:
         others = [name for name in dict.fromkeys(aliases.names) if name != effect.name]
         words.append(": ".join(filter(None, (label_of(effect, answer.effects), amounts)))
                      + (f" (or {', '.join(others)})" if others else ""))
-    return "; ".join(words) or ("nothing" if before else f"{answer.verdict}, nothing named")
+    kept = {_kind(effect) for effect in answer.effects}
+    lost = [label for kind, label in known.items() if kind not in kept]
+    text = "; ".join(words) or ("nothing" if before else f"{answer.verdict}, nothing named")
+    return f"{text}; no longer {', '.join(lost)}" if lost else text
 
 
 def _kind(effect: Effect) -> tuple[object, ...]:

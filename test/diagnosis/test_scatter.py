@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from types import SimpleNamespace
+from typing import cast
 
 import numpy as np
 import pytest
 from scipy.stats import chi2
 
+from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.fit.linear import Projector
 from truck_blowout_sim.diagnosis.fit.scatter import Chance, Scatter, independent
 from truck_blowout_sim.diagnosis.fit.shown import SCATTERS, Part, Question, Shown
@@ -163,11 +166,14 @@ def test_what_one_effect_moves_is_no_scatter_of_the_others() -> None:
         assert found is not None
         return found
 
-    asked = [(("other", str(k)), question(one, residual)) for k, one in enumerate(alike)]
+    def named(name: str, place: str = "") -> Hypothesis:
+        return cast(Hypothesis, SimpleNamespace(key=(name, place)))
+
+    asked = [(named("other", str(k)), question(one, residual)) for k, one in enumerate(alike)]
     truth = question(own, residual)
     at_first = Scatter.of([one.shown(None) for _, one in asked] + [truth.shown(None)])
     change = 12.0 * own * acting
-    chance = Chance(at_first, 5.0, 0.02, (*asked, (("own", ""), truth)))
+    chance = Chance(at_first, 5.0, 0.02, (*asked, (named("own"), truth)))
     beside = chance.beside(("own", ""), change, np.zeros(1), residual - change)
     afresh = Scatter.of([question(one, residual - change).shown(residual - change)
                          for one in alike])

@@ -8,7 +8,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from truck_blowout_sim.diagnosis.result import BeatScores, Diagnosis, Location
+from truck_blowout_sim.diagnosis.result import (
+    BeatScores,
+    Diagnosis,
+    Evidence,
+    Location,
+    Place,
+    Showing,
+)
 from truck_blowout_sim.report.diagnosis_page import diagnosis_page, write_diagnosis_report
 from truck_blowout_sim.report.diagnosis_rows import interval_text
 from truck_blowout_sim.vehicle import Vehicle, load_vehicle
@@ -100,6 +107,16 @@ def test_an_answer_without_findings_is_a_page_too(name: str) -> None:
     assert "The model reproduces the recordings." in text
     assert "there is nothing to locate" in text
     assert "What is missing" not in text
+
+
+def test_what_would_have_shown_is_told_in_units_that_a_person_reads() -> None:
+    shows = (Showing("steering_angle_offset", Place("tractor"), "offset_rad", "rad", -0.02, 0.02),
+             Showing("road_bank", Place(), "bank_rad", "rad", None, None))
+    sound = Diagnosis("consistent", "Sound.", evidence=Evidence(would_show=shows))
+    text = read(diagnosis_page(sound, load_vehicle("ferrari_250lm"))).text
+    assert "What these recordings would have shown" in text
+    assert "steering_angle_offset tractor offset -1.15 deg 1.15 deg" in text
+    assert "road_bank – bank – –" in text
 
 
 def test_a_location_without_effects_is_drawn(diagnosis: Diagnosis, vehicle: Vehicle) -> None:

@@ -15,10 +15,12 @@ from truck_blowout_sim.diagnosis.result import (
     ChannelTimeMap,
     Diagnosis,
     Effect,
+    Evidence,
     Fit,
     Location,
     Parameter,
     Place,
+    Showing,
     Wrench,
     write_diagnosis,
 )
@@ -94,7 +96,17 @@ def test_the_file_has_the_promised_keys_and_values(tmp_path: Path) -> None:
             "channel.",
         },
         "pulled": [],
+        "would_show": [],
     }  # fmt: skip
+
+
+def test_what_would_have_been_named_is_written(tmp_path: Path) -> None:
+    one = Showing("road_grade", Place("tractor"), "grade_rad", "rad", None, 0.004)
+    sound = Diagnosis("consistent", "Sound.", evidence=Evidence(would_show=(one,)))
+    assert json.loads(written(sound, tmp_path))["would_show"] == [{
+        "name": "road_grade", "parameter": "grade_rad", "unit": "rad", "below": None,
+        "above": 0.004, "where": {"body": "tractor", "axle": None, "hub": None, "tire": None},
+    }]  # fmt: skip
 
 
 def test_the_order_of_channels_does_not_change_the_bytes(tmp_path: Path) -> None:

@@ -43,6 +43,7 @@ from truck_blowout_sim.diagnosis.name.search import search
 from truck_blowout_sim.diagnosis.prove.intervals import Timing, time_intervals
 from truck_blowout_sim.diagnosis.prove.next_test import Separation, best_test
 from truck_blowout_sim.diagnosis.prove.profile import Arms, arms_of
+from truck_blowout_sim.diagnosis.prove.showing import would_show
 from truck_blowout_sim.diagnosis.result import Diagnosis, Role
 from truck_blowout_sim.diagnosis.sensors import (
     GateResult,
@@ -176,6 +177,8 @@ def _material(study: Study, found: Found, gate: GateResult, vehicle: str,
                         find_beat(study, named), lagging_wheel(study, named, scatter),
                         turned_body(study, named, scatter) if sound else None,
                         unrest(study, named) if sound else Unrest())
+    if not named:
+        material = replace(material, would_show=would_show(study, found))
     if unexplained(material):
         told = as_told(material)
         material = replace(material, law=checked(told.study, _law(study, told.unnamed)))

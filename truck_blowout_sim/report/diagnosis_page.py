@@ -17,6 +17,7 @@ from truck_blowout_sim.report.diagnosis_rows import (
     effect_row,
     location_rows,
     ranked,
+    showing_row,
 )
 from truck_blowout_sim.report.page import render, write_text
 from truck_blowout_sim.vehicle import Vehicle
@@ -91,6 +92,7 @@ def diagnosis_page(diagnosis: Diagnosis, vehicle: Vehicle, panels: int | None = 
         "candidates": candidates,
         "candidate_heads": [h for h in _HEADS if any(row[str(h["key"])] for row in candidates)],
         "printed_candidates": _PRINTED_CANDIDATES,
+        "would_show": [showing_row(one) for one in evidence.would_show],
         "candidates_picture": pictures.candidates,
         "fit": pictures.fit,
         "overlays": pictures.overlays,

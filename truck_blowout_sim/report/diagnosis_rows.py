@@ -13,9 +13,11 @@ from truck_blowout_sim.diagnosis.result import (
     Effect,
     Interval,
     Location,
+    Showing,
     amount_text,
     label_of,
     plain,
+    size_text,
 )
 from truck_blowout_sim.diagnosis.result.evidence import FAR
 
@@ -68,6 +70,14 @@ def candidate_row(candidate: Candidate) -> Row:
         "style": style,
         "reason": candidate.reason,
     }
+
+
+def showing_row(one: Showing) -> Row:
+    """A cause with the smallest amounts that would have been named."""
+    below, above = (_ABSENT if end is None else size_text(one.parameter, end, one.unit)
+                    for end in (one.below, one.above))
+    return {"name": one.name, "where": str(one.where) or _ABSENT, "number": plain(one.parameter),
+            "below": below, "above": above}
 
 
 def calibrated_row(number: Calibrated) -> Row:

@@ -47,6 +47,7 @@ from truck_blowout_sim.diagnosis.result import (
     Evidence,
     Fit,
     Location,
+    Showing,
     Verdict,
     Wrench,
 )
@@ -73,6 +74,7 @@ class Material:
         beat: a periodic force too fast for the bins; ``lag``: a wheel that a drag holds back;
             ``posture``: a body that stands turned; ``unrest``: a channel that nothing calms.
         lockup: a wheel that stood, so that the model goes without anti-lock control.
+        would_show: smallest amounts that would be named, where nothing was.
     """
 
     study: Study
@@ -90,6 +92,7 @@ class Material:
     posture: Posture | None = None
     unrest: Unrest = field(default_factory=Unrest)
     lockup: Lockup | None = None
+    would_show: tuple[Showing, ...] = ()
 
     @cached_property
     def squares(self) -> tuple[float, ...]:
@@ -305,7 +308,9 @@ def gather(material: Material, told: Material) -> Evidence:
     return Evidence(
         vehicle=material.vehicle,
         recordings=tuple((r.recording.name, r.role) for r in (*study.runs, *study.holdout)),
-        candidates=evidence.candidates(found), maps=evidence.maps(study, found),
+        candidates=evidence.candidates(found), would_show=(
+            material.would_show if decide(material) in ("consistent", "miscalibrated") else ()),
+        maps=evidence.maps(study, found),
         overlays=evidence.overlays(study, found),
         forces=tuple(w.history for w in material.wrenches),
         beats=material.beat.scores if material.beat else None,

@@ -54,13 +54,13 @@ class Ranking:
         ranked: the most promising first, each supported as far as its linear column goes.
         scatter: how far apparent amounts differ from run to run in this case.
         independent: how many independent questions were asked.
-        questions: with the key of each candidate that a training run shows.
+        questions: with each candidate that a training run shows.
     """
 
     ranked: tuple[Ranked, ...]
     scatter: Scatter
     independent: float
-    questions: tuple[tuple[tuple[str, str], Question], ...]
+    questions: tuple[tuple[Hypothesis, Question], ...]
 
 
 def _jobs(study: Study, hypothesis: Hypothesis, named: Sequence[Hypothesis]
@@ -114,7 +114,7 @@ def rank_steady(study: Study, candidates: Sequence[Hypothesis],
             part for i, at_i in enumerate(rows) for part in parts_of(
                 study.runs[i], at_i.start, column[at_i], i in study.train, episode_s, manner[i])],
             candidate.effect.strays(study.packed, study.grip_used), (low, high))
-        questions.append((candidate.key, question))
+        questions.append((candidate, question))
         shown.append(question.shown(removed - found.amount * clean) if question else None)
     scatter = Scatter.of([one for one in shown if one])
     ranked = [replace(r, support=scatter.support(one)) if one else r
@@ -122,7 +122,7 @@ def rank_steady(study: Study, candidates: Sequence[Hypothesis],
     asked = np.stack(acting, axis=1) if columns else np.zeros((0, 0))
     return Ranking(tuple(sorted(ranked, key=lambda r: (-r.promise, r.hypothesis.key))), scatter,
                    independent(asked, usual) if columns else 0.0,
-                   tuple((key, one) for key, one in questions if one))
+                   tuple((which, one) for which, one in questions if one))
 
 
 def _cleaned(study: Study, candidates: Sequence[Hypothesis], named: Sequence[Hypothesis],

@@ -34,6 +34,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.stats import chi2
 
+from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.fit.independent import independent_among
 from truck_blowout_sim.diagnosis.fit.linear import Projector
 from truck_blowout_sim.diagnosis.fit.shown import SCATTERS, Question, Shown
@@ -89,14 +90,14 @@ class Chance:
     Attributes:
         scatter: of the case; ``independent``: how many independent hypotheses were tried.
         rate: share of such searches in which anything may be named.
-        questions: what was asked, each with the key of its hypothesis.
+        questions: what was asked, each with its hypothesis.
         further: support asked beyond chance, where something else was found already.
     """
 
     scatter: Scatter
     independent: float
     rate: float
-    questions: Sequence[tuple[tuple[str, str], Question]] = ()
+    questions: Sequence[tuple[Hypothesis, Question]] = ()
     further: float = 0.0
 
     def beside(self, key: tuple[str, str], change: Floats, reach: Floats, left: Floats) -> Scatter:
@@ -107,7 +108,7 @@ class Chance:
         if not self.questions:
             return self.scatter
         return Scatter.of([one.beside(change, reach).shown(left)
-                           for other, one in self.questions if other != key])
+                           for other, one in self.questions if other.key != key])
 
     @property
     def _questions(self) -> float:

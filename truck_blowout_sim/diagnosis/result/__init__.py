@@ -10,6 +10,7 @@ from truck_blowout_sim.diagnosis.result.evidence import (
     ForceHistory,
     Overlay,
     Role,
+    Showing,
 )
 from truck_blowout_sim.diagnosis.result.parts import (
     KINDS,
@@ -31,6 +32,7 @@ from truck_blowout_sim.diagnosis.result.summary import (
     amount_text,
     label_of,
     plain,
+    size_text,
     summarize,
 )
 
@@ -55,12 +57,14 @@ __all__ = [
     "Parameter",
     "Place",
     "Role",
+    "Showing",
     "Summary",
     "Verdict",
     "Wrench",
     "amount_text",
     "label_of",
     "plain",
+    "size_text",
     "summarize",
     "write_diagnosis",
 ]

@@ -52,6 +52,25 @@ class Candidate:
     amount: str = ""
 
 
+@dataclass(frozen=True)
+class Showing:
+    """The smallest amounts of a cause that these recordings would show.
+
+    Attributes:
+        name, where: what and where.
+        parameter, unit: which number of it, in SI.
+        below, above: to either side of what a vehicle without it has; ``None`` where no amount up
+            to the physical end would be named.
+    """
+
+    name: str
+    where: Place
+    parameter: str
+    unit: str
+    below: float | None
+    above: float | None
+
+
 @dataclass(frozen=True, eq=False)
 class ChannelTimeMap:
     """Mismatch of each channel in each stretch of time, in sigma; NaN where not measured.
@@ -157,6 +176,7 @@ class Evidence:
         vehicle: name of the vehicle file that was diagnosed.
         recordings: (name, role) of each.
         candidates: ranked, best first.
+        would_show: where nothing was named, what would have been: see its class.
         maps, overlays, forces, beats: see their classes.
         calibrated: spec-sheet numbers that were estimated, whatever came out.
         equations: what the diagnosed model adds, one line each.
@@ -172,6 +192,7 @@ class Evidence:
     vehicle: str = ""
     recordings: tuple[tuple[str, Role], ...] = ()
     candidates: tuple[Candidate, ...] = ()
+    would_show: tuple[Showing, ...] = ()
     maps: tuple[ChannelTimeMap, ...] = ()
     overlays: tuple[Overlay, ...] = ()
     forces: tuple[ForceHistory, ...] = ()

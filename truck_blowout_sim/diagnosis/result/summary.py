@@ -53,11 +53,9 @@ def plain(name: str) -> str:
 
 def amount_text(name: str, parameter: Parameter) -> str:
     """A parameter with its 90 % interval, in units that a person reads."""
-    factor, unit = _SHOWN.get(parameter.unit, (1.0, f" {parameter.unit}"))
-    if name in _SHARES:
-        factor, unit = 100.0, " %"
+    factor, _ = _read_in(name, parameter.unit)
     low, high = (_number(factor * end) for end in parameter.ci90)
-    text = f"{_number(factor * parameter.value)}{unit}"
+    text = size_text(name, parameter.value, parameter.unit)
     if not any(math.isfinite(end) for end in parameter.ci90):
         return f"{text} (no bounds)"
     if not math.isfinite(parameter.ci90[0]):
@@ -65,6 +63,17 @@ def amount_text(name: str, parameter: Parameter) -> str:
     if not math.isfinite(parameter.ci90[1]):
         return f"{text} (90 %: from {low})"
     return f"{text} (90 %: {low} to {high})"
+
+
+def size_text(name: str, value: float, unit: str) -> str:
+    """A parameter's value in units that a person reads."""
+    factor, words = _read_in(name, unit)
+    return f"{_number(factor * value)}{words}"
+
+
+def _read_in(name: str, unit: str) -> tuple[float, str]:
+    """Factor and words of the unit in which a person reads a parameter."""
+    return (100.0, " %") if name in _SHARES else _SHOWN.get(unit, (1.0, f" {unit}"))
 
 
 def label_of(effect: Effect, effects: Sequence[Effect]) -> str:

@@ -4,7 +4,8 @@
     "equation", "sentence"}], "alias_sets", "location": {"channels", "interval_s", "body",
     "line_of_action_x_m", "line_of_action_ci90_m", "wrench"}, "fit", "null_p_value", "next_test",
     "summary": {"wrong", "sure", "changed"}, "pulled": [{"name", "value", "unit", "ci90",
-    "prior_sigmas"}]}; an effect of an instrument has "instrument" and "channels" beside these.
+    "prior_sigmas"}], "would_show": [{"name", "where", "parameter", "unit", "below", "above"}]}; an
+    effect of an instrument has "instrument" and "channels" beside these.
 
 Null stands where something does not apply, was not asked, or is left open by the data.
 
@@ -42,6 +43,7 @@ def encode_diagnosis(diagnosis: Diagnosis) -> Object:
         "next_test": diagnosis.next_test,
         "summary": asdict(summarize(diagnosis)),
         "pulled": [_number(n) for n in diagnosis.evidence.calibrated if abs(n.pull) > FAR],
+        "would_show": [asdict(one) for one in diagnosis.evidence.would_show],
     }
 
 
