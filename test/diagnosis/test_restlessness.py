@@ -9,17 +9,23 @@ import numpy as np
 import pytest
 from scipy.signal import lfilter
 
+from truck_blowout_sim.diagnosis.case.calibration import calibrate
 from truck_blowout_sim.diagnosis.case.restlessness import (
     colors,
     long_run_variance,
     resting_level,
     whiten,
 )
+from truck_blowout_sim.diagnosis.case.runs import prepare_run
 from truck_blowout_sim.diagnosis.case.study import Study
 from truck_blowout_sim.diagnosis.fit.color import autocovariance
+from truck_blowout_sim.diagnosis.settings import Settings
+from truck_blowout_sim.recordings import Recording, Series
+from truck_blowout_sim.vehicle import Packed
 
 Studies = Callable[..., Study]
 CHANNEL = "tractor_yaw_rate_radps"
+STEP_S = 0.0025
 
 
 @pytest.mark.parametrize("decay", [0.0, 0.5, 0.8])
@@ -81,6 +87,24 @@ def test_without_baseline_runs_training_is_asked_and_its_color_taken_out(
     after = swinging.residual().reshape(shape)[:, k]
     assert swinging.runs[0].color.lags > 0
     assert np.mean(np.square(after)) < 0.3 * np.mean(np.square(before))
+
+
+@pytest.mark.parametrize("empties", [False, True])
+def test_a_tire_that_empties_is_no_color_of_its_gauge(
+    truck: Packed, few: Settings, drive_it: Callable[..., Recording], empties: bool
+) -> None:
+    """Without baseline runs, it would hide by its own color: a gauge reads 0 and nobody notices."""
+    run, name = drive_it(), "tire_pressure_trailer_1_left_outer_pa"
+    time_s = run["steering_wheel_angle_rad"].time_s
+    full = truck["tire.trailer_1_left_outer.pressure_pa"]
+    left = np.exp(-np.maximum(time_s - 5.0, 0.0)) if empties else np.ones(time_s.size)
+    noise = 500.0 * np.random.default_rng(3).standard_normal(time_s.size)
+    gauge = run.with_channels({name: Series(time_s, full * left + noise)})
+    study = Study((prepare_run(gauge, "train", truck, few, step_s=STEP_S),), (), truck, few)
+    calibrate(study)
+    k, shape = study.runs[0].channels.index(name), study.runs[0].measured.shape
+    worst = np.abs(study.residual().reshape(shape)[:, k]).max()
+    assert worst > 4.0 if empties else worst < 0.5
 
 
 def test_what_is_missing_in_training_does_not_widen_the_channel_that_shows_it(

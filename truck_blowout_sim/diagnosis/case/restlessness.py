@@ -8,7 +8,8 @@ color is not taken over: a model errs by the maneuver, and training drives other
 
 Without baseline runs only the training runs tell. There an effect must stand out of what the
 channel does at all times: its color is taken out of every run (`color.py`), and one that is calmer
-in the long run than the guess keeps its color and is raised to the guess.
+in the long run than the guess keeps its color and is raised to the guess. A gauge of a tire shows
+its color only while the tire holds its air.
 
 References: Newey and West 1987 (long-run variance with a Bartlett window); Friston et al. 2002
 (estimated variance components in brain imaging); Worsley et al. 2002 (autoregressions there).
@@ -25,6 +26,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from truck_blowout_sim.diagnosis.case.emptying import began_to_empty_s
 from truck_blowout_sim.diagnosis.case.runs import Run
 from truck_blowout_sim.diagnosis.case.study import Study, row_ranges
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
@@ -80,11 +82,23 @@ def _autocovariances(study: Study) -> Mapping[str, Floats]:
         run = study.runs[i]
         z = run.color.colored(left[rows[i]].reshape(run.measured.shape))
         for k, name in enumerate(run.channels):
-            seen = np.isfinite(run.measured[:, k])
+            resting = run.edges_s[1:] <= _holds_air_until_s(run, name)
+            seen = np.isfinite(run.measured[:, k]) & resting
             if seen.sum() >= _FEWEST_WINDOWS * lags:
                 sums[name] = sums.get(name, 0.0) + autocovariance(z[seen, k], lags)
                 counts[name] = counts.get(name, 0) + int(seen.sum())
     return {name: sums[name] / counts[name] for name in sums}
+
+
+def _holds_air_until_s(run: Run, channel: str) -> float:
+    """Up to when a channel tells how it rests: a gauge of a tire, while this holds its air.
+
+    Else the emptying of a tire would be the color of its gauge, and hide.
+    """
+    if not channel.startswith("tire_pressure_"):
+        return np.inf
+    began = began_to_empty_s(run.recording[channel])
+    return np.inf if began is None else began
 
 
 def _wide_enough(covariance: Floats) -> Color:

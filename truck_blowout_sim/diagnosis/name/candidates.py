@@ -4,21 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
 
-import numpy as np
-from numpy.typing import NDArray
-
+from truck_blowout_sim.diagnosis.case.emptying import began_to_empty_s
 from truck_blowout_sim.diagnosis.case.study import Study
 from truck_blowout_sim.diagnosis.effects import LIBRARY, Effect, secondary_blowout, yaw_rate_scale
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.result.parts import Place
 from truck_blowout_sim.errors import InputError, nearest
 from truck_blowout_sim.vehicle.schema.axle import CIRCUITS
-
-Floats = NDArray[np.float64]
-_PRESSURE_SEEN = 0.03  # share that stands out of a gauge's noise
-_FULL_S, _FEWEST_FULL = 0.2, 3  # readings that tell the pressure at the start
-_FEWEST_LOW = 3  # fewer may be a gauge that slips
-_PRESSURE_LOST = 0.3  # share of its pressure a tire must lose to count as failed by itself
 
 
 def known_names(names: Collection[str]) -> tuple[str, ...]:
@@ -84,8 +76,6 @@ def failed_tires(study: Study, runs: Sequence[int]) -> Mapping[str, Mapping[str,
     """Tires whose recorded pressure falls without a command: {tire: {run: instant}}.
 
     None where that is not to be considered.
-
-    The instant is where the line through two early levels of the pressure leaves the first one.
     """
     found: dict[str, dict[str, float]] = {}
     if secondary_blowout.EFFECT not in considered(study):
@@ -97,23 +87,10 @@ def failed_tires(study: Study, runs: Sequence[int]) -> Mapping[str, Mapping[str,
             name = f"tire_pressure_{tire}_pa"
             if tire in told or name not in run.recording:
                 continue
-            series = run.recording[name]
-            full = max(round(_FULL_S / series.period_s), _FEWEST_FULL)
-            start = float(np.median(series.value[:full]))
-            low = np.flatnonzero(series.value < (1.0 - _PRESSURE_LOST) * start)
-            if low.size >= _FEWEST_LOW:
-                began = _began(series.time_s[:low[0] + 1], series.value[:low[0] + 1] / start)
+            began = began_to_empty_s(run.recording[name])
+            if began is not None:
                 found.setdefault(tire, {})[run.recording.name] = began
     return found
-
-
-def _began(time_s: Floats, share: Floats) -> float:
-    """When a pressure that ends at ``1 - _PRESSURE_LOST`` of its first level began to fall."""
-    last = np.flatnonzero(share > 1.0 - _PRESSURE_SEEN)
-    first = float(time_s[last[-1]] if last.size else time_s[0])
-    seen, lost = _PRESSURE_SEEN, float(1.0 - share[-1])
-    return max(first - (float(time_s[-1]) - first) * seen / max(lost - seen, seen),
-               float(time_s[0]))
 
 
 def unwatched_tires(study: Study) -> tuple[Place, ...]:
