@@ -71,7 +71,7 @@ def test_the_weak_brake_is_the_answer(case: Case) -> None:
 def test_the_file_has_the_promised_keys(case: Case) -> None:
     answer = case.answer
     assert list(answer) == ["verdict", "effects", "alias_sets", "location", "fit", "null_p_value",
-                            "next_test", "summary", "pulled"]
+                            "next_test", "summary", "pulled", "would_show"]
     assert set(answer["effects"][0]) == {"name", "kind", "where", "onset_s", "onset_ci90_s",
                                          "parameters", "equation", "sentence"}
     assert set(answer["location"]) == {"channels", "interval_s", "body", "line_of_action_x_m",

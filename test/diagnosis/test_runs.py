@@ -13,7 +13,7 @@ from truck_blowout_sim.diagnosis.effects import LIBRARY
 from truck_blowout_sim.diagnosis.fit.instants import grid_of
 from truck_blowout_sim.diagnosis.settings import Settings
 from truck_blowout_sim.errors import InputError
-from truck_blowout_sim.recordings import Blowout, Recording, Series
+from truck_blowout_sim.recordings import Recording, Series
 from truck_blowout_sim.simulation.drive import run_drive
 from truck_blowout_sim.vehicle import Packed
 
@@ -139,19 +139,6 @@ def test_a_step_that_does_not_divide_the_samples_corrects_as_well(
                  for step_s in (0.004, 0.001))
     z = fine.residual(fine.simulated(truck)) - odd.residual(odd.simulated(truck))
     assert np.sqrt(np.mean(z**2)) < 0.3
-
-
-def test_from_a_braked_flat_tire_on_less_is_believed(
-    truck: Packed, few: Settings, drive_it: Drives
-) -> None:
-    intact = drive_it()
-    flat = replace(intact, blowouts=(Blowout(2.0, ("steer_left",)),))
-    plain, wide = (prepare_run(one, "train", truck, few, step_s=0.005) for one in (intact, flat))
-    share = wide.sigma[:, plain.channels.index("tractor_vx_mps")] / plain.sigma[
-        :, plain.channels.index("tractor_vx_mps")]
-    middles = 0.5 * (plain.edges_s[1:] + plain.edges_s[:-1])
-    assert share[middles < 4.5] == pytest.approx(1.0)
-    assert (share[middles > 5.5] > 1.5).all()
 
 
 def test_where_the_coarse_step_is_no_use_the_fine_one_is_taken(
