@@ -128,6 +128,15 @@ def test_a_location_without_effects_is_drawn(diagnosis: Diagnosis, vehicle: Vehi
     assert "1.00 to 2.50 s" in read(diagnosis_page(nowhere, vehicle)).text
 
 
+def test_a_quick_page_has_the_printed_pictures_only(diagnosis: Diagnosis, vehicle: Vehicle
+                                                    ) -> None:
+    brief, whole = (diagnosis_page(diagnosis, vehicle, panels) for panels in (0, None))
+    assert 2 <= brief.count("<img") < whole.count("<img")
+    before = brief[:brief.index("All figures")]
+    assert before.count("<img") >= brief.count("<img") - 1
+    assert read(brief).text.startswith(read(whole).text[:500])
+
+
 def test_what_beats_is_drawn(diagnosis: Diagnosis, vehicle: Vehicle) -> None:
     every = np.linspace(2.9, 3.3, 50)
     score = 20.0 * np.exp(-((every - 3.1) / 0.02) ** 2)

@@ -46,7 +46,7 @@ def write_diagnosis_report(diagnosis: Diagnosis, vehicle: Vehicle, path: Path,
 
     Args:
         panels: overlays drawn of each recording, the worst channels first, and then only the
-            worst map of each role; None: all of both.
+            worst map of each role; with 0 only the pictures that are printed; None: all.
 
     Raises:
         StorageError: it cannot be written.

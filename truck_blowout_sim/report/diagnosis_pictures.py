@@ -53,21 +53,25 @@ def diagnosis_pictures(
 ) -> DiagnosisPictures:
     """Draw everything there is evidence for.
 
-    ``panels``: of a recording only so many overlays, and of each role only the worst map.
+    ``panels``: of a recording only so many overlays, and of each role only the worst map; with 0
+    only what is printed.
     """
-    evidence = diagnosis.evidence
+    evidence, printed = diagnosis.evidence, panels == 0
     fits = {"train": diagnosis.train, "holdout": diagnosis.holdout}
     return DiagnosisPictures(
         worst=_worst(diagnosis, labels),
         truck=_truck(diagnosis, vehicle),
         maps=tuple(map_picture(m, labels, k)
                    for k, m in enumerate(_maps(evidence.maps, panels is not None), 1)),
-        forces=tuple(force_picture(f, k) for k, f in enumerate(evidence.forces, 1)),
+        forces=() if printed else tuple(
+            force_picture(f, k) for k, f in enumerate(evidence.forces, 1)),
         beats=beat_picture(evidence.beats) if evidence.beats else None,
-        candidates=candidates_picture(evidence.candidates) if evidence.candidates else None,
+        candidates=(candidates_picture(evidence.candidates)
+                    if evidence.candidates and not printed else None),
         fit=fit_picture(fits, labels) if any(f.before for f in fits.values()) else None,
         overlays=_overlays(evidence.overlays, labels, panels, evidence.blowouts),
-        pulls=pulls_picture(evidence.calibrated) if evidence.calibrated else None,
+        pulls=(pulls_picture(evidence.calibrated)
+               if evidence.calibrated and not printed else None),
     )
 
 
