@@ -130,7 +130,7 @@ def test_a_location_without_effects_is_drawn(diagnosis: Diagnosis, vehicle: Vehi
 
 def test_a_quick_page_has_the_printed_pictures_only(diagnosis: Diagnosis, vehicle: Vehicle
                                                     ) -> None:
-    brief, whole = (diagnosis_page(diagnosis, vehicle, panels) for panels in (0, None))
+    brief, whole = (diagnosis_page(diagnosis, vehicle, short) for short in (True, False))
     assert 2 <= brief.count("<img") < whole.count("<img")
     before = brief[:brief.index("All figures")]
     assert before.count("<img") >= brief.count("<img") - 1

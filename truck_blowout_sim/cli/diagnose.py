@@ -36,7 +36,6 @@ SEVERAL = ("--baseline", "--holdout")
 _FILES = ("diagnosis.json", "vehicle.yaml", "report.html")
 _KEPT = ".resume"  # in the output folder, until the answer is written
 _CONTINUES = "the same command continues from here"
-_QUICK_PANELS = 0
 _OF_SENSITIVITIES = 25.0  # as many times as long take four effects
 SETTINGS: Any = typer.Option(
     "default", help="File in config/diagnosis: what is assumed of trucks and instruments.",
@@ -115,7 +114,7 @@ def command(
             impose_speed=impose_speed, effort=level, without=without, kept=kept,
             progress=_reporter(progress, task, thorough))
         progress.update(task, description="drawing", completed=1.0)
-        _write(answer, loaded, vehicle, values, output, _QUICK_PANELS if quick else None)
+        _write(answer, loaded, vehicle, values, output, brief=quick)
     if corrected is not None:
         _write_corrected(answer, {"train": train, "baseline": base, "holdout": hold}, corrected)
     if as_json:
@@ -182,7 +181,7 @@ def _write_corrected(answer: Diagnosis, runs: Mapping[str, Sequence[Recording]],
 
 
 def _write(answer: Diagnosis, vehicle: Vehicle, base: str, values: Mapping[str, float],
-           folder: Path, panels: int | None) -> None:
+           folder: Path, brief: bool) -> None:
     """The three files of an answer."""
     from truck_blowout_sim.diagnosis import write_diagnosed_vehicle, write_diagnosis
     from truck_blowout_sim.report.diagnosis_page import write_diagnosis_report
@@ -193,7 +192,7 @@ def _write(answer: Diagnosis, vehicle: Vehicle, base: str, values: Mapping[str, 
     # thousands of small parts of figures make the collector search all that was loaded before
     gc.disable()
     try:
-        write_diagnosis_report(answer, vehicle, folder / "report.html", panels)
+        write_diagnosis_report(answer, vehicle, folder / "report.html", brief)
     finally:
         gc.enable()
 

@@ -11,7 +11,13 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from truck_blowout_sim.diagnosis.answer.outcome import Material, answer, as_told, unexplained
+from truck_blowout_sim.diagnosis.answer.outcome import (
+    Material,
+    answer,
+    as_told,
+    decide,
+    unexplained,
+)
 from truck_blowout_sim.diagnosis.case.antilock import MODE, as_braked
 from truck_blowout_sim.diagnosis.case.calibration import calibrate
 from truck_blowout_sim.diagnosis.case.fingerprints import case_parts
@@ -177,7 +183,7 @@ def _material(study: Study, found: Found, gate: GateResult, vehicle: str,
                         find_beat(study, named), lagging_wheel(study, named, scatter),
                         turned_body(study, named, scatter) if sound else None,
                         unrest(study, named) if sound else Unrest())
-    if not named:
+    if decide(material) in ("consistent", "miscalibrated"):
         material = replace(material, would_show=would_show(study, found))
     if unexplained(material):
         told = as_told(material)

@@ -41,30 +41,29 @@ _HEADS: tuple[Mapping[str, object], ...] = (
 
 
 def write_diagnosis_report(diagnosis: Diagnosis, vehicle: Vehicle, path: Path,
-                           panels: int | None = None) -> None:
+                           brief: bool = False) -> None:
     """Write the page; it needs no other file.
 
     Args:
-        panels: overlays drawn of each recording, the worst channels first, and then only the
-            worst map of each role; with 0 only the pictures that are printed; None: all.
+        brief: only the pictures that are printed, and of each role only the worst map.
 
     Raises:
         StorageError: it cannot be written.
     """
-    write_text(diagnosis_page(diagnosis, vehicle, panels), path)
+    write_text(diagnosis_page(diagnosis, vehicle, brief), path)
 
 
-def diagnosis_page(diagnosis: Diagnosis, vehicle: Vehicle, panels: int | None = None) -> str:
+def diagnosis_page(diagnosis: Diagnosis, vehicle: Vehicle, brief: bool = False) -> str:
     """The page as HTML.
 
     Args:
         diagnosis: the answer with its evidence.
         vehicle: the vehicle as given, for its geometry and the names of its channels.
-        panels: see :func:`write_diagnosis_report`.
+        brief: see :func:`write_diagnosis_report`.
     """
     labels = labels_for(vehicle)
     evidence, words = diagnosis.evidence, _VERDICTS[diagnosis.verdict]
-    pictures = diagnosis_pictures(diagnosis, vehicle, labels, panels)
+    pictures = diagnosis_pictures(diagnosis, vehicle, labels, brief)
     effects = [
         effect_row(effect, aliases, diagnosis.effects)
         for effect, aliases in zip(diagnosis.effects, diagnosis.alias_sets, strict=True)

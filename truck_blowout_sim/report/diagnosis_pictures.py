@@ -49,29 +49,28 @@ class DiagnosisPictures:
 
 @styled
 def diagnosis_pictures(
-    diagnosis: Diagnosis, vehicle: Vehicle, labels: Mapping[str, str], panels: int | None = None
+    diagnosis: Diagnosis, vehicle: Vehicle, labels: Mapping[str, str], brief: bool = False
 ) -> DiagnosisPictures:
     """Draw everything there is evidence for.
 
-    ``panels``: of a recording only so many overlays, and of each role only the worst map; with 0
-    only what is printed.
+    ``brief``: only what is printed, and of each role only the worst map.
     """
-    evidence, printed = diagnosis.evidence, panels == 0
+    evidence = diagnosis.evidence
     fits = {"train": diagnosis.train, "holdout": diagnosis.holdout}
     return DiagnosisPictures(
         worst=_worst(diagnosis, labels),
         truck=_truck(diagnosis, vehicle),
         maps=tuple(map_picture(m, labels, k)
-                   for k, m in enumerate(_maps(evidence.maps, panels is not None), 1)),
-        forces=() if printed else tuple(
+                   for k, m in enumerate(_maps(evidence.maps, brief), 1)),
+        forces=() if brief else tuple(
             force_picture(f, k) for k, f in enumerate(evidence.forces, 1)),
-        beats=beat_picture(evidence.beats) if evidence.beats else None,
+        beats=beat_picture(evidence.beats) if evidence.beats and not brief else None,
         candidates=(candidates_picture(evidence.candidates)
-                    if evidence.candidates and not printed else None),
+                    if evidence.candidates and not brief else None),
         fit=fit_picture(fits, labels) if any(f.before for f in fits.values()) else None,
-        overlays=_overlays(evidence.overlays, labels, panels, evidence.blowouts),
+        overlays=() if brief else _overlays(evidence.overlays, labels, evidence.blowouts),
         pulls=(pulls_picture(evidence.calibrated)
-               if evidence.calibrated and not printed else None),
+               if evidence.calibrated and not brief else None),
     )
 
 
@@ -126,7 +125,7 @@ def _maps(maps: tuple[ChannelTimeMap, ...], briefly: bool) -> tuple[ChannelTimeM
     return tuple(m for m in maps if worst[m.role] is m)
 
 
-def _overlays(overlays: tuple[Overlay, ...], labels: Mapping[str, str], panels: int | None,
+def _overlays(overlays: tuple[Overlay, ...], labels: Mapping[str, str],
               blowouts: Sequence[tuple[str, float, str]]) -> tuple[Picture, ...]:
     """One picture a recording and up to eight channels, training runs first."""
 
@@ -135,7 +134,7 @@ def _overlays(overlays: tuple[Overlay, ...], labels: Mapping[str, str], panels: 
 
     pictures: list[Picture] = []
     for (_, _), group in groupby(sorted(overlays, key=key), key=key):
-        members = list(group)[:panels]
+        members = list(group)
         for first in range(0, len(members), _MOST_PANELS):
             name = f"overlay_{len(pictures) + 1}"
             pictures.append(overlay_picture(members[first : first + _MOST_PANELS], labels, name,

@@ -308,8 +308,7 @@ def gather(material: Material, told: Material) -> Evidence:
     return Evidence(
         vehicle=material.vehicle,
         recordings=tuple((r.recording.name, r.role) for r in (*study.runs, *study.holdout)),
-        candidates=evidence.candidates(found), would_show=(
-            material.would_show if decide(material) in ("consistent", "miscalibrated") else ()),
+        candidates=evidence.candidates(found), would_show=material.would_show,
         maps=evidence.maps(study, found),
         overlays=evidence.overlays(study, found),
         forces=tuple(w.history for w in material.wrenches),
