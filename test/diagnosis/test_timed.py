@@ -114,6 +114,27 @@ def test_numbers_of_an_event_settle_together(study_of: Studies, truck: Packed) -
     assert found.delta > 0.0
 
 
+def test_what_no_sheet_says_of_a_wind_is_fitted_with_it(study_of: Studies, truck: Packed) -> None:
+    """A wind that pushes back and takes hold higher than the sheet has it."""
+    effect = next(e for e in LIBRARY if e.name == "crosswind")
+    place = next(p for p in effect.places(truck.vehicle) if p.body == "trailer")
+    true = Hypothesis(effect, place, 25.0, {"run 1": (2.33, 4.21)}, (0.0, 1.5, 1.0))
+    windy = true.apply(truck, "run 1")
+    assert effect.timed is not None
+    keys = [n.key.format(unit="trailer") for n in effect.form_numbers]
+    study = study_of({key: windy[key] for key in [
+        *effect.values(truck, place, 25.0), *effect.timed(truck, place, 2.33, 4.21), *keys]})
+    chi2 = study.projector().chi2(study.residual())
+    away = Ranked(replace(true, amount=20.0, times={"run 1": (2.5, 4.0)}, shape=()), 0.0, 1.0)
+    without = fit_event(study, replace(away, hypothesis=replace(
+        away.hypothesis, effect=replace(effect, form_numbers=()))), chi2)
+    found = fit_event(study, away, chi2)
+    assert found.delta > without.delta
+    assert abs(found.hypothesis.amount - 25.0) < abs(without.hypothesis.amount - 25.0)
+    assert found.hypothesis.shape[1] > 0.3
+    assert found.hypothesis.shape[2] > 0.3
+
+
 def test_a_tire_is_unwatched_where_its_pressure_is_not_recorded(study_of: Studies) -> None:
     study = study_of()
     run = study.runs[0]

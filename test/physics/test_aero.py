@@ -65,6 +65,11 @@ def test_a_gust_pushes_at_the_side_areas_middle_while_it_blows(
     moved = wrench(ahead, state, work, at)
     assert moved[:5] == pytest.approx(found[:5])
     assert moved[5] - found[5] == pytest.approx(1.5 * found[1])
+    raised = wrench(gusty.with_values({"unit.trailer.gust_up_m": 0.4}), state, work, at)
+    assert raised[:3] == pytest.approx(found[:3])
+    assert raised[3] - found[3] == pytest.approx(-0.4 * found[1])
+    pushed_back = wrench(gusty.with_values({"unit.trailer.gust_drag_share": 0.2}), state, work, at)
+    assert pushed_back[0] - found[0] == pytest.approx(-0.2 * found[1])
     state[0] = 3.3
     assert wrench(gusty, state, work, at)[1] == 0.0
     np.testing.assert_array_equal(wrench(ahead, state, work, at), wrench(truck, state, work, at))

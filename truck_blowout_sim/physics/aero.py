@@ -1,7 +1,8 @@
 """Aerodynamic drag and side force of one unit, steady wind and a gust.
 
 References: F = 0.5 rho A_d |v| v against the relative air; values with sources in
-config/vehicles (the thesis has none).
+config/vehicles (the thesis has none). Baker 1991, J. Fluids Struct. 5 (lorries in side winds: the
+axial force changes by a share of the side force).
 Known limits: the side force is linear in the air angle; no lift, no yaw damping of its own.
 Validated with: test/physics/test_aero.py (square law, drag budget, head wind, line of action).
 """
@@ -25,11 +26,14 @@ Floats = NDArray[np.float64]
 @core
 def add_air(x: Floats, s: int, p: Floats, a: int, work: Floats, w: int) -> None:
     """Add drag and side force of the unit whose state, parameters, work start at s, a, w."""
-    gust, side_x = p[a + UNIT.gust_mps], p[a + UNIT.side_x_m]
+    gust, side_x, side_z = p[a + UNIT.gust_mps], p[a + UNIT.side_x_m], p[a + UNIT.side_z_m]
+    back = 0.0
     if any_of(gust != 0.0):
         gust *= ramp(x[0], p[a + UNIT.gust_start_s], p[a + UNIT.gust_end_s],
                      p[a + UNIT.gust_ramp_s])
         side_x += where(gust != 0.0, p[a + UNIT.gust_ahead_m], 0.0)
+        side_z += where(gust != 0.0, p[a + UNIT.gust_up_m], 0.0)
+        back = where(gust != 0.0, p[a + UNIT.gust_drag_share], 0.0)
     wind_x = p[WORLD_AT + WORLD.wind_x_mps]
     wind_y = p[WORLD_AT + WORLD.wind_y_mps] + gust
     cy, sy = work[w + UNIT_W.cos_yaw], work[w + UNIT_W.sin_yaw]
@@ -38,5 +42,5 @@ def add_air(x: Floats, s: int, p: Floats, a: int, work: Floats, w: int) -> None:
     pressure = 0.5 * p[WORLD_AT + WORLD.air_density_kgpm3] * math.sqrt(vx * vx + vy * vy)
     area = p[a + UNIT.drag_area_m2] + p[a + UNIT.drag_area_extra_m2]
     add_force(work, w, (-pressure * area * vx, 0.0, 0.0), (0.0, 0.0, p[a + UNIT.drag_z_m]))
-    add_force(work, w, (0.0, -pressure * p[a + UNIT.side_area_m2] * vy, 0.0),
-              (side_x, 0.0, p[a + UNIT.side_z_m]))
+    push = -pressure * p[a + UNIT.side_area_m2] * vy
+    add_force(work, w, (-back * abs(push), push, 0.0), (side_x, 0.0, side_z))

@@ -153,6 +153,8 @@ class UnitParams(NamedTuple):
     gust_end_s: int
     gust_ramp_s: int
     gust_ahead_m: int  # how far the side force acts ahead of side_x_m while it blows
+    gust_up_m: int  # how far above side_z_m
+    gust_drag_share: int  # of the side force, that a gust pushes back
     payload_kg: int  # the part of mass that can shift
     payload_x_m: int
     payload_y_m: int

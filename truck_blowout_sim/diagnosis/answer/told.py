@@ -38,7 +38,8 @@ def physics_effect(ranked: Ranked, study: Study, timings: Mapping[str, Timing] |
     h = ranked.hypothesis
     amount = h.effect.amount
     # noise alone would give an interval far too narrow: the truth has another law than the model
-    form = study.settings.form(h.effect.name) * (h.amount - h.effect.neutral(study.packed))
+    share = float(np.hypot(study.settings.form(h.effect.name), amount.file_share))
+    form = share * (h.amount - h.effect.neutral(study.packed))
     wide = NINETY * float(np.hypot(ranked.sigma, form))
     below, above = arms.wider(form) if arms else (wide, wide)
     value = amount.report(h.amount)

@@ -35,6 +35,8 @@ class Amount:
             it grows with the vehicle. ``source``: where that is from.
         report: value to report from the amount; identity by default.
         grid: where a nonlinear search may start.
+        file_share: 1 sigma, a share, by which the number of the vehicle's file may be off that
+            turns the amount into a force.
         at_low: what to say at the lower bound, where nature reaches it; ``{percent}`` is the end
             of the 90 % interval. Empty where the bound is only the end of the search.
     """
@@ -48,7 +50,22 @@ class Amount:
     source: str
     report: Callable[[float], float] = lambda amount: amount
     grid: tuple[float, ...] = ()
+    file_share: float = 0.0
     at_low: str = ""
+
+
+@dataclass(frozen=True)
+class FormNumber:
+    """A number of an effect's law that no sheet has; fitted with the event, within its prior.
+
+    Attributes:
+        key: packed parameter, ``{unit}`` filled in.
+        sigma: 1 sigma about what the law has otherwise. ``source``: where that is from.
+    """
+
+    key: str
+    sigma: Callable[[Packed, Place], float]
+    source: str
 
 
 @dataclass(frozen=True)
@@ -64,6 +81,7 @@ class Effect:
             that grows over an interval and stays.
         ramp_s: how long a ramp grows, to begin with.
         timed: packed parameters for (place, start, end) of a timed effect.
+        form_numbers: what else of its law is fitted, of what begins at an instant.
         applies: which runs can show it at all.
         sentence: for a person; fields ``{where}``, ``{axles}``, ``{value}``, ``{percent}``,
             ``{onset}``.
@@ -99,6 +117,7 @@ class Effect:
     timing: Timing = "always"
     ramp_s: float = 0.0
     timed: Callable[[Packed, Place, float, float], Values] | None = None
+    form_numbers: tuple[FormNumber, ...] = ()
     applies: Literal["any", "blowout", "brakes"] = "any"
     kind: Kind = "physics"
     absorbs: str = ""

@@ -17,12 +17,14 @@ class Hypothesis:
 
     Attributes:
         times: (start, end) by run name; runs that are not listed do not have the event.
+        shape: the effect's ``form_numbers``, in sigmas; empty: all 0.
     """
 
     effect: Effect
     place: Place
     amount: float = 0.0
     times: Mapping[str, tuple[float, float]] = field(default_factory=dict)
+    shape: tuple[float, ...] = ()
 
     @property
     def key(self) -> tuple[str, str]:
@@ -48,7 +50,22 @@ class Hypothesis:
             if run not in self.times:
                 return packed
             values |= self.effect.timed(packed, self.place, *self.times[run])
+            values |= self._shaped(packed, values) if size != 0.0 else {}
         return packed.unchecked(values)
+
+    def _shaped(self, packed: Packed, values: Mapping[str, float]) -> dict[str, float]:
+        """Parameters that the numbers of the law move, from where the effect has them."""
+        moved = {}
+        for number, sigmas in zip(self.effect.form_numbers, self.shape, strict=False):
+            key = number.key.format(unit=self.place.body)
+            here = values[key] if key in values else packed[key]
+            moved[key] = here + sigmas * number.sigma(packed, self.place)
+        return moved
+
+    @property
+    def shape_cost(self) -> float:
+        """What the prior of the law's numbers adds to the sum of squares."""
+        return sum(sigmas * sigmas for sigmas in self.shape)
 
     def at(self, amount: float) -> Hypothesis:
         """The same with another amount."""

@@ -1,7 +1,8 @@
-"""Amount, starts and ends of an event fitted together.
+"""Amount, starts and ends of an event, and what else its law leaves open, fitted together.
 
 The instants are first searched one by one; then all numbers of the event move at once along the
 least-squares step, nuisances projected out, because a later start and a stronger amount look alike.
+Numbers of its law (`FormNumber`) begin where the law has them, and keep to their priors.
 
 References: Levenberg-Marquardt (Nocedal and Wright 2006, section 10.3): on the curved valley of a
 weaker and earlier event, a straight Gauss-Newton step soon leaves it.
@@ -25,6 +26,7 @@ from truck_blowout_sim.diagnosis.fit.refit import chi2_of
 
 Floats = NDArray[np.float64]
 _STEP_S = 0.06  # finite difference of an instant
+_STEP_SIGMA = 0.25  # finite difference of a number of the law
 _SHORTEST_S = 0.06  # an event lasts at least this long
 _ROUNDS = 8
 _DAMPING = (0.0, 0.1, 1.0, 10.0, 100.0)  # times the information on each number alone
@@ -38,9 +40,9 @@ def runs_with(study: Study, event: Hypothesis) -> list[int]:
 
 def event_columns(study: Study, event: Hypothesis, others: Sequence[Hypothesis] = ()
                   ) -> tuple[Floats, Floats]:
-    """Whitened change per unit of the amount and per second of each instant; how far each may go.
+    """Whitened change per unit of the amount, of each instant, and of each number of the law.
 
-    Returns [rows, 1 + edges * runs] and as many ranges.
+    Returns [rows, 1 + edges * runs + numbers], and as many ranges: how far each may go.
     """
     runs, edges = runs_with(study, event), event.effect.edges
     columns = [_amount_column(study, event, others, runs)]
@@ -48,7 +50,9 @@ def event_columns(study: Study, event: Hypothesis, others: Sequence[Hypothesis] 
     for i in runs:
         columns += [_edge_column(study, i, event, others, edge) for edge in range(edges)]
         ranges += [study.runs[i].length_s] * edges
-    return np.stack(columns, axis=1), np.array(ranges)
+    numbers = range(len(event.effect.form_numbers))
+    columns += [_shape_column(study, event, others, runs, k) for k in numbers]
+    return np.stack(columns, axis=1), np.array([*ranges, *(1.0 for _ in numbers)])
 
 
 def event_information(study: Study, event: Hypothesis, others: Sequence[Hypothesis],
@@ -65,19 +69,21 @@ def fit_event(study: Study, start: Ranked, chi2_null: float,
     event = start.hypothesis
     projector = study.projector([*named, event])
     models = models_at(study, [event], named)[0]
-    fall = chi2_null - chi2_of(study, projector, models)
+    fall = chi2_null - chi2_of(study, projector, models) - event.shape_cost
     sigma = start.sigma
     for _ in range(_ROUNDS):
         columns, ranges = event_columns(study, event, named)
         information = event_information(study, event, named, columns, ranges)
         slope = columns.T @ projector.remove(study.residual(models))
+        if event.shape:  # their prior pulls them back
+            slope[-len(event.shape):] -= event.shape
         sigma = float(np.linalg.inv(information)[0, 0] ** 0.5)
         before, alone = fall, np.diag(np.diag(information))
         for damping in _DAMPING:
             step = np.linalg.solve(information + damping * alone, slope)
             trial = _moved(study, event, np.asarray(step, dtype=np.float64))
             tried = models_at(study, [trial], named)[0]
-            gain = chi2_null - chi2_of(study, projector, tried)
+            gain = chi2_null - chi2_of(study, projector, tried) - trial.shape_cost
             if gain > fall:
                 event, models, fall = trial, tried, gain
                 break
@@ -100,7 +106,11 @@ def _moved(study: Study, event: Hypothesis, step: Floats) -> Hypothesis:
             end = max(end + float(by[1]), start + _SHORTEST_S)
         times[run.recording.name] = (start, end)
     at = float(np.clip(event.amount + step[0], amount.low, amount.high))
-    return replace(event, amount=at, times=times)
+    numbers = len(event.effect.form_numbers)
+    shape = event.shape or (0.0,) * numbers
+    moved = tuple(float(one + by)
+                  for one, by in zip(shape, step[step.size - numbers:], strict=True))
+    return replace(event, amount=at, times=times, shape=moved)
 
 
 def _amount_column(study: Study, event: Hypothesis, others: Sequence[Hypothesis],
@@ -123,6 +133,16 @@ def _edge_column(study: Study, i: int, event: Hypothesis, others: Sequence[Hypot
         span[edge] += by
         moved.append(replace(event, times={**event.times, name: (span[0], span[1])}))
     return study.stack({i: _change(study, i, moved[0], moved[1], others) / (2.0 * _STEP_S)})
+
+
+def _shape_column(study: Study, event: Hypothesis, others: Sequence[Hypothesis],
+                  runs: Sequence[int], k: int) -> Floats:
+    """Whitened change of the training runs per sigma of one number of the law."""
+    shape = event.shape or (0.0,) * len(event.effect.form_numbers)
+    low, high = (replace(event, shape=(*shape[:k], shape[k] + by, *shape[k + 1:]))
+                 for by in (-_STEP_SIGMA, _STEP_SIGMA))
+    return study.stack({i: _change(study, i, low, high, others) / (2.0 * _STEP_SIGMA)
+                        for i in runs})
 
 
 def _change(study: Study, i: int, before: Hypothesis, after: Hypothesis,

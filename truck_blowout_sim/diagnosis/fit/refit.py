@@ -34,6 +34,7 @@ def refit(study: Study, start: Ranked, chi2_null: float,
           named: Sequence[Hypothesis] = ()) -> Ranked:
     """The hypothesis at its best amount; calibration numbers that mean the same are held."""
     projector = study.projector([*named, start.hypothesis])
+    chi2_null -= start.hypothesis.shape_cost
     amount = start.hypothesis.effect.amount
     tries = sorted({float(np.clip(a, amount.low, amount.high))
                     for a in (start.hypothesis.amount, *amount.grid)})

@@ -127,6 +127,7 @@ def refine_times(study: Study, start: Ranked, chi2_null: float,
     """Move each run's instants by simulation, coarse to fine, at the present amount."""
     projector = study.projector([*named, start.hypothesis])
     best = start.hypothesis
+    chi2_null -= best.shape_cost
     models = models_at(study, [best], named)[0]
     fall = chi2_null - chi2_of(study, projector, models)
     for width in _REFINE_S:

@@ -28,6 +28,7 @@ from truck_blowout_sim.diagnosis.name.judging import at_bound
 from truck_blowout_sim.diagnosis.result.parts import Place
 
 _TIMED_COST = 8.0  # evidence that choosing an instant in a run costs
+_TURNS = 4
 _TIMED_SHARE = 0.15  # and the share that freedom of shape costs: steady causes come first
 _HOLES = (0.1, 0.3, 1.0)  # of that of a commanded blowout: where to begin
 _HALF = 0.5  # of what the best explains: less is no rival
@@ -96,8 +97,7 @@ def rank_events(study: Study, beside: Beside, chi2: float, chance: Chance,
             seen = one
             if curved:
                 one = simulated_start(study, one, chi2, named)
-            one = refine_times(study, one, chi2, named)
-            one = fit_event(study, refit(study, one, chi2, named), chi2, named)
+            one = fitted_event(study, one, chi2, named)
             one = (replace(one, support=seen.support, unseen=seen.unseen)
                    if one.hypothesis.effect.adds_up else supported(study, one, beside, chance))
             cost = _TIMED_COST * len(one.hypothesis.times) + _TIMED_SHARE * max(one.delta, 0.0)
@@ -107,6 +107,21 @@ def rank_events(study: Study, beside: Beside, chi2: float, chance: Chance,
     stands = any(r.support >= chance.asked for r in rivals if not r.hypothesis.effect.timed)
     # what acts all the time shows in unseen runs, too, and a long event imitates it
     return _confirmed(study, found, beside, chance, least, trusted=not stands)
+
+
+def fitted_event(study: Study, one: Ranked, chi2: float, named: Sequence[Hypothesis] = ()
+                 ) -> Ranked:
+    """Instants, amount and law of an event, by turns until they explain no more.
+
+    At a stronger amount, and another law, other instants are best, farther than a descent goes.
+    """
+    for _ in range(_TURNS):
+        before = one.delta if one.refitted else -np.inf
+        one = refit(study, refine_times(study, one, chi2, named), chi2, named)
+        one = fit_event(study, one, chi2, named)
+        if one.delta - before < _TIMED_COST or not one.hypothesis.effect.adds_up:
+            break
+    return one
 
 
 def _failed(study: Study, named: Sequence[Hypothesis], chi2: float, tire: str,

@@ -22,7 +22,6 @@ from truck_blowout_sim.diagnosis.prove.holdout import Prediction, predict
 from truck_blowout_sim.diagnosis.sensors import GateResult, SensorFinding
 
 Floats = NDArray[np.float64]
-_FLAWLESS = 0.25  # of what is usually left: no prediction is better than that
 _LAW = 0.5  # of what is left unexplained: how far inexact laws may change places
 ODDS = 2.0 * np.log(20.0)  # support by which an explanation is 20 times as likely as another
 _ALIKE = 0.4  # less evidence than the best by more than this share is no alias
@@ -76,16 +75,21 @@ def excess_of(study: Study, found: Found) -> float:
     return max(found.chi2_after - study.level * study.columns.shape[0], 0.0)
 
 
-def predicts_better(study: Study, before: Sequence[Prediction], after: Sequence[Prediction]
-                     ) -> float:
+def predicts_better(before: Sequence[Prediction], after: Sequence[Prediction]) -> float:
     """Log-likelihood gained on the holdout, twice, each run's own scale of error unknown.
 
     Squares alone would let the one run in which a law is least exact outvote all others.
     """
-    least = _FLAWLESS * study.level
-    return float(sum(a.left.size * np.log(max(b.chi2, least * a.left.size)
-                                          / max(a.chi2, least * a.left.size))
-                     for b, a in zip(before, after, strict=True)))
+    return sum(_surprise(b) - _surprise(a) for b, a in zip(before, after, strict=True))
+
+
+def _surprise(one: Prediction) -> float:
+    """Twice the negative log-likelihood of a run, its scale 1 or larger, but for a constant.
+
+    No smaller: rows that go together are calmer than their widths, and less alone.
+    """
+    seen = max(int(np.isfinite(one.run.measured).sum()), 1)
+    return one.chi2 if one.chi2 <= seen else seen * (1.0 + float(np.log(one.chi2 / seen)))
 
 
 def worth(one: Ranked) -> float:

@@ -122,7 +122,7 @@ def _holds(study: Study, found: Found, named: list[Ranked], ranked: Sequence[Ran
     if any(weakness(one, chance) for one in fitted):
         return None
     models, after = predict_with(study, [one.hypothesis for one in fitted])
-    if predicts_better(study, found.after, after) <= 0.0:
+    if predicts_better(found.after, after) <= 0.0:
         return None
     return Pair(fitted, ranked, models, after, chi2)
 

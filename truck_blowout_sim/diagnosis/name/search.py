@@ -199,7 +199,7 @@ def _believed(study: Study, found: Found, named: Sequence[Hypothesis], one: Rank
     there its support knows them, and only odds of 20 to 1 against it count.
     """
     models, after = predict_with(study, [*named, one.hypothesis])
-    better = predicts_better(study, found.after, after)
+    better = predicts_better(found.after, after)
     least = -ODDS if asks_unseen(one.hypothesis, named) else 0.0
     if study.holdout and better <= least and can_judge(study, one.hypothesis):
         return None, better

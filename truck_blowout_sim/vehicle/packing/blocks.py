@@ -40,6 +40,8 @@ NEUTRAL: dict[type[Any], dict[str, float]] = {
         "gust_end_s": inf,
         "gust_ramp_s": 0.5,
         "gust_ahead_m": 0.0,
+        "gust_up_m": 0.0,
+        "gust_drag_share": 0.0,
         "shift_x_m": 0.0,
         "shift_y_m": 0.0,
         "shift_start_s": inf,

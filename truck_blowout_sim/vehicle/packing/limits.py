@@ -84,11 +84,12 @@ OWN: dict[type[Any], dict[str, Rule]] = {
     layout.UnitParams: {
         **_each("ixy_kgm2 iyz_kgm2 yaw_rate_gain", _ANY),
         **_each("base_x_m base_y_m base_z_m hitch_x_m hitch_y_m hitch_z_m origin_x_m torsion_z_m "
-                "drag_z_m side_x_m side_z_m gust_ahead_m payload_x_m payload_y_m payload_z_m "
-                "shift_x_m shift_y_m", _PLACE),
+                "drag_z_m side_x_m side_z_m gust_ahead_m gust_up_m payload_x_m payload_y_m "
+                "payload_z_m shift_x_m shift_y_m", _PLACE),
         **_each("torsion_front_nmprad torsion_rear_nmprad", _from(0.0, "a stiffness; 0 is rigid")),
         "drag_area_extra_m2": _from(-10.0, "no truck has more drag area to lose"),
         "gust_mps": _either_way(100.0, "a wind; hurricanes blow with 80 m/s"),
+        "gust_drag_share": _either_way(1.0, "a side wind pushes sideways more than back"),
         **_each("gust_start_s gust_end_s shift_start_s probe_start_s probe_end_s", _ANY),
         **_each("gust_ramp_s probe_ramp_s", _RAMP),
         "payload_kg": _from(0.0, "a mass"),
