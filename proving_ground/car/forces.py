@@ -10,14 +10,24 @@ import math
 
 from proving_ground.car.acts import Acts
 from proving_ground.car.foreign import Numbers, njit
-from proving_ground.car.individual import RATIO
+from proving_ground.car.individual import POWER_W, RATIO
 from proving_ground.layout import FloatArray
 
 STEP_S = 1.0e-3
 AIR_DENSITY, SIDE_AREA_M2 = 1.18, 3.9
 PA_PER_MPS2 = 2.0e5                # brake pressure of a deceleration: 2 bar a m/s2
 LINE_LAG_S = 0.02
+GOVERNOR = 0.05                    # of top speed: from there on the engine cuts out
 GRAVITY_MPS2 = 9.81
+
+
+@njit
+def engine(x: FloatArray, p: Numbers, throttle: float) -> float:
+    """Acceleration that the engine gives, m/s2; no more where it turns as fast as at top speed."""
+    top = p.longitudinal.v_max
+    tread = 0.5 * (x[25] + x[26]) * p.R_w
+    left = min(1.0, max(0.0, (1.0 + GOVERNOR - tread / top) / GOVERNOR))
+    return left * throttle * POWER_W / max(x[3], 3.0) / p.m
 
 
 @njit

@@ -8,9 +8,9 @@ from functools import cache
 import numpy as np
 
 from proving_ground.car.acts import Acts
-from proving_ground.car.forces import STEP_S, lines, outside, road_wheel, slope, wheels
+from proving_ground.car.forces import STEP_S, engine, lines, outside, road_wheel, slope, wheels
 from proving_ground.car.foreign import Compiled, Numbers, derivative, njit
-from proving_ground.car.individual import POWER_W, CarIndividual
+from proving_ground.car.individual import CarIndividual
 from proving_ground.layout import FloatArray
 from proving_ground.run import Operator
 from proving_ground.task import Manoeuvre
@@ -44,8 +44,7 @@ def compiled_sample() -> Compiled:
     def rates(x: FloatArray, own: FloatArray, p: Numbers, acts: Acts, now: FloatArray,
               scale: FloatArray) -> FloatArray:
         """Derivatives of the foreign model with all that acts beside it."""
-        drive = now[1] * POWER_W / max(x[3], 3.0) / p.m
-        f = np.array(foreign(x, [now[2], drive], p))
+        f = np.array(foreign(x, [now[2], engine(x, p, now[1])], p))
         wheels(f, x, own, p, acts, now, scale)
         outside(f, x, own, p, acts, now)
         return f

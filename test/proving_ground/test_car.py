@@ -13,7 +13,7 @@ pytest.importorskip("vehiclemodels")
 
 from proving_ground.car.channels import gyros
 from proving_ground.car.effects import CAR_LISTED, CAR_UNLISTED, combine
-from proving_ground.car.forces import outside
+from proving_ground.car.forces import engine, outside
 from proving_ground.car.individual import draw, nominal
 from proving_ground.car.manoeuvres import KINDS, CarDriver, make
 from proving_ground.car.rig import CarRig
@@ -36,6 +36,15 @@ def test_the_vehicle_file_states_the_published_car() -> None:
     published, packed = nominal().car, pack(load_vehicle("bmw_320i"))
     assert packed["unit.tractor.mass_kg"] == pytest.approx(published["m_s"], rel=1e-4)
     assert packed["unit.tractor.ixx_kgm2"] == pytest.approx(published["I_Phi_s"], rel=1e-3)
+
+
+def test_the_engine_cuts_out_where_the_wheels_turn_as_fast_as_at_top_speed() -> None:
+    numbers, state = nominal().parameters(), np.zeros(29)
+    state[3] = 20.0
+    for tread_mps, share in ((20.0, 1.0), (50.8, 1.0), (50.8 * 1.025, 0.5), (60.0, 0.0)):
+        state[25:27] = tread_mps / numbers.R_w
+        given = engine(state, numbers, 0.5)
+        assert given == pytest.approx(share * 0.5 * 110e3 / 20.0 / numbers.m)
 
 
 def test_cars_differ_and_repeat() -> None:
