@@ -12,7 +12,8 @@ from truck_blowout_sim.diagnosis.effects import LIBRARY
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.fit.linear import Projector
 from truck_blowout_sim.diagnosis.fit.models import with_effects
-from truck_blowout_sim.diagnosis.prove.holdout import _Carried, _place
+from truck_blowout_sim.diagnosis.name.judging import predicts_better
+from truck_blowout_sim.diagnosis.prove.holdout import Prediction, _Carried, _place
 from truck_blowout_sim.vehicle import Packed
 
 Studies = Callable[..., Study]
@@ -61,3 +62,19 @@ def test_an_event_that_a_run_does_not_show_is_left_out(
     (run,), (columns,) = study.holdout, study.holdout_columns
     carried = _Carried(np.zeros(columns.shape[0]), Projector.of(0.0 * columns))
     assert _place(study, run, carried, (), gust) is None
+
+
+def test_a_badly_predicted_run_says_less_and_a_calm_one_no_more_than_its_squares(
+    study_of: Studies) -> None:
+    run = study_of(holdout={}).holdout[0]
+    seen = int(np.isfinite(run.measured).sum())
+
+    def better(before: float, after: float) -> float:
+        first, then = (Prediction(run, share * seen, run.residual(run.measured), ())
+                       for share in (before, after))
+        return predicts_better([first], [then])
+
+    assert better(0.6, 0.5) == pytest.approx(0.1 * seen)
+    assert better(8.0, 4.0) == pytest.approx(np.log(2.0) * seen)
+    assert better(2.0, 0.5) == pytest.approx(better(2.0, 1.0) + better(1.0, 0.5))
+    assert better(0.5, 0.6) == pytest.approx(-better(0.6, 0.5))

@@ -32,7 +32,7 @@ _LAW = (
                "half the distance of the places tried"),
     FormNumber("unit.{unit}.gust_up_m",
                lambda packed, place: 0.03 * length_m(packed, place.body or ""),
-               "engineering judgment: the middle of the side, to a tenth of its height"),
+               "engineering judgment: a car's to 0.1 m, a trailer's to 0.4 m"),
     FormNumber("unit.{unit}.gust_drag_share", lambda packed, place: 0.2,
                "Baker 1991: lorries 0.25 at 30 deg of air angle, 0 at 60; Hucho 1998: cars less"),
 )

@@ -28,7 +28,7 @@ from truck_blowout_sim.diagnosis.name.judging import at_bound
 from truck_blowout_sim.diagnosis.result.parts import Place
 
 _TIMED_COST = 8.0  # evidence that choosing an instant in a run costs
-_TURNS = 4
+_TURNS = 4  # at most: instants, then amount and law
 _TIMED_SHARE = 0.15  # and the share that freedom of shape costs: steady causes come first
 _HOLES = (0.1, 0.3, 1.0)  # of that of a commanded blowout: where to begin
 _HALF = 0.5  # of what the best explains: less is no rival
