@@ -32,7 +32,6 @@ _TURNS = 4  # at most: instants, then amount and law
 _TIMED_SHARE = 0.15  # and the share that freedom of shape costs: steady causes come first
 _HOLES = (0.1, 0.3, 1.0)  # of that of a commanded blowout: where to begin
 _HALF = 0.5  # of what the best explains: less is no rival
-_MUCH = 0.5  # of what is unusual: an event that explains it leaves no call for others
 _SEEN_TWICE = 3.84  # support of an event that unseen runs show, too: chance reaches it in 5 %
 _LARGE = 8.0  # times what is asked: a mismatch from which on a tire may have been lost unseen
 
@@ -86,7 +85,7 @@ def rank_events(study: Study, beside: Beside, chi2: float, chance: Chance,
         # what acts only near a limit shows little to a linear scan: looked at where much is open
         curved = bool(one.hypothesis.effect.amount.grid) and large and (
             max((r.delta for r in found if not at_bound(r.hypothesis)), default=0.0)
-            < _MUCH * excess)
+            < (1.0 - study.settings.law_leaves) * excess)
         most = max((r.delta for r in found), default=0.0)
         among = (one.hypothesis.key in keys or len(keys) < study.refits[1]
                  or one.delta - cost > most)
