@@ -26,6 +26,7 @@ from truck_blowout_sim.diagnosis.fit.refit import chi2_of
 
 Floats = NDArray[np.float64]
 _STEP_S = 0.06  # finite difference of an instant
+_STEP_SHARE = 0.3  # of an amount's step, the same
 _STEP_SIGMA = 0.25  # finite difference of a number of the law
 _SHORTEST_S = 0.06  # an event lasts at least this long
 _ROUNDS = 8
@@ -45,7 +46,7 @@ def event_columns(study: Study, event: Hypothesis, others: Sequence[Hypothesis] 
     Returns [rows, 1 + edges * runs + numbers], and as many ranges: how far each may go.
     """
     runs, edges = runs_with(study, event), event.effect.edges
-    columns = [_amount_column(study, event, others, runs)]
+    columns = [amount_column(study, event, others, runs)]
     ranges = [event.effect.amount.high - event.effect.amount.low]
     for i in runs:
         columns += [_edge_column(study, i, event, others, edge) for edge in range(edges)]
@@ -113,13 +114,13 @@ def _moved(study: Study, event: Hypothesis, step: Floats) -> Hypothesis:
     return replace(event, amount=at, times=times, shape=moved)
 
 
-def _amount_column(study: Study, event: Hypothesis, others: Sequence[Hypothesis],
-                   runs: Sequence[int]) -> Floats:
-    """Whitened change of the training runs per unit of the amount."""
-    amount = event.effect.amount
-    step = abs(0.3 * amount.step)
-    low, high = max(event.amount - step, amount.low), min(event.amount + step, amount.high)
-    return study.stack({i: _change(study, i, event.at(low), event.at(high), others) / (high - low)
+def amount_column(study: Study, h: Hypothesis, others: Sequence[Hypothesis],
+                  runs: Sequence[int]) -> Floats:
+    """Whitened change of some training runs per unit of the amount, of a steady cause too."""
+    amount = h.effect.amount
+    step = abs(_STEP_SHARE * amount.step)
+    low, high = max(h.amount - step, amount.low), min(h.amount + step, amount.high)
+    return study.stack({i: _change(study, i, h.at(low), h.at(high), others) / (high - low)
                         for i in runs})
 
 

@@ -23,7 +23,7 @@ from numpy.typing import NDArray
 from truck_blowout_sim.diagnosis.case.study import Study, row_ranges
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.fit.attribute import Ranked
-from truck_blowout_sim.diagnosis.fit.event_fit import event_columns
+from truck_blowout_sim.diagnosis.fit.event_fit import amount_column, event_columns
 from truck_blowout_sim.diagnosis.fit.models import models_at
 from truck_blowout_sim.diagnosis.fit.quantiles import NINETY
 from truck_blowout_sim.diagnosis.fit.refit import chi2_of
@@ -107,7 +107,8 @@ def block_sigma(study: Study, found: Ranked, others: Sequence[Hypothesis] = (),
     """
     h = found.hypothesis
     columns, ranges = (event_columns(study, h, others) if h.times
-                       else (_amount_column(study, h, others), np.array([np.inf])))
+                       else (amount_column(study, h, others, study.train)[:, None],
+                             np.array([np.inf])))
     nuisances = study.columns[:, study.kept([*others, h])]
     design = np.column_stack([nuisances, columns])
     residual = study.residual(models_at(study, [h], others)[0])
@@ -119,16 +120,6 @@ def block_sigma(study: Study, found: Ranked, others: Sequence[Hypothesis] = (),
         amounts.append(np.linalg.solve(information - part.T @ part, gradient - part.T @ left)
                        [nuisances.shape[1]])
     return float(np.sqrt((len(amounts) - 1) * np.var(amounts)))
-
-
-def _amount_column(study: Study, h: Hypothesis, others: Sequence[Hypothesis]) -> Floats:
-    """[rows, 1] whitened change of the training runs per unit of the amount."""
-    step = h.effect.amount.step
-    if not h.effect.amount.low <= h.amount + step <= h.effect.amount.high:
-        step = -step
-    here, ahead = models_at(study, [h, h.at(h.amount + step)], others)
-    return study.stack({i: study.runs[i].change(ahead[i], here[i])
-                        for i in study.train})[:, None] / step
 
 
 def _blocks(study: Study, block_s: float) -> list[slice]:
