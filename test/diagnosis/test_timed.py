@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from truck_blowout_sim.diagnosis.answer.words import fitted_with
 from truck_blowout_sim.diagnosis.case.study import Study
 from truck_blowout_sim.diagnosis.effects import LIBRARY
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
@@ -133,6 +134,10 @@ def test_what_no_sheet_says_of_a_wind_is_fitted_with_it(study_of: Studies, truck
     assert abs(found.hypothesis.amount - 25.0) < abs(without.hypothesis.amount - 25.0)
     assert found.hypothesis.shape[1] > 0.3
     assert found.hypothesis.shape[2] > 0.3
+    numbers = found.hypothesis.law_numbers(truck)
+    applied = found.hypothesis.apply(truck, "run 1")
+    assert numbers == {key: applied[key] for key in keys}
+    assert f"gust_drag_share = {applied[keys[2]]:.2g}" in fitted_with(numbers)
 
 
 def test_a_tire_is_unwatched_where_its_pressure_is_not_recorded(study_of: Studies) -> None:

@@ -54,6 +54,7 @@ def physics_effect(ranked: Ranked, study: Study, timings: Mapping[str, Timing] |
             known = timings[run].duration_s if run in timings else None
             parameters[f"duration_s in {run}"] = Parameter(end - start, "s", known or _OPEN)
     sentence, equation = words.fill(h, value, onset)
+    equation += words.fitted_with(h.law_numbers(study.packed))
     sentence = limit_sentence(h, ends) or sentence + words.open_ends(ends)
     sentence += words.unseen_before(onset, interval)
     return Effect(name=h.effect.name, kind=h.effect.kind, where=h.place, parameters=parameters,

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from math import isfinite
 from typing import Protocol
 
@@ -54,6 +54,12 @@ def fill(hypothesis: Hypothesis, value: float, onset_s: float | None) -> tuple[s
               "percent": f"{100.0 * value:.2g}", "percent_of": f"{100.0 * value:.0f}"}
     effect = hypothesis.effect
     return effect.sentence.format(**blanks), effect.equation.format(**blanks)
+
+
+def fitted_with(numbers: Mapping[str, float]) -> str:
+    """Numbers of a law that were fitted beside its amount, as the written vehicle names them."""
+    told = ", ".join(f"{key.rsplit('.', 1)[-1]} = {value:.2g}" for key, value in numbers.items())
+    return f";  {told}" if told else ""
 
 
 def open_ends(ends: Interval) -> str:

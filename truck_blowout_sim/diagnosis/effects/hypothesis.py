@@ -50,12 +50,12 @@ class Hypothesis:
             if run not in self.times:
                 return packed
             values |= self.effect.timed(packed, self.place, *self.times[run])
-            values |= self._shaped(packed, values) if size != 0.0 else {}
+            values |= self.at(size).law_numbers(packed) if size != 0.0 else {}
         return packed.unchecked(values)
 
-    def _shaped(self, packed: Packed, values: Mapping[str, float]) -> dict[str, float]:
-        """Parameters that the numbers of the law move, from where the effect has them."""
-        moved = {}
+    def law_numbers(self, packed: Packed) -> dict[str, float]:
+        """Parameters that were fitted with the amount, from where the effect has them."""
+        moved, values = {}, self.effect.values(packed, self.place, self.amount)
         for number, sigmas in zip(self.effect.form_numbers, self.shape, strict=False):
             key = number.key.format(unit=self.place.body)
             here = values[key] if key in values else packed[key]
