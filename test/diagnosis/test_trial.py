@@ -7,12 +7,12 @@ from typing import get_args
 import numpy as np
 import pytest
 
-from truck_blowout_sim.diagnosis.effects import LIBRARY
+from truck_blowout_sim.diagnosis.effects import LIBRARY, Effect
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.fit.attribute import Ranked
 from truck_blowout_sim.diagnosis.fit.scatter import Chance, Scatter
 from truck_blowout_sim.diagnosis.fit.shown import SCATTERS
-from truck_blowout_sim.diagnosis.name.judging import weakness
+from truck_blowout_sim.diagnosis.name.judging import imitates, weakness
 from truck_blowout_sim.diagnosis.name.trial import Fate, Rule
 from truck_blowout_sim.diagnosis.result.parts import Place
 
@@ -45,3 +45,19 @@ def test_the_rule_that_is_broken_decides(changes: dict, rule: str | None) -> Non
     if rule in ("support", "remainder"):
         assert fate is not None
         assert fate.value < fate.limit
+
+
+def test_a_wind_gives_way_to_a_steady_cause_that_is_as_likely() -> None:
+    wind = next(e for e in LIBRARY if e.name == "crosswind" and e.timed)
+    lag = next(e for e in LIBRARY if e.name == "steering_lag")
+
+    def tried(effect: Effect, support: float) -> Ranked:
+        return Ranked(Hypothesis(effect, Place(), 0.5 * effect.amount.high), 400.0, 1.0,
+                      support=support, refitted=True)
+
+    asked = CHANCE.asked
+    steady = tried(lag, asked + 1.0)
+    assert imitates(tried(wind, asked + 3.0), [steady], CHANCE)
+    assert not imitates(tried(wind, asked + 8.0), [steady], CHANCE)
+    assert not imitates(tried(wind, asked + 3.0), [tried(lag, asked - 1.0)], CHANCE)
+    assert not imitates(tried(BANK, asked + 3.0), [steady], CHANCE)

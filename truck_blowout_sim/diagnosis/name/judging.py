@@ -137,6 +137,16 @@ def at_bound(h: Hypothesis) -> bool:
     return bool(min(above, high - h.amount) < _AT_BOUND * (high - low))
 
 
+def imitates(one: Ranked, ranked: Sequence[Ranked], chance: Chance) -> bool:
+    """Whether a wind may be only the trace of a cause that is always there, which passes too.
+
+    Its free instants explain more of what a steady cause leaves, so it must be 20 times as likely.
+    """
+    return one.hypothesis.effect.timing == "pulse" and any(
+        other.support > one.support - ODDS and weakness(other, chance) is None
+        for other in ranked if not other.hypothesis.effect.timed)
+
+
 def note(found: Found, one: Ranked, fate: Fate) -> None:
     """Keep the fate beside the first-round entry of the hypothesis."""
     found.tried = [Trial(one, fate) if trial.ranked.hypothesis.key == one.hypothesis.key else trial

@@ -22,6 +22,7 @@ from truck_blowout_sim.diagnosis.name.judging import (
     Found,
     can_judge,
     excess_of,
+    imitates,
     note,
     predict_with,
     predicts_better,
@@ -136,7 +137,9 @@ def _accept(study: Study, found: Found, this: Round, named: Sequence[Hypothesis]
         # what explains most of the rest is no leftover of a stronger effect's inexactness
         fate = weakness(one, this.chance, left if one.delta < _MOST * excess else 0.0)
         most = max((worth(p.ranked) for p in passing), default=0.0)
-        if fate is None and passing and worth(one) < most - slack(passing[0].ranked):
+        if fate is None and imitates(one, this.ranked, this.chance):
+            fate = Fate("imitates")
+        elif fate is None and passing and worth(one) < most - slack(passing[0].ranked):
             fate = Fate("explains", worth(one), most)
         elif fate is None:
             believed, better = _believed(study, found, named, one)

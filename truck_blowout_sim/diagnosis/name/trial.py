@@ -11,7 +11,7 @@ from typing import Literal
 from truck_blowout_sim.diagnosis.fit.attribute import Ranked
 
 Rule = Literal["accepted", "quiets", "refit", "support", "instant", "bound", "remainder",
-               "explains", "predicts", "holdout", "withheld"]
+               "imitates", "explains", "predicts", "holdout", "withheld"]
 _WORDS: dict[Rule, str] = {
     "accepted": "accepted",
     "quiets": "accepted: takes {value:.0%} of what training keeps beyond baseline runs, of "
@@ -21,6 +21,7 @@ _WORDS: dict[Rule, str] = {
     "instant": "support {value:.1f} of {limit:.1f} that chance may reach, its instant searched",
     "bound": "its amount runs to the bound of what is physical",
     "remainder": "buys {value:.0f} of {limit:.0f} that a stronger effect's inexactness may leave",
+    "imitates": "no more likely than a cause that is always there",
     "explains": "explains {value:.0f}, another {limit:.0f}",
     "predicts": "explains as much, predicts less",
     "holdout": "does not predict the holdout better ({value:+.1f})",
