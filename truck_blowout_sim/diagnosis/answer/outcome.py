@@ -314,8 +314,8 @@ def gather(material: Material, told: Material) -> Evidence:
         forces=tuple(w.history for w in material.wrenches),
         beats=material.beat.scores if material.beat else None,
         calibrated=evidence.calibrated(study, joint_amounts(told)),
-        equations=tuple(words.fill(r.hypothesis, r.hypothesis.effect.amount.report(
-            r.hypothesis.amount), None)[1] for r in listed(found.named)) + law + signs,
+        equations=tuple(words.equation_of(r.hypothesis, study.packed)
+                        for r in listed(found.named)) + law + signs,
         assumptions=words.assumptions(study), missing_channels=words.missing_channels(study),
         notes=(*material.gate.notes, *old,
                *(note for r in study.runs

@@ -53,12 +53,12 @@ def physics_effect(ranked: Ranked, study: Study, timings: Mapping[str, Timing] |
         if np.isfinite(end):
             known = timings[run].duration_s if run in timings else None
             parameters[f"duration_s in {run}"] = Parameter(end - start, "s", known or _OPEN)
-    sentence, equation = words.fill(h, value, onset)
-    equation += words.fitted_with(h.law_numbers(study.packed))
+    sentence, _ = words.fill(h, value, onset)
     sentence = limit_sentence(h, ends) or sentence + words.open_ends(ends)
     sentence += words.unseen_before(onset, interval)
     return Effect(name=h.effect.name, kind=h.effect.kind, where=h.place, parameters=parameters,
-                  equation=equation, sentence=sentence, onset_s=onset, onset_ci90_s=interval)
+                  equation=words.equation_of(h, study.packed), sentence=sentence,
+                  onset_s=onset, onset_ci90_s=interval)
 
 
 def reported(amount: Amount, low: float, high: float) -> Interval:

@@ -16,6 +16,7 @@ from truck_blowout_sim.diagnosis.prove.next_test import Separation
 from truck_blowout_sim.diagnosis.result import Effect, Verdict
 from truck_blowout_sim.diagnosis.result.parts import Interval
 from truck_blowout_sim.diagnosis.sensors import GateResult
+from truck_blowout_sim.vehicle import Packed
 
 _LONG_S = 0.5  # by so much more may an event have been there before it was found than after
 _SPLITTERS = (
@@ -54,6 +55,13 @@ def fill(hypothesis: Hypothesis, value: float, onset_s: float | None) -> tuple[s
               "percent": f"{100.0 * value:.2g}", "percent_of": f"{100.0 * value:.0f}"}
     effect = hypothesis.effect
     return effect.sentence.format(**blanks), effect.equation.format(**blanks)
+
+
+def equation_of(hypothesis: Hypothesis, packed: Packed) -> str:
+    """Equation of an effect with every number that was fitted; the earliest of its instants."""
+    onset = min((start for start, _ in hypothesis.times.values()), default=None)
+    value = hypothesis.effect.amount.report(hypothesis.amount)
+    return fill(hypothesis, value, onset)[1] + fitted_with(hypothesis.law_numbers(packed))
 
 
 def fitted_with(numbers: Mapping[str, float]) -> str:
