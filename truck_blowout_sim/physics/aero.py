@@ -1,8 +1,8 @@
 """Aerodynamic drag and side force of one unit, steady wind and a gust.
 
 References: F = 0.5 rho A_d |v| v against the relative air; values with sources in
-config/vehicles (the thesis has none). Baker 1991, J. Fluids Struct. 5 (lorries in side winds: the
-axial force changes by a share of the side force).
+config/vehicles (the thesis has none). What a gust pushes back, a share of its side force, stands
+for an axial force that changes with the air angle.
 Known limits: the side force is linear in the air angle; no lift, no yaw damping of its own.
 Validated with: test/physics/test_aero.py (square law, drag budget, head wind, line of action).
 """

@@ -5,8 +5,8 @@ between the middle of the wheelbase and 0.3 wheelbases ahead of it, and a gust t
 first. So a wind is asked for at three places. Its place between them, its height, and how far it
 pushes back are fitted with it.
 
-References: Hucho 1998, ch. 5 (side force and yawing moment of road vehicles); Baker 1991, J. Fluids
-Struct. 5 (of lorries).
+References: Hucho 1998, ch. 5 (side force and yawing moment of road vehicles). How much the numbers
+of the law may stray is engineering judgment.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ _LAW = (
                lambda packed, place: 0.03 * length_m(packed, place.body or ""),
                "engineering judgment: a car's to 0.1 m, a trailer's to 0.4 m"),
     FormNumber("unit.{unit}.gust_drag_share", lambda packed, place: 0.2,
-               "Baker 1991: lorries 0.25 at 30 deg of air angle, 0 at 60; Hucho 1998: cars less"),
+               "engineering judgment: the axial force changes with the air angle, either way"),
 )
 
 

@@ -63,6 +63,11 @@ class Hypothesis:
         return moved
 
     @property
+    def whole_shape(self) -> tuple[float, ...]:
+        """All numbers of the law, in sigmas, those that were never fitted too."""
+        return self.shape or (0.0,) * len(self.effect.form_numbers)
+
+    @property
     def shape_cost(self) -> float:
         """What the prior of the law's numbers adds to the sum of squares."""
         return sum(sigmas * sigmas for sigmas in self.shape)

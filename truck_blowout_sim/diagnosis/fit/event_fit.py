@@ -76,8 +76,7 @@ def fit_event(study: Study, start: Ranked, chi2_null: float,
         columns, ranges = event_columns(study, event, named)
         information = event_information(study, event, named, columns, ranges)
         slope = columns.T @ projector.remove(study.residual(models))
-        if event.shape:  # their prior pulls them back
-            slope[-len(event.shape):] -= event.shape
+        slope[slope.size - len(event.whole_shape):] -= event.whole_shape  # the prior pulls back
         sigma = float(np.linalg.inv(information)[0, 0] ** 0.5)
         before, alone = fall, np.diag(np.diag(information))
         for damping in _DAMPING:
@@ -107,10 +106,9 @@ def _moved(study: Study, event: Hypothesis, step: Floats) -> Hypothesis:
             end = max(end + float(by[1]), start + _SHORTEST_S)
         times[run.recording.name] = (start, end)
     at = float(np.clip(event.amount + step[0], amount.low, amount.high))
-    numbers = len(event.effect.form_numbers)
-    shape = event.shape or (0.0,) * numbers
+    shape = event.whole_shape
     moved = tuple(float(one + by)
-                  for one, by in zip(shape, step[step.size - numbers:], strict=True))
+                  for one, by in zip(shape, step[step.size - len(shape):], strict=True))
     return replace(event, amount=at, times=times, shape=moved)
 
 
@@ -139,7 +137,7 @@ def _edge_column(study: Study, i: int, event: Hypothesis, others: Sequence[Hypot
 def _shape_column(study: Study, event: Hypothesis, others: Sequence[Hypothesis],
                   runs: Sequence[int], k: int) -> Floats:
     """Whitened change of the training runs per sigma of one number of the law."""
-    shape = event.shape or (0.0,) * len(event.effect.form_numbers)
+    shape = event.whole_shape
     low, high = (replace(event, shape=(*shape[:k], shape[k] + by, *shape[k + 1:]))
                  for by in (-_STEP_SIGMA, _STEP_SIGMA))
     return study.stack({i: _change(study, i, low, high, others) / (2.0 * _STEP_SIGMA)
