@@ -93,9 +93,9 @@ class CaseBuilder:
         """A run with the closed-loop driver."""
         return drive(self._even if even else self.rig, manoeuvre, combine(actives), seed)
 
-    def _replay(self, truth: Run, actives: list[Active]) -> Run:
-        """The same commands on an even road with other effects at work."""
-        return replay(self._even, truth, combine(actives))
+    def _replay(self, truth: Run, actives: list[Active], even: bool = True) -> Run:
+        """The same commands with other effects at work, on an even road or the truck's own."""
+        return replay(self._even if even else self.rig, truth, combine(actives))
 
     def _front_m(self, truth: Run) -> FloatArray:
         """Where the front axle is along the road."""

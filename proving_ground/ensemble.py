@@ -65,9 +65,12 @@ class Nulls:
             self.leaders[kind] = made._drive(manoeuvre, [], DRIVEN_SEED, even=True)
         return self.leaders[kind]
 
-    def spread(self, kind: str) -> tuple[list[str], FloatArray]:
-        """Channels, and coefficients of all trucks: trucks x channels x coefficients."""
-        path = self.folder / f"{kind}.npz"
+    def spread(self, kind: str, even: bool = True) -> tuple[list[str], FloatArray]:
+        """Channels, and coefficients of all trucks: trucks x channels x coefficients.
+
+        On an even road, or each on a road of its own.
+        """
+        path = self.folder / f"{kind}{'' if even else '_on_own_roads'}.npz"
         if path.is_file():
             kept = np.load(path)
             if len(kept["values"]) >= self.trucks:
@@ -76,7 +79,7 @@ class Nulls:
         names: list[str] = []
         for number in range(1, self.trucks + 1):
             made = self.builder(number, kind)
-            names, row = coefficients(made.clean(made._replay(leader, [])),
+            names, row = coefficients(made.clean(made._replay(leader, [], even)),
                                       leader.manoeuvre.duration_s)
             rows.append(row)
         self.folder.mkdir(parents=True, exist_ok=True)

@@ -16,6 +16,7 @@ instruments; the answer of a case states what was drawn.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -89,6 +90,12 @@ class KeptBack:
             return laws._replace(damper_law=BLOW_OFF)
         return laws._replace(friction_law=LEAF) if self.suspension else laws
 
+    def reading(self, channel: str) -> Reading:
+        """How the instruments kept back read a channel; as it is where the case has none."""
+        if not self.instruments:
+            return Reading()
+        return (bus_reading if self.later else series_reading)(channel)
+
     def read(self, readings: dict[str, FloatArray], seed: int) -> dict[str, FloatArray]:
         """Readings of the instruments kept back, where the case has them."""
         if not self.instruments:
@@ -100,25 +107,46 @@ class KeptBack:
 
 def of_a_series(channel: str, signal: FloatArray, rng: np.random.Generator) -> FloatArray:
     """What a series vehicle's inertial unit beside a satellite receiver of 10 Hz reads."""
-    out = _noisy(channel, signal, SERIES_NOISE, rng)
-    if channel.endswith(("_x_m", "_y_m", "vx_mps", "vy_mps", "_yaw_rad")):
-        return _every(out, round(RATE_HZ / GNSS_HZ))
-    return out
+    return _read(series_reading(channel), signal, rng)
 
 
 def on_the_bus(channel: str, signal: FloatArray, rng: np.random.Generator) -> FloatArray:
     """What a truck's own bus carries of a channel: coarse, and not always fresh."""
-    out = _noisy(channel, signal, BUS_NOISE, rng)
-    for part, (step, seconds) in BUS.items():
-        if channel.startswith(part) or channel.endswith(part):
-            return _every(step * np.round(out / step), round(seconds * RATE_HZ))
-    return out
+    return _read(bus_reading(channel), signal, rng)
 
 
-def _noisy(channel: str, signal: FloatArray, sigmas: dict[str, float], rng: np.random.Generator
-           ) -> FloatArray:
-    sigma = next((s for end, s in sigmas.items() if channel.endswith(end)), 0.0)
-    return signal + sigma * rng.standard_normal(len(signal)) if sigma else signal
+class Reading(NamedTuple):
+    """How a channel is read: further noise and step (SI), and one of how many samples."""
+
+    sigma: float = 0.0
+    step: float = 0.0
+    every: int = 1
+
+
+def series_reading(channel: str) -> Reading:
+    """A channel of a series vehicle's unit."""
+    slow = channel.endswith(("_x_m", "_y_m", "vx_mps", "vy_mps", "_yaw_rad"))
+    return Reading(_sigma(channel, SERIES_NOISE), 0.0, round(RATE_HZ / GNSS_HZ) if slow else 1)
+
+
+def bus_reading(channel: str) -> Reading:
+    """A channel of a truck's own bus."""
+    step, seconds = next((found for part, found in BUS.items()
+                          if channel.startswith(part) or channel.endswith(part)),
+                         (0.0, 1.0 / RATE_HZ))
+    return Reading(_sigma(channel, BUS_NOISE), step, round(seconds * RATE_HZ))
+
+
+def _sigma(channel: str, sigmas: dict[str, float]) -> float:
+    return next((s for end, s in sigmas.items() if channel.endswith(end)), 0.0)
+
+
+def _read(how: Reading, signal: FloatArray, rng: np.random.Generator) -> FloatArray:
+    if how.sigma:
+        signal = signal + how.sigma * rng.standard_normal(len(signal))
+    if how.step:
+        signal = how.step * np.round(signal / how.step)
+    return _every(signal, how.every) if how.every > 1 else signal
 
 
 def _every(signal: FloatArray, count: int) -> FloatArray:

@@ -8,6 +8,7 @@ enclose the logs that the documentation compares with (a race car's raw accelero
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from scipy.signal import lfilter
@@ -20,6 +21,22 @@ Values = dict[str, FloatArray]
 Rng = np.random.Generator
 FEW = (*COMMANDS, "tractor_vx_mps", "tractor_yaw_rate_radps", "tractor_ay_mps2")
 WHEEL_RADIUS_M = 0.49
+WALK_S = 60.0   # in which a drift has walked as far as its size
+
+
+class _Own(NamedTuple):
+    """How much rougher one channel is than the log; drawn evenly."""
+
+    low: float = 0.6
+    high: float = 1.4
+
+    @property
+    def square(self) -> float:
+        """Mean square."""
+        return (self.low**2 + self.low * self.high + self.high**2) / 3.0
+
+
+OWN = _Own()
 
 
 @dataclass(frozen=True)
@@ -95,7 +112,7 @@ def _worse(channel: str, signal: FloatArray, time: FloatArray, turns: FloatArray
     """Coloured noise, tones, drift and coarser rounding on top of a reading."""
     noise = noise_of(channel)
     sigma = float(np.hypot(noise.sigma, noise.relative * np.nanmean(np.abs(signal))))
-    own = float(rng.uniform(0.6, 1.4))
+    own = float(rng.uniform(OWN.low, OWN.high))
     keep = float(np.exp(-1.0 / (rough.memory_s * RATE_HZ)))
     push = rng.standard_normal(len(signal)) * np.sqrt(1.0 - keep * keep)
     push[0] = rng.standard_normal()
@@ -107,7 +124,7 @@ def _worse(channel: str, signal: FloatArray, time: FloatArray, turns: FloatArray
             + rough.wheel * np.sin(turns + phase[1])
             + rough.engine * np.sin(2.0 * np.pi * rough.engine_hz * time + phase[2]))
     if rough.drift:
-        walk = np.cumsum(rng.standard_normal(len(signal))) / np.sqrt(60.0 * RATE_HZ)
+        walk = np.cumsum(rng.standard_normal(len(signal))) / np.sqrt(WALK_S * RATE_HZ)
         out = out + rough.drift * sigma * walk
     if noise.quantum > 0.0 and rough.rounding > 1.0:
         step = noise.quantum * rough.rounding

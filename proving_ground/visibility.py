@@ -14,14 +14,12 @@ import numpy as np
 
 from proving_ground.cases import CaseSpec, EffectSpec
 from proving_ground.ensemble import HIGHEST_HZ, RATE_HZ, Course, Nulls
-from proving_ground.kept_back import later
 from proving_ground.layout import FloatArray
+from proving_ground.reading_noise import Instruments
 from proving_ground.representative import representative
-from proving_ground.roughness import Roughness
-from proving_ground.sigma_b import Detector, Stack, noise_variance
+from proving_ground.sigma_b import Detector, Stack
 from proving_ground.spreads import individual
 from proving_ground.worlds import FIRST_SEED, world_cases
-from proving_ground.worlds.severities import known
 
 RESULT = "sigma_b.json"
 MOST = 1e9  # of what no sound vehicle has
@@ -39,10 +37,6 @@ def measure(out: Path, nulls: Path, trucks: int) -> Iterator[tuple[str, list[flo
         told = json.loads(answer.read_text(encoding="utf-8"))
         spec = spec_of(answer.stem)
         if not spec.effects or "sigma_b" in done[answer.stem]:
-            continue
-        if later(spec.seed):
-            done[answer.stem] |= known(answer.stem.partition("-")[0])[answer.stem]
-            write_result(out, done)
             continue
         world = worlds.setdefault(world_of(spec), Nulls(world_of(spec), nulls, trucks))
         found = visibility(spec, [e["severity"] for e in told["effects"][:len(spec.effects)]],
@@ -107,8 +101,8 @@ class Seen:
     """What a detector of a case's world sees of its effects, at any severity."""
 
     def __init__(self, spec: CaseSpec, nulls: Nulls) -> None:
-        rough = Roughness.draw(spec.seed) if spec.rough else None
-        rows, noise, shapes = [], [], []
+        instruments = Instruments.of(spec)
+        rows, roads, noise, shapes = [], [], [], []
         self._parts: list[tuple[list[int], Course | None, int]] = []
         for role, kinds in (("baseline", spec.baseline), ("train", spec.train)):
             for name in kinds:
@@ -116,20 +110,22 @@ class Seen:
                 channels, values = nulls.spread(kind)
                 use = [k for k, channel in enumerate(channels)
                        if not channel.startswith(spec.missing or ("-",))
-                       and (rough is None or rough.keeps(channel))]
+                       and instruments.keeps(channel)]
                 kept = values[:, use, :]
                 count = kept.shape[2]
                 duration_s = count / (2.0 * HIGHEST_HZ)
                 level = np.abs(kept[:, :, 0]).mean(axis=0) / np.sqrt(duration_s * RATE_HZ)
                 rows.append(kept.reshape(len(kept), -1))
+                own = nulls.spread(kind, even=False)[1][:, use, :] - kept
+                roads.append(own.reshape(len(kept), -1))
                 noise.append(np.concatenate([
-                    noise_variance(channels[k], float(level[i]), count, duration_s, rough)
+                    instruments.variance(channels[k], float(level[i]), count, duration_s)
                     for i, k in enumerate(use)]))
                 shapes.append((len(use), count))
                 course = nulls.course(spec, kind) if role == "train" else None
                 self._parts.append((use, course, kept[0].size))
-        self.detector = Detector(Stack(np.concatenate(rows, axis=1).astype(float),
-                                        np.concatenate(noise), tuple(shapes)))
+        even, shaken = (np.concatenate(one, axis=1).astype(float) for one in (rows, roads))
+        self.detector = Detector(Stack(even, shaken, np.concatenate(noise), tuple(shapes)))
 
     def sigma_b(self, effect: EffectSpec, severity: float) -> float:
         """How visible one effect is."""

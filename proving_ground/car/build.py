@@ -72,8 +72,9 @@ class CarBuilder(CaseBuilder):
         rig = self._even_car if even else self._car
         return rig.drive(manoeuvre, *combine(actives), CarDriver(manoeuvre, seed))
 
-    def _replay(self, truth: CarTruth, actives: list[Active]) -> CarTruth:
-        return self._even_car.drive(truth.manoeuvre, *combine(actives), _Again(truth))
+    def _replay(self, truth: CarTruth, actives: list[Active], even: bool = True) -> CarTruth:
+        rig = self._even_car if even else self._car
+        return rig.drive(truth.manoeuvre, *combine(actives), _Again(truth))
 
     def clean(self, truth: CarTruth) -> Values:
         """Ideal channels, with gravity taken out where this car's instruments do so."""

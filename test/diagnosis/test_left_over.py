@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from types import SimpleNamespace
 from typing import cast
 
@@ -22,7 +23,8 @@ Studies = Callable[..., Study]
 
 def case(train: int, baseline: int) -> Study:
     """A study of so many runs, baseline first."""
-    return cast(Study, SimpleNamespace(baseline=tuple(range(baseline)),
+    return cast(Study, SimpleNamespace(runs=tuple(range(baseline + train)),
+                                       baseline=tuple(range(baseline)),
                                        train=tuple(range(baseline, baseline + train)),
                                        settings=SimpleNamespace(alarms_by_rest=0.02)))
 
@@ -51,6 +53,14 @@ def test_tenfold_squares_are_more_and_a_common_level_is_not() -> None:
     assert keeps_more(study, (0.3, 0.35, 3.0, 4.0, 3.5))
     for level in (0.01, 1.0, 100.0):
         assert not keeps_more(study, (0.9 * level, 1.1 * level, level, 1.2 * level, level))
+
+
+def test_unseen_runs_tell_too() -> None:
+    study = case(2, 2)
+    squares = (0.3, 0.35, 0.75, 0.8)
+    assert not keeps_more(study, squares)
+    assert keeps_more(study, (*squares, 0.8, 0.75, 0.8, 0.78))
+    assert chance_of_more(study, (*squares, 0.3, 0.3)) > chance_of_more(study, squares)
 
 
 def test_one_run_of_training_that_keeps_far_more_is_enough() -> None:
@@ -89,3 +99,13 @@ def test_what_baseline_and_training_cost_adds_up_and_is_never_negative(study_of:
     counts = [int(np.isfinite(one.measured).sum()) for one in study.runs]
     total = study.projector().chi2(study.residual())
     assert np.dot(squares, counts) == pytest.approx(total)
+
+
+def test_an_unseen_run_is_counted_as_a_training_run_is(study_of: Studies) -> None:
+    study = study_of(baseline=True)
+    (train,) = study.train
+    held = replace(study, holdout=(study.runs[train],),
+                   holdout_columns=[study.columns[row_ranges(study)[train]]])
+    squares = mean_squares(held, unseen=[study.models[train]])
+    assert squares[:2] == mean_squares(study)
+    assert squares[2] == pytest.approx(squares[train])

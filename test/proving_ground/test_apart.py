@@ -14,7 +14,7 @@ SIZE = 40
 
 def plain() -> Detector:
     """Vehicles that differ by nothing; noise of one."""
-    return Detector(Stack(np.zeros((60, SIZE)), np.ones(SIZE), ((1, SIZE),)))
+    return Detector(Stack(*np.zeros((2, 60, SIZE)), np.ones(SIZE), ((1, SIZE),)))
 
 
 def along(*angles_rad: float) -> np.ndarray:

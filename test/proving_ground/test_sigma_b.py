@@ -15,7 +15,7 @@ def stack(trucks: int, strong: np.ndarray, seed: int = 1) -> Stack:
     """Nulls that differ along one direction by much and else by nothing; noise of one."""
     rng = np.random.default_rng(seed)
     nulls = 30.0 * rng.standard_normal((trucks, 1)) * strong
-    return Stack(nulls, np.ones(strong.size), ((1, strong.size),))
+    return Stack(nulls, np.zeros(nulls.shape), np.ones(strong.size), ((1, strong.size),))
 
 
 def test_without_spread_it_is_the_signal_over_the_noise() -> None:
@@ -32,6 +32,29 @@ def test_what_trucks_differ_by_hides_an_effect_that_looks_like_it() -> None:
     hidden, seen = map(Detector(stack(120, along)).separation, (10.0 * along, 10.0 * across))
     assert hidden < 0.6
     assert seen == pytest.approx(10.0, rel=0.1)
+
+
+def shaken(trucks: int, together: bool, seed: int = 3) -> Stack:
+    """Nulls of two channels that are alike but for bumps, which shake both of them."""
+    rng = np.random.default_rng(seed)
+    bumps = 10.0 * rng.standard_normal((trucks, 2, 60))
+    if together:
+        bumps[:, 1] = bumps[:, 0]
+    return Stack(np.zeros((trucks, 120)), bumps.reshape(trucks, 120), np.ones(120), ((2, 60),))
+
+
+def test_bumps_hide_an_effect_that_shakes_like_them() -> None:
+    signature = np.full(120, 1.0)
+    alike = Detector(shaken(100, together=True)).separation(signature)
+    assert alike == pytest.approx(np.sqrt(120.0 / (2.0 * 10.0**2 + 1.0)), rel=0.15)
+
+
+def test_channels_that_bumps_shake_together_tell_an_effect_that_moves_them_apart() -> None:
+    signature = np.concatenate([np.full(60, 1.0), np.full(60, -1.0)])
+    together, alone = (Detector(shaken(100, both)).separation(signature)
+                       for both in (True, False))
+    assert together == pytest.approx(np.sqrt(120.0), rel=0.15)
+    assert alone == pytest.approx(np.sqrt(120.0 / 101.0), rel=0.15)
 
 
 def test_a_baseline_run_shows_what_the_truck_is() -> None:

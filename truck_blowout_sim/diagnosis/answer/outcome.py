@@ -21,6 +21,7 @@ from truck_blowout_sim.diagnosis.answer.unlisted import (
 from truck_blowout_sim.diagnosis.case.antilock import Lockup
 from truck_blowout_sim.diagnosis.case.study import Study
 from truck_blowout_sim.diagnosis.fit.quantiles import NINETY
+from truck_blowout_sim.diagnosis.fit.support import unseen_with
 from truck_blowout_sim.diagnosis.locate.beat import Beat
 from truck_blowout_sim.diagnosis.locate.lagging import Lag
 from truck_blowout_sim.diagnosis.locate.left_over import (
@@ -96,8 +97,9 @@ class Material:
 
     @cached_property
     def squares(self) -> tuple[float, ...]:
-        """Squares a row that each run keeps with everything named in force."""
-        return mean_squares(self.study, [r.hypothesis for r in self.found.named])
+        """Squares a row that each run keeps with everything named in force, unseen runs last."""
+        named = [r.hypothesis for r in self.found.named]
+        return mean_squares(self.study, named, unseen_with(self.study, named))
 
     @property
     def signs(self) -> tuple[words.Sign, ...]:

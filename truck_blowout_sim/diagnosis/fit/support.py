@@ -61,10 +61,10 @@ class Beside:
         manners = tuple(driven(study))
         if not study.holdout or any(h.effect.timed for h in named):
             return Beside(tuple(named), tuple(models), (), nothing, nothing, manners)
-        unseen = _unseen(study, named) if named else study.holdout_models
+        unseen = unseen_with(study, named)
         columns = np.concatenate([study.columns, *study.holdout_columns])
         runs = range(len(study.runs) + len(study.holdout))
-        return Beside(tuple(named), tuple(models), tuple(unseen), columns,
+        return Beside(tuple(named), tuple(models), unseen, columns,
                       np.sum([study.gram(k) for k in runs], axis=0), manners)
 
 
@@ -189,6 +189,13 @@ def _with_unseen(study: Study, seen: _Asked, h: Hypothesis, beside: Beside, away
         first += change.size
     return _Asked(Projector.of(beside.columns, kept, beside.gram), np.concatenate(residuals),
                   np.concatenate(changes), tuple(parts))
+
+
+def unseen_with(study: Study, named: Sequence[Hypothesis]) -> tuple[Floats, ...]:
+    """Models of the unseen runs with ``named`` in force; none where an instant is open in them."""
+    if any(h.effect.timed for h in named):
+        return ()
+    return tuple(_unseen(study, named) if named else study.holdout_models)
 
 
 def _unseen(study: Study, effects: Sequence[Hypothesis]) -> list[Floats]:

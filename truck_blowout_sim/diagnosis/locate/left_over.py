@@ -27,9 +27,9 @@ from scipy.stats import t as student
 
 from truck_blowout_sim.diagnosis.case.restlessness import left_by_fit
 from truck_blowout_sim.diagnosis.case.study import Study, row_ranges
+from truck_blowout_sim.diagnosis.case.trust import comparable_rows
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.fit.width_error import RUN_SCATTER
-from truck_blowout_sim.diagnosis.locate.comparable import Left
 
 Floats = NDArray[np.float64]
 _RUNS = 6.0  # as many runs is that prior worth: cases seldom have more
@@ -42,26 +42,33 @@ _GUESS = float(np.hypot(2.0 * np.log(1.5), _LASTING / np.sqrt(12.0)))
 NAMING_SHARE = 0.5  # of what training keeps more than usual: what explains less is no name for it
 
 
-def mean_squares(study: Study, named: Sequence[Hypothesis] = ()) -> tuple[float, ...]:
+def mean_squares(study: Study, named: Sequence[Hypothesis] = (),
+                 unseen: Sequence[Floats] = ()) -> tuple[float, ...]:
     """Squares a row that each run keeps beside the (other) baseline runs, in units of the widths.
 
     It is what a run costs more than they do alone, its pull on the sheet's numbers included: by the
     chain rule of a Gaussian never negative, and one a row where the model is right. Of a run in
     which only training lost a tire, the rows up to then. Without baseline runs it is what the fit
     leaves, in the widths as they were guessed.
+
+    ``unseen``: models of the unseen runs with ``named`` in force. These come last; what is missing
+    acts in them, too, and nothing was fitted to them.
     """
     if not study.baseline:
         return _in_guessed_widths(study, named)
-    left, residual = Left.of(study, study.models, named, comparable=True), study.residual()
-    columns = study.columns[:, left.projector.kept]
-    parts = [_Sums.of(columns[rows] * left.seen[rows, None], residual[rows] * left.seen[rows])
-             for rows in row_ranges(study)]
+    kept, rows, residual = study.kept(named), row_ranges(study), study.residual()
+    held = list(zip(study.holdout, study.holdout_columns, unseen, strict=False))
+    runs = [*study.runs, *(run for run, _, _ in held)]
+    columns = [*(study.columns[r] for r in rows), *(every for _, every, _ in held)]
+    left = [*(residual[r] for r in rows), *(run.residual(model) for run, _, model in held)]
+    seen = [comparable_rows(study, run) for run in runs]
+    parts = [_Sums.of(every[:, kept] * one[:, None], rest * one)
+             for every, rest, one in zip(columns, left, seen, strict=True)]
     found = []
-    for i, (run, part) in enumerate(zip(study.runs, parts, strict=True)):
-        others = sum((parts[k] for k in study.baseline if k != i), _Sums.none(columns.shape[1]))
-        cost = (others + part).chi2() - others.chi2()
-        rows = max(int(np.isfinite(run.measured[left.rows_of(study, i)]).sum()), 1)
-        found.append(max(cost / rows, _LEAST))
+    for i, (run, part, one) in enumerate(zip(runs, parts, seen, strict=True)):
+        others = sum((parts[k] for k in study.baseline if k != i), _Sums.none(len(kept)))
+        count = max(int(np.isfinite(run.measured.ravel()[one > 0.0]).sum()), 1)
+        found.append(max(((others + part).chi2() - others.chi2()) / count, _LEAST))
     return tuple(found)
 
 
@@ -147,7 +154,8 @@ def chance_of(train: Sequence[float], baseline: Sequence[float], guess: float = 
 
 def chance_of_more(study: Study, squares: Sequence[float]) -> float:
     """Chance that training, or one run of it, keeps so much more where nothing is missing."""
-    train, baseline = [squares[i] for i in study.train], _still(study, squares)
+    train = [squares[i] for i in study.train] + list(squares[len(study.runs):])
+    baseline = _still(study, squares)
     guess = 0.0 if study.baseline else _GUESS
     return min(2.0 * min(chance_of(train, baseline, guess),
                          _chance_of_one(train, baseline, guess)), 1.0)

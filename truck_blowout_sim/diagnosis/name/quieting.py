@@ -49,7 +49,7 @@ def quieting(study: Study, ranked: Sequence[Ranked]) -> list[Quieting]:
 
     Nothing where training keeps no more. Nothing is named yet.
     """
-    squares = mean_squares(study)
+    squares = mean_squares(study, unseen=study.holdout_models)
     usual = expected_squares(study, squares)
     strong = [r for r in ranked if r.refitted and not at_bound(r.hypothesis)]
     if not study.baseline or not strong or not keeps_more(study, squares):
