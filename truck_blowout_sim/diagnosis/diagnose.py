@@ -29,7 +29,6 @@ from truck_blowout_sim.diagnosis.case.usable import check_each_once, determined
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.effort import USUAL, Effort
 from truck_blowout_sim.diagnosis.fit.scatter import Scatter
-from truck_blowout_sim.diagnosis.fit.support import unseen_with
 from truck_blowout_sim.diagnosis.fit.threads import one_blas_thread
 from truck_blowout_sim.diagnosis.locate.comparable import Left
 from truck_blowout_sim.diagnosis.locate.lagging import lagging_wheel
@@ -183,7 +182,7 @@ def _material(study: Study, found: Found, gate: GateResult, vehicle: str,
                         _arms(study, found, progress) if effort.profile else {},
                         find_beat(study, named), lagging_wheel(study, named, scatter),
                         turned_body(study, named, scatter) if sound else None,
-                        unrest(study, named, unseen_with(study, named)) if sound else Unrest())
+                        unrest(study, named) if sound else Unrest())
     if decide(material) in ("consistent", "miscalibrated"):
         material = replace(material, would_show=would_show(study, found))
     if unexplained(material):

@@ -12,13 +12,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
-from truck_blowout_sim.diagnosis.case.runs import Run
-from truck_blowout_sim.diagnosis.case.study import Study, rows_of
+from truck_blowout_sim.diagnosis.case.study import Study, row_ranges
 from truck_blowout_sim.diagnosis.case.trust import comparable_rows
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.fit.linear import Projector
@@ -31,49 +29,35 @@ class Left:
     """What nothing explains, of all rows or of those that baseline runs tell of.
 
     Attributes:
-        runs: fitted ones, then unseen ones where these were asked for.
         projector: of the nuisances; ``removed``: [rows] what it leaves of the residual.
         seen: [rows] 1 where a row counts, else 0.
     """
 
-    runs: tuple[Run, ...]
     projector: Projector
     removed: Floats
     seen: Floats
 
     @staticmethod
     def of(study: Study, models: Sequence[Floats], named: Sequence[Hypothesis] = (), *,
-           comparable: bool = False, unseen: Sequence[Floats] = ()) -> Left:
+           comparable: bool = False) -> Left:
         """With ``named`` in force in the ``models`` of all runs.
 
         ``comparable``: later rows of a run do not count, and do not fit the nuisances either.
-        ``unseen``: models of the unseen runs, which then fit the nuisances, too.
         """
         residual, projector = study.residual(dict(enumerate(models))), study.projector(named)
-        runs, columns = study.runs, study.columns
-        if unseen:
-            runs = (*runs, *study.holdout)
-            columns = np.concatenate([columns, *study.holdout_columns])
-            residual = np.concatenate([residual, *(run.residual(model) for run, model in zip(
-                study.holdout, unseen, strict=True))])
         seen: Floats = np.ones(residual.size)
         if comparable:
-            seen = np.concatenate([comparable_rows(study, run) for run in runs])
-        if unseen or not seen.all():
-            projector = Projector.of(columns * seen[:, None], projector.kept.tolist())
-        return Left(runs, projector, projector.remove(residual * seen), seen)
+            seen = np.concatenate([comparable_rows(study, run) for run in study.runs])
+        if not seen.all():
+            projector = Projector.of(study.columns * seen[:, None], projector.kept.tolist())
+        return Left(projector, projector.remove(residual * seen), seen)
 
-    @cached_property
-    def rows(self) -> list[slice]:
-        """Those of each run."""
-        return rows_of(self.runs)
-
-    def bins_of(self, i: int) -> NDArray[np.bool_]:
+    def rows_of(self, study: Study, i: int) -> NDArray[np.bool_]:
         """[bins] of a run that count."""
-        rows = self.seen[self.rows[i]].reshape(self.runs[i].measured.shape)
+        rows = self.seen[row_ranges(study)[i]].reshape(study.runs[i].measured.shape)
         return np.asarray(rows[:, 0] > 0.0)
 
     def worst(self, study: Study) -> int:
         """The training run that is explained worst."""
-        return max(study.train, key=lambda i: float(
-            self.removed[self.rows[i]] @ self.removed[self.rows[i]]))
+        rows = row_ranges(study)
+        return max(study.train, key=lambda i: float(self.removed[rows[i]] @ self.removed[rows[i]]))

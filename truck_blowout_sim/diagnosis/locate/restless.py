@@ -18,7 +18,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from truck_blowout_sim.diagnosis.case.study import Study
+from truck_blowout_sim.diagnosis.case.study import Study, row_ranges
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.locate.comparable import Left
 from truck_blowout_sim.diagnosis.locate.left_over import GUESSED, chance_of, most_by_chance
@@ -80,14 +80,11 @@ class Unrest:
     chance: float = 1.0
 
 
-def unrest(study: Study, named: Sequence[Hypothesis], unseen: Sequence[Floats] = ()) -> Unrest:
-    """What moves on in training. Study's models have ``named`` in force.
-
-    ``unseen``: models of the unseen runs with ``named`` in force; they are asked as training is.
-    """
+def unrest(study: Study, named: Sequence[Hypothesis]) -> Unrest:
+    """What moves on in training. Study's models have ``named`` in force."""
     if not study.baseline:
         return Unrest()
-    clean = Left.of(study, study.models, named, comparable=True, unseen=unseen)
+    clean = Left.of(study, study.models, named, comparable=True)
     channels = [c for c in dict.fromkeys(c for i in study.train for c in study.runs[i].channels)
                 if c.endswith(tuple(end for end, _ in _NAMES))]
     judged = [_judge(study, clean, name, len(channels)) for name in channels]
@@ -102,10 +99,11 @@ def _judge(study: Study, clean: Left, channel: str, asked: int) -> tuple[Restles
 
     With the chance that so much is left of this one where nothing is missing.
     """
-    parts = [(run.role, *_left(clean, channel, i)) for i, run in enumerate(clean.runs)
-             if channel in run.channels]
-    train, still = ([square for role, left, _ in parts if (role == "baseline") == sound
-                     and (square := _mean_square(left)) > 0.0] for sound in (False, True))
+    parts, base = ([_left(study, clean, channel, i) for i in which
+                    if channel in study.runs[i].channels]
+                   for which in (study.train, study.baseline))
+    train, still = ([square for left, _ in group if (square := _mean_square(left)) > 0.0]
+                    for group in (parts, base))
     if not train or not still:
         return None, 1.0
     still.append(GUESSED)
@@ -114,18 +112,18 @@ def _judge(study: Study, clean: Left, channel: str, asked: int) -> tuple[Restles
     typical = float(np.exp(0.5 * np.mean(np.log(train))))
     if typical <= usual:
         return None, chance
-    plain = np.concatenate([plain for role, _, plain in parts if role == "train"])
+    left, plain = (np.concatenate(one) for one in zip(*parts, strict=True))
     size = float(np.sqrt(_mean_square(plain)))
     return Restless(channel.split("_", 1)[0], channel, size, size * usual / typical,
-                    plain.size * (typical**2 - usual**2)), chance
+                    float(left @ left - left.size * usual**2)), chance
 
 
-def _left(clean: Left, channel: str, i: int) -> tuple[Floats, Floats]:
+def _left(study: Study, clean: Left, channel: str, i: int) -> tuple[Floats, Floats]:
     """What is left of a channel in one run, whitened, and in the channel's unit."""
-    run = clean.runs[i]
+    run = study.runs[i]
     k = run.channels.index(channel)
-    seen = np.isfinite(run.measured[:, k]) & clean.bins_of(i)
-    removed = clean.removed[clean.rows[i]]
+    seen = np.isfinite(run.measured[:, k]) & clean.rows_of(study, i)
+    removed = clean.removed[row_ranges(study)[i]]
     return removed.reshape(run.measured.shape)[seen, k], run.plain(removed)[seen, k]
 
 
