@@ -3,7 +3,8 @@
 Two good models of one truck differ more or less, depending on the truck and on how it is driven, so
 no level of what is left says that something is missing. But baseline runs show what this model
 leaves of this truck. The mean squares that each run keeps are compared as logarithms by Student's
-test, all of training and its worst run; runs are few, so their scatter has a prior of its own.
+test, all of training and its worst run; unseen runs count with training. Runs are few, so their
+scatter has a prior of its own.
 Without baseline runs, training is held against the widths as they were guessed: these are what good
 models of any such truck differ by. A guess errs by a factor of its own: instruments that drift and
 tremble leave as much as a worse model.
