@@ -6,8 +6,9 @@
 Each case is driven again with and without its effects, on the same commands and the same road. The
 difference in all recorded channels is one hypothesis of unknown amount, asked by the rule of
 step 7 of every run, unseen ones too, as a single question: no place, instant, law or frequency is
-searched. So a search with these recordings cannot notice what this does not. Both effects of a pair
-count as one. CASES hold effects of a world, PROOF is what `truck-blowout prove -o` wrote for them.
+searched. So no search among forces can support what this does not; checks of what is left may still
+notice it. Both effects of a pair count as one. CASES hold effects of a world, PROOF is what
+`truck-blowout prove -o` wrote for them.
 
 Known limits: beside the numbers of the sheet alone, nothing named; scatter is that of all other
 hypotheses of the case. A vehicle that turns over on the same commands without its effects is left
@@ -28,13 +29,13 @@ import typer
 from numpy.typing import NDArray
 
 from benchmarks.page import Page, Table, start
-from benchmarks.proved import figures_of
+from benchmarks.proved import figures_of, two_a_world
 from proving_ground.generate import builder
 from proving_ground.visibility import spec_of
 from truck_blowout_sim.diagnosis.case.antilock import as_braked
 from truck_blowout_sim.diagnosis.case.calibration import calibrate
 from truck_blowout_sim.diagnosis.case.driven import driven
-from truck_blowout_sim.diagnosis.case.runs import Run, prepare_run
+from truck_blowout_sim.diagnosis.case.runs import Run, bin_means, prepare_run
 from truck_blowout_sim.diagnosis.case.study import Study, row_ranges
 from truck_blowout_sim.diagnosis.effort import USUAL
 from truck_blowout_sim.diagnosis.fit.linear import Projector
@@ -43,7 +44,6 @@ from truck_blowout_sim.diagnosis.name.candidates import known_names
 from truck_blowout_sim.diagnosis.name.shortlist import shortlist
 from truck_blowout_sim.diagnosis.sensors import seen_quanta
 from truck_blowout_sim.diagnosis.settings import load_settings
-from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.proof.cases import ROLES, Case, find_cases, read_truth
 from truck_blowout_sim.proof.rows import VISIBLE
 from truck_blowout_sim.recordings import read_recording
@@ -94,14 +94,10 @@ def study_of(case: Case) -> Study:
 def column(run: Run, signals: Signals) -> Floats:
     """[rows] a change of the channels as the run would show it, whitened."""
     time_s, values = signals
-    place = np.searchsorted(run.edges_s, time_s + 1e-9, side="right") - 1
-    bins = run.edges_s.size - 1
-    inside = (place >= 0) & (place < bins)
-    counts = np.maximum(np.bincount(place[inside], minlength=bins), 1)
     change: Floats = np.zeros(run.measured.shape)
     for k, channel in enumerate(run.channels):
         if channel in values:
-            change[:, k] = np.bincount(place[inside], values[channel][inside], bins) / counts
+            change[:, k] = np.nan_to_num(bin_means(time_s, values[channel], run.edges_s)[0])
     return run.change(change, np.zeros_like(change))
 
 
@@ -161,13 +157,9 @@ def _lines(path: Path) -> list[dict[str, Any]]:
 def table(runs: list[str], page: Page = None) -> None:
     """Cases found, and those that are supported when told; RUNS: WORLD=PROOF,TOLD.jsonl."""
     worlds = {}
-    for word in runs:
-        world, _, files = word.partition("=")
-        proof, comma, told = files.partition(",")
-        if not comma:
-            raise InputError(f"{word!r}", expected="WORLD=PROOF,TOLD.jsonl")
-        worlds[world] = (figures_of(Path(proof))["each"],
-                         {line["case"]: line for line in _lines(Path(told))})
+    for world, proof, told in two_a_world(runs, "PROOF,TOLD.jsonl"):
+        worlds[world] = (figures_of(proof)["each"],
+                         {line["case"]: line for line in _lines(told)})
     made = motion_table(worlds)
     if page is not None:
         put_on_page(page, "motion", str(made))

@@ -26,9 +26,8 @@ from typing import Any
 import typer
 
 from benchmarks.page import Page, Table, start
-from benchmarks.proved import figures_of, of
+from benchmarks.proved import figures_of, of, two_a_world
 from truck_blowout_sim.diagnosis.effects import LIBRARY as EFFECTS
-from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.proof.cases import LIBRARY, SIGMA_B, find_cases, read_truth
 from truck_blowout_sim.proof.rows import VISIBLE
 from truck_blowout_sim.report.marked import put_on_page
@@ -70,12 +69,8 @@ def make(cases: Path, out: Path) -> None:
 def table(runs: list[str], page: Page = None) -> None:
     """Effects named without and with the true name; RUNS: WORLD=WHOLE,TOLD."""
     figures = {}
-    for word in runs:
-        world, _, folders = word.partition("=")
-        whole, comma, told = folders.partition(",")
-        if not comma:
-            raise InputError(f"{word!r}", expected="WORLD=WHOLE,TOLD, folders of `prove -o`")
-        figures[world] = (figures_of(Path(whole)), figures_of(Path(told)))
+    for world, whole, told in two_a_world(runs, "WHOLE,TOLD, folders of `prove -o`"):
+        figures[world] = (figures_of(whole), figures_of(told))
     made = oracle_table(figures)
     if page is not None:
         put_on_page(page, "oracle", str(made))

@@ -45,6 +45,7 @@ class Nulls:
 
     def __init__(self, world: str, folder: Path, trucks: int) -> None:
         self.world, self.folder, self.trucks = world, folder / world, trucks
+        self._spreads: dict[tuple[str, bool], tuple[list[str], FloatArray]] = {}
 
     def builder(self, number: int, kind: str) -> CaseBuilder:
         """The builder of a truck of this world with one run of a kind."""
@@ -68,8 +69,13 @@ class Nulls:
     def spread(self, kind: str, even: bool = True) -> tuple[list[str], FloatArray]:
         """Channels, and coefficients of all trucks: trucks x channels x coefficients.
 
-        On an even road, or each on a road of its own.
+        On an even road, or each on a road of its own. Simulated or read once.
         """
+        if (kind, even) not in self._spreads:
+            self._spreads[kind, even] = self._spread(kind, even)
+        return self._spreads[kind, even]
+
+    def _spread(self, kind: str, even: bool) -> tuple[list[str], FloatArray]:
         path = self.folder / f"{kind}{'' if even else '_on_own_roads'}.npz"
         if path.is_file():
             kept = np.load(path)

@@ -101,18 +101,8 @@ class KeptBack:
         if not self.instruments:
             return readings
         rng = np.random.default_rng([seed, 157])
-        return {channel: (on_the_bus if self.later else of_a_series)(channel, signal, rng)
+        return {channel: _read(self.reading(channel), signal, rng)
                 for channel, signal in readings.items()}
-
-
-def of_a_series(channel: str, signal: FloatArray, rng: np.random.Generator) -> FloatArray:
-    """What a series vehicle's inertial unit beside a satellite receiver of 10 Hz reads."""
-    return _read(series_reading(channel), signal, rng)
-
-
-def on_the_bus(channel: str, signal: FloatArray, rng: np.random.Generator) -> FloatArray:
-    """What a truck's own bus carries of a channel: coarse, and not always fresh."""
-    return _read(bus_reading(channel), signal, rng)
 
 
 class Reading(NamedTuple):
@@ -124,13 +114,13 @@ class Reading(NamedTuple):
 
 
 def series_reading(channel: str) -> Reading:
-    """A channel of a series vehicle's unit."""
+    """What a series vehicle's inertial unit beside a satellite receiver of 10 Hz reads."""
     slow = channel.endswith(("_x_m", "_y_m", "vx_mps", "vy_mps", "_yaw_rad"))
     return Reading(_sigma(channel, SERIES_NOISE), 0.0, round(RATE_HZ / GNSS_HZ) if slow else 1)
 
 
 def bus_reading(channel: str) -> Reading:
-    """A channel of a truck's own bus."""
+    """What a truck's own bus carries of a channel: coarse, and not always fresh."""
     step, seconds = next((found for part, found in BUS.items()
                           if channel.startswith(part) or channel.endswith(part)),
                          (0.0, 1.0 / RATE_HZ))

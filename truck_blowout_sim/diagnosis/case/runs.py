@@ -237,18 +237,23 @@ def _channel_bins(recording: Recording, name: str, noise: Noise, edges: Floats,
     """Bin means, NaN where there is no sample, and the standard errors of the instrument."""
     series, rule = recording[name], settings.rule(name)
     assert rule is not None
-    place = np.searchsorted(edges, series.time_s + 1e-9, side="right") - 1
-    inside = (place >= 0) & (place < edges.size - 1)
-    counts = np.bincount(place[inside], minlength=edges.size - 1).astype(np.float64)
-    sums = np.bincount(place[inside], series.value[inside], minlength=edges.size - 1)
-    with np.errstate(invalid="ignore", divide="ignore"):
-        mean = np.where(counts > 0, sums / counts, np.nan)
+    mean, counts = bin_means(series.time_s, series.value, edges)
     level = np.abs(np.nan_to_num(mean))
     single = np.hypot(noise.floor, noise.relative * level)
     independent = np.clip(noise.effective_rate_hz * settings.bin_s, 1.0, np.maximum(counts, 1.0))
     plain = np.maximum(single / np.sqrt(independent), noise.quantum / 6.0)
     # a gauge that reads nothing, or a computed series, seems noiseless: none is that good
     return mean, np.maximum(plain, _BEST_INSTRUMENT * rule.floor)
+
+
+def bin_means(time_s: Floats, values: Floats, edges_s: Floats) -> tuple[Floats, Floats]:
+    """Mean of the samples in each bin, NaN where there is none, and how many there are."""
+    place = np.searchsorted(edges_s, time_s + 1e-9, side="right") - 1
+    inside = (place >= 0) & (place < edges_s.size - 1)
+    counts = np.bincount(place[inside], minlength=edges_s.size - 1).astype(np.float64)
+    sums = np.bincount(place[inside], values[inside], minlength=edges_s.size - 1)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        return np.where(counts > 0, sums / counts, np.nan), counts
 
 
 def rms_sigma(run: Run, model: Floats) -> Mapping[str, float]:

@@ -59,9 +59,9 @@ class Beside:
         """With the holdout simulated."""
         nothing: Floats = np.zeros((0, 0))
         manners = tuple(driven(study))
-        if not study.holdout or any(h.effect.timed for h in named):
-            return Beside(tuple(named), tuple(models), (), nothing, nothing, manners)
         unseen = unseen_with(study, named)
+        if not unseen:
+            return Beside(tuple(named), tuple(models), (), nothing, nothing, manners)
         columns = np.concatenate([study.columns, *study.holdout_columns])
         runs = range(len(study.runs) + len(study.holdout))
         return Beside(tuple(named), tuple(models), unseen, columns,
