@@ -217,6 +217,16 @@ def test_what_acts_near_the_limit_strays_more_far_from_it(truck: Packed) -> None
     assert sizes[0] == pytest.approx(0.5 * effect.amount.material)
 
 
+def test_a_wrong_sheet_does_not_widen_what_forms_differ_by(truck: Packed) -> None:
+    effect = next(e for e in LIBRARY if e.name == "tire_saturation" and not e.variant)
+    trucks = 0.5 * effect.amount.material
+    for used in (1.0, 0.5, 0.0):
+        forms = effect.far_from_limit * (1.0 - used) + effect.near_limit * used
+        usual, wrong = effect.strays(truck, used)
+        assert usual**2 == pytest.approx(trucks**2 + forms**2)
+        assert wrong**2 == pytest.approx((4.0 * trucks) ** 2 + forms**2)
+
+
 def _spread_of_slips(used: float) -> float:
     """1 sigma between four forms of equal slope and peak, at a share of the peak."""
     forms = (_brush, np.tanh, lambda slip: np.sin(1.3 * np.arctan(slip / 1.3)),

@@ -16,7 +16,12 @@ from truck_blowout_sim.diagnosis.fit.attribute import Ranked
 from truck_blowout_sim.diagnosis.fit.instants import grid_of
 from truck_blowout_sim.diagnosis.fit.scatter import Chance, Scatter
 from truck_blowout_sim.diagnosis.fit.shown import SCATTERS
-from truck_blowout_sim.diagnosis.fit.support import Beside, _log_choices, supported
+from truck_blowout_sim.diagnosis.fit.support import (
+    Beside,
+    _log_choices,
+    support_of_unseen,
+    supported,
+)
 from truck_blowout_sim.recordings import Blowout
 from truck_blowout_sim.vehicle import Packed
 
@@ -29,11 +34,16 @@ def weak_brake(truck: Packed) -> Mapping[str, float]:
     return {f"hub.{HUB}.brake_gain": 0.5 * truck[f"hub.{HUB}.brake_gain"]}
 
 
-def support_of(study: Study, name: str, amount: float, hub: str | None = None,
-               times: Mapping[str, tuple[float, float]] | None = None) -> float:
+def hypothesis(study: Study, name: str, amount: float, hub: str | None = None,
+               times: Mapping[str, tuple[float, float]] | None = None) -> Ranked:
     effect = next(e for e in LIBRARY if e.name == name)
     place = next(p for p in effect.places(study.packed.vehicle) if p.hub == hub)
-    one = Ranked(Hypothesis(effect, place, amount, times or {}), 0.0, 0.1)
+    return Ranked(Hypothesis(effect, place, amount, times or {}), 0.0, 0.1)
+
+
+def support_of(study: Study, name: str, amount: float, hub: str | None = None,
+               times: Mapping[str, tuple[float, float]] | None = None) -> float:
+    one = hypothesis(study, name, amount, hub, times)
     return supported(study, one, Beside.of(study, (), study.models), CHANCE).support
 
 
@@ -52,6 +62,19 @@ def test_unseen_runs_speak_for_it_or_against(study_of: Studies, truck: Packed) -
     without = study_of(weak_brake(truck), holdout={})
     found = [support_of(study, "brake_imbalance", -0.5, HUB) for study in (without, alone, joined)]
     assert found[0] < found[1] < found[2]
+
+
+def test_what_unseen_runs_add_is_told_apart(study_of: Studies, truck: Packed) -> None:
+    """Where they show it, its support grows by them; where they do without, it falls."""
+    alone = support_of(study_of(weak_brake(truck)), "brake_imbalance", -0.5, HUB)
+    for holdout, sign in ((weak_brake(truck), 1.0), ({}, -1.0)):
+        study = study_of(weak_brake(truck), holdout=holdout)
+        beside = Beside.of(study, (), study.models)
+        one = hypothesis(study, "brake_imbalance", -0.5, HUB)
+        one = supported(study, one, beside, CHANCE)
+        added = support_of_unseen(study, one, beside, CHANCE)
+        assert sign * added > 0.0
+        assert one.support - added == pytest.approx(alone)
 
 
 def test_no_amount_has_no_support(study_of: Studies) -> None:

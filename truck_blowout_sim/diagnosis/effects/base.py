@@ -136,15 +136,17 @@ class Effect:
     def strays(self, packed: Packed, grip_used: float = 1.0) -> tuple[float, ...]:
         """1 sigma by which trucks of one kind differ in the amount, and roads, winds and loads.
 
-        A number of the vehicle's file may be wrong: then four times as much. What the sheet still
+        A number of the vehicle's file may be wrong: then trucks differ from it by four times as
+        much. What forms of a law differ by is no matter of the file. What the sheet still
         calibrates beside the effect has that chance already.
 
         ``grip_used``: share of the tires' side grip that the runs ask for.
         """
         forms = self.far_from_limit * (1.0 - grip_used) + self.near_limit * grip_used
-        usual = float(np.hypot(0.5 * self.amount.material * self.grows_with(packed), forms))
+        trucks = 0.5 * self.amount.material * self.grows_with(packed)
         stated = (self.absorbs or self.of_file) and not self.met
-        return (usual, WRONG_SHEET * usual) if stated else (usual,)
+        sizes = (1.0, WRONG_SHEET) if stated else (1.0,)
+        return tuple(float(np.hypot(size * trucks, forms)) for size in sizes)
 
     @property
     def adds_up(self) -> bool:

@@ -130,6 +130,15 @@ def supported(study: Study, one: Ranked, beside: Beside, chance: Chance) -> Rank
     return replace(one, support=support)
 
 
+def support_of_unseen(study: Study, one: Ranked, beside: Beside, chance: Chance) -> float:
+    """What the unseen runs add to the support of a hypothesis; less than 0: they speak against it.
+
+    Only of one whose support knows them, see :func:`asks_unseen`.
+    """
+    fitted = supported(study, one, replace(beside, unseen=()), chance)
+    return one.support - fitted.support
+
+
 def _asked(study: Study, h: Hypothesis, beside: Beside, away: float) -> _Asked:
     """What the fitted runs hold of a hypothesis, and the unseen ones where these are asked."""
     models, rows = beside.models, row_ranges(study)

@@ -15,7 +15,7 @@ from truck_blowout_sim.diagnosis.case.study import Progress, Study
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.fit.attribute import Ranked
 from truck_blowout_sim.diagnosis.fit.scatter import Chance
-from truck_blowout_sim.diagnosis.fit.support import asks_unseen
+from truck_blowout_sim.diagnosis.fit.support import asks_unseen, support_of_unseen
 from truck_blowout_sim.diagnosis.locate.left_over import NAMING_SHARE
 from truck_blowout_sim.diagnosis.name.judging import (
     ODDS,
@@ -142,9 +142,9 @@ def _accept(study: Study, found: Found, this: Round, named: Sequence[Hypothesis]
         elif fate is None and passing and worth(one) < most - slack(passing[0].ranked):
             fate = Fate("explains", worth(one), most)
         elif fate is None:
-            believed, better = _believed(study, found, named, one)
-            if believed is None:
-                fate = Fate("holdout", better)
+            believed = _believed(study, found, this, one)
+            if isinstance(believed, Fate):
+                fate = believed
                 disbelieved.append(one)
             else:
                 passing.append(believed)
@@ -153,7 +153,7 @@ def _accept(study: Study, found: Found, this: Round, named: Sequence[Hypothesis]
             note(found, one, fate)
     if not passing:
         return None, disbelieved
-    passing += _explaining_more(study, found, this, named, passing)
+    passing += _explaining_more(study, found, this, passing)
     best = max(passing, key=lambda p: p.worth)
     fate = Fate("accepted", best.ranked.support, this.chance.asked)
     return _named(study, found, best, fate), disbelieved
@@ -161,9 +161,9 @@ def _accept(study: Study, found: Found, this: Round, named: Sequence[Hypothesis]
 
 def _accept_quieting(study: Study, found: Found, this: Round) -> Ranked | None:
     """Take what brings training back to what baseline runs keep, if unseen runs agree."""
-    tried = [(_believed(study, found, (), one.ranked)[0], one)
+    tried = [(_believed(study, found, this, one.ranked), one)
              for one in quieting(study, this.ranked)]
-    believed = [(one, quiets) for one, quiets in tried if one is not None]
+    believed = [(one, quiets) for one, quiets in tried if isinstance(one, _Believed)]
     if not believed:
         return None
     best, quiets = max(believed, key=lambda pair: pair[0].worth)
@@ -180,7 +180,7 @@ def _named(study: Study, found: Found, best: _Believed, fate: Fate) -> Ranked:
     return best.ranked
 
 
-def _explaining_more(study: Study, found: Found, this: Round, named: Sequence[Hypothesis],
+def _explaining_more(study: Study, found: Found, this: Round,
                      passing: Sequence[_Believed]) -> list[_Believed]:
     """Steady causes that explain more than all that passed, beyond chance as single questions.
 
@@ -190,24 +190,37 @@ def _explaining_more(study: Study, found: Found, this: Round, named: Sequence[Hy
     most = max(worth(p.ranked) for p in passing)
     more = [one for one in this.ranked if worth(one) > most and not one.hypothesis.times
             and weakness(one, this.chance.alone) is None]
-    tried = [_believed(study, found, named, one)[0] for one in more]
-    return [one for one in tried if one is not None]
+    tried = [_believed(study, found, this, one) for one in more]
+    return [one for one in tried if isinstance(one, _Believed)]
 
 
-def _believed(study: Study, found: Found, named: Sequence[Hypothesis], one: Ranked
-              ) -> tuple[_Believed | None, float]:
-    """With what it predicts, and by how much better; None where unseen runs speak against it.
+def _believed(study: Study, found: Found, this: Round, one: Ranked) -> _Believed | Fate:
+    """With what it predicts; its fate where unseen runs speak against it.
 
-    Those of which its support knows nothing must not be predicted worse; of a cause that is always
-    there its support knows them, and only odds of 20 to 1 against it count.
+    Those of which its support knows nothing must be predicted better.
     """
-    models, after = predict_with(study, [*named, one.hypothesis])
-    better = predicts_better(found.after, after)
-    least = -ODDS if asks_unseen(one.hypothesis, named) else 0.0
-    if study.holdout and better <= least and can_judge(study, one.hypothesis):
-        return None, better
+    models, after = predict_with(study, [*this.beside.named, one.hypothesis])
+    against = _against(study, found, this, one, after) if study.holdout else None
+    if against is not None:
+        return against
     gain = sum(p.chi2 for p in found.after) - sum(p.chi2 for p in after)
-    return _Believed(one, worth(one) + gain, models, after), better
+    return _Believed(one, worth(one) + gain, models, after)
+
+
+def _against(study: Study, found: Found, this: Round, one: Ranked, after: Sequence[Prediction]
+             ) -> Fate | None:
+    """Its fate where unseen runs speak against a hypothesis.
+
+    Of a cause that is always there its support knows them: then only odds of 20 to 1 against it
+    count, and only those that are left where a supported amount may scatter from run to run.
+    """
+    better = predicts_better(found.after, after)
+    known = asks_unseen(one.hypothesis, this.beside.named)
+    if better > (-ODDS if known else 0.0) or not can_judge(study, one.hypothesis):
+        return None
+    scatters = known and one.support > ODDS and (
+        support_of_unseen(study, one, this.beside, this.chance) > -ODDS)
+    return None if scatters else Fate("holdout", better)
 
 
 def _take(study: Study, found: Found, pair: Pair, chance: Chance) -> int:

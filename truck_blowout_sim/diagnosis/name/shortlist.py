@@ -18,10 +18,14 @@ from truck_blowout_sim.diagnosis.name.events import event_places, rank_events
 
 @dataclass(frozen=True, eq=False)
 class Round:
-    """One round: every hypothesis, best first, and what chance reaches among so many."""
+    """One round: every hypothesis, best first, and what chance reaches among so many.
+
+    ``beside``: what was in force.
+    """
 
     ranked: tuple[Ranked, ...]
     chance: Chance
+    beside: Beside
 
 
 def shortlist(study: Study, named: Sequence[Hypothesis], progress: Progress | None,
@@ -46,7 +50,7 @@ def shortlist(study: Study, named: Sequence[Hypothesis], progress: Progress | No
             *(one for one in ranked if one.hypothesis.form not in forms)]
     done += rank_events(study, beside, chi2, chance, done, places, progress)
     best = best_forms([one for one in done if one.hypothesis.key not in taken], chance.asked)
-    return Round(tuple(best), chance)
+    return Round(tuple(best), chance, beside)
 
 
 def best_forms(ranked: Sequence[Ranked], asked: float) -> list[Ranked]:
