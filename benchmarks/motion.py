@@ -35,14 +35,13 @@ from proving_ground.visibility import spec_of
 from truck_blowout_sim.diagnosis.case.antilock import as_braked
 from truck_blowout_sim.diagnosis.case.calibration import calibrate
 from truck_blowout_sim.diagnosis.case.driven import driven
-from truck_blowout_sim.diagnosis.case.runs import Run, bin_means, prepare_run
+from truck_blowout_sim.diagnosis.case.recorded import Recorded
+from truck_blowout_sim.diagnosis.case.runs import Run, bin_means
 from truck_blowout_sim.diagnosis.case.study import Study, row_ranges
-from truck_blowout_sim.diagnosis.effort import USUAL
 from truck_blowout_sim.diagnosis.fit.linear import Projector
 from truck_blowout_sim.diagnosis.fit.shown import Shown, parts_of
 from truck_blowout_sim.diagnosis.name.candidates import known_names
 from truck_blowout_sim.diagnosis.name.shortlist import shortlist
-from truck_blowout_sim.diagnosis.sensors import seen_quanta
 from truck_blowout_sim.diagnosis.settings import load_settings
 from truck_blowout_sim.proof.cases import ROLES, Case, find_cases, read_truth
 from truck_blowout_sim.proof.rows import VISIBLE
@@ -80,13 +79,10 @@ def study_of(case: Case) -> Study:
     packed = pack(load_vehicle(case.vehicle()))
     recordings = {role: [read_recording(path) for path in case.recordings(role)]
                   for role in ROLES}
-    every = [one for group in recordings.values() for one in group]
     packed, _ = as_braked(packed, [*recordings["train"], *recordings["baseline"]])
     rules = replace(load_settings(packed, "default"), without=known_names(case.without()))
-    runs = {role: tuple(prepare_run(one, role, packed, rules, step_s=USUAL.step_s,
-                                    quanta=seen_quanta(every), impose_speed=None)
-                        for one in recordings[role]) for role in ROLES}
-    study = Study((*runs["baseline"], *runs["train"]), runs["holdout"], packed, rules, 1)
+    study = Recorded(recordings["train"], recordings["baseline"], recordings["holdout"], packed,
+                     rules).study()
     calibrate(study)
     return study
 

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Collection, Mapping, Sequence
-from dataclasses import dataclass, replace
-from functools import cached_property
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -22,8 +21,8 @@ from truck_blowout_sim.diagnosis.case.antilock import MODE, as_braked
 from truck_blowout_sim.diagnosis.case.calibration import calibrate
 from truck_blowout_sim.diagnosis.case.fingerprints import case_parts
 from truck_blowout_sim.diagnosis.case.names import names_apart
+from truck_blowout_sim.diagnosis.case.recorded import Recorded
 from truck_blowout_sim.diagnosis.case.resume import Keeps
-from truck_blowout_sim.diagnosis.case.runs import Run, prepare_run
 from truck_blowout_sim.diagnosis.case.study import Progress, Study
 from truck_blowout_sim.diagnosis.case.usable import check_each_once, determined
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
@@ -50,15 +49,13 @@ from truck_blowout_sim.diagnosis.prove.intervals import Timing, time_intervals
 from truck_blowout_sim.diagnosis.prove.next_test import Separation, best_test
 from truck_blowout_sim.diagnosis.prove.profile import Arms, arms_of
 from truck_blowout_sim.diagnosis.prove.showing import would_show
-from truck_blowout_sim.diagnosis.result import Diagnosis, Role
+from truck_blowout_sim.diagnosis.result import Diagnosis
 from truck_blowout_sim.diagnosis.sensors import (
     GateResult,
-    correct,
-    seen_quanta,
     sensor_gate,
     vehicle_geometry,
 )
-from truck_blowout_sim.diagnosis.settings import Settings, load_settings
+from truck_blowout_sim.diagnosis.settings import load_settings
 from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.recordings import Recording
 from truck_blowout_sim.vehicle import Packed, Vehicle, load_vehicle, pack, write_vehicle
@@ -110,11 +107,11 @@ def diagnose(recordings: Sequence[Recording], *, baseline: Sequence[Recording] =
     if kept is not None:
         kept.begin(case_parts({"train": recordings, "baseline": baseline, "holdout": holdout},
                               packed, rules, (effort, impose_speed)))
-    case = _Case(recordings, baseline, holdout, given, packed, rules, effort, impose_speed,
-                 workers or os.cpu_count() or 1, kept)
+    case = Recorded(recordings, baseline, holdout, packed, rules, effort, impose_speed,
+                    workers or os.cpu_count() or 1, kept)
 
     def searched(gate: GateResult) -> tuple[Study, Found]:
-        study = case.study(gate)
+        study = case.study(gate.findings)
         calibrate(study, progress=progress)
         return study, search(study, progress, effort.most_effects, sound=not gate.findings)
 
@@ -126,46 +123,8 @@ def diagnose(recordings: Sequence[Recording], *, baseline: Sequence[Recording] =
         study, found = searched(gate)
     material = replace(_material(study, found, gate, loaded.name, effort, progress), lockup=lockup)
     told = answer(material)
-    told, truck = _with_truck(told, material, case)
+    told, truck = _with_truck(told, material, case, given)
     return told, truck.values
-
-
-@dataclass(frozen=True, eq=False)
-class _Case:
-    """What is diagnosed, ready to be cut into runs once the instruments are known."""
-
-    recordings: Sequence[Recording]
-    baseline: Sequence[Recording]
-    holdout: Sequence[Recording]
-    given: Packed
-    packed: Packed
-    rules: Settings
-    effort: Effort
-    impose_speed: bool | None
-    workers: int
-    kept: Keeps | None
-
-    def study(self, gate: GateResult) -> Study:
-        """All runs, corrected for what the gate found."""
-        study = Study((*(self._cut(r, "baseline", gate) for r in self.baseline),
-                       *(self._cut(r, "train", gate) for r in self.recordings)),
-                      tuple(self._cut(r, "holdout", gate) for r in self.holdout),
-                      self.packed, self.rules, self.workers, self.effort.refits)
-        if self.kept is not None:
-            study.simulated = self.kept.simulated
-            study.simulated_abreast = self.kept.simulated_abreast
-        return study
-
-    def _cut(self, recording: Recording, role: Role, gate: GateResult) -> Run:
-        findings = [f for f in gate.findings if f.in_baseline or role != "baseline"]
-        return prepare_run(correct(recording, findings), role, self.packed, self.rules,
-                           step_s=self.effort.step_s, impose_speed=self.impose_speed,
-                           quanta=self.quanta)
-
-    @cached_property
-    def quanta(self) -> Mapping[str, float]:
-        """Steps in which the channels read."""
-        return seen_quanta([*self.recordings, *self.baseline, *self.holdout])
 
 
 def _material(study: Study, found: Found, gate: GateResult, vehicle: str,
@@ -242,20 +201,20 @@ def _diagnosed(material: Material, given: Packed) -> tuple[DiagnosedTruck, Diagn
                             [r.hypothesis for r in found.named], law))
 
 
-def _with_truck(told: Diagnosis, material: Material, case: _Case) -> tuple[Diagnosis,
-                                                                          DiagnosedTruck]:
+def _with_truck(told: Diagnosis, material: Material, case: Recorded, given: Packed
+                ) -> tuple[Diagnosis, DiagnosedTruck]:
     """The answer with the truck that was judged: it is driven over the unseen runs.
 
     The instant of an event differs from run to run and is no property of a vehicle: where one was
     named, the figures stay those of the prediction, which locates it anew.
     """
-    before, after = _diagnosed(material, case.given)
+    before, after = _diagnosed(material, given)
     if material.lockup is not None:
         after = replace(after, sources={**after.sources, MODE: material.lockup.sentence})
     evidence = replace(
         told.evidence, sources=tuple(after.sources.items()), findings=material.gate.findings,
         blowouts=tuple((r.name, event.time_s, " + ".join(event.tires))
-                       for r in (*case.recordings, *case.baseline, *case.holdout)
+                       for r in case.every
                        for event in r.blowouts))
     runs = [run.recording for run in material.study.holdout]
     if runs and not any(r.hypothesis.effect.timed for r in as_told(material).found.named):
