@@ -6,7 +6,7 @@ shared by all runs of the case; an effect acts in training only.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
 
@@ -118,7 +118,7 @@ class Study:
         drop = frozenset(self.meaning(h) for h in hypotheses)
         if drop not in self._projectors:
             keep = [k for k, name in enumerate(self.names) if name not in drop]
-            gram = np.sum([self.gram(k) for k in range(len(self.runs))], axis=0)
+            gram = self.gram_of(range(len(self.runs)))
             self._projectors[drop] = Projector.of(self.columns, keep, gram)
         return self._projectors[drop]
 
@@ -130,6 +130,11 @@ class Study:
                      else self.holdout_columns[k - fitted])
             self._grams[k] = block.T @ block
         return self._grams[k]
+
+    def gram_of(self, runs: Iterable[int]) -> Floats:
+        """The same over several runs."""
+        total: Floats = np.sum([self.gram(k) for k in runs], axis=0)
+        return total
 
     def kept(self, hypotheses: Sequence[Hypothesis] = ()) -> list[int]:
         """Positions of the nuisances that :meth:`projector` keeps."""

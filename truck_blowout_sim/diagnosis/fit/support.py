@@ -63,9 +63,8 @@ class Beside:
         if not unseen:
             return Beside(tuple(named), tuple(models), (), nothing, nothing, manners)
         columns = np.concatenate([study.columns, *study.holdout_columns])
-        runs = range(len(study.runs) + len(study.holdout))
-        return Beside(tuple(named), tuple(models), unseen, columns,
-                      np.sum([study.gram(k) for k in runs], axis=0), manners)
+        gram = study.gram_of(range(len(study.runs) + len(study.holdout)))
+        return Beside(tuple(named), tuple(models), unseen, columns, gram, manners)
 
 
 @dataclass(frozen=True, eq=False)
