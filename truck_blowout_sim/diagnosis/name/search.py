@@ -200,7 +200,7 @@ def _believed(study: Study, found: Found, this: Round, one: Ranked) -> _Believed
     Those of which its support knows nothing must be predicted better.
     """
     models, after = predict_with(study, [*this.beside.named, one.hypothesis])
-    against = _against(study, found, this, one, after) if study.holdout else None
+    against = _against(study, found, this, one, after)
     if against is not None:
         return against
     gain = sum(p.chi2 for p in found.after) - sum(p.chi2 for p in after)

@@ -17,16 +17,17 @@ Validated with: test/proof/test_baselines.py.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from truck_blowout_sim.diagnosis.case.calibration import calibrate
-from truck_blowout_sim.diagnosis.case.runs import Run, prepare_run
-from truck_blowout_sim.diagnosis.case.study import Study, row_ranges
+from truck_blowout_sim.diagnosis.case.recorded import Recorded
+from truck_blowout_sim.diagnosis.case.runs import Run
+from truck_blowout_sim.diagnosis.case.study import row_ranges
+from truck_blowout_sim.diagnosis.effort import USUAL
 from truck_blowout_sim.diagnosis.prove.holdout import predict
-from truck_blowout_sim.diagnosis.result import Role
-from truck_blowout_sim.diagnosis.sensors import seen_quanta
 from truck_blowout_sim.diagnosis.settings import load_settings
 from truck_blowout_sim.proof.baselines.features import Stretch, inputs_of, motion_columns
 from truck_blowout_sim.proof.baselines.gaussian_process import predict_residual
@@ -49,15 +50,9 @@ def baseline_errors(train: Sequence[Recording], baseline: Sequence[Recording],
     """
     packed = pack(load_vehicle(vehicle))
     rules = load_settings(packed)
-
-    quanta = seen_quanta([*train, *baseline, *holdout])
-
-    def runs(recordings: Sequence[Recording], role: Role) -> tuple[Run, ...]:
-        return tuple(prepare_run(r, role, packed, rules, step_s=step_s, quanta=quanta)
-                     for r in recordings)
-
-    study = Study((*runs(baseline, "baseline"), *runs(train, "train")), runs(holdout, "holdout"),
-                  packed, rules, 1, simulated=(memory or Memory()).simulated)
+    study = Recorded(train, baseline, holdout, packed, rules,
+                     replace(USUAL, step_s=step_s)).study()
+    study.simulated = (memory or Memory()).simulated
     plain = study.simulate([(run, packed) for run in study.holdout])
     calibrate(study)
     residual = study.residual()
