@@ -110,10 +110,26 @@ def test_what_beats_in_the_baseline_too_is_not_missing_physics() -> None:
 
 def test_a_tone_that_meets_the_pace_of_the_wheels_in_one_run_is_no_beat() -> None:
     ride = Ride(1)
-    hum = 0.3 * np.sin(2.0 * np.pi * ride.way / TURN_M)
+    turn = 2.0 * np.pi * ride.way / TURN_M
+    hum = 0.3 * (np.sin(turn) + np.sin(2.0 * turn))
     met = turn_lines(ride.signals(tractor_az_mps2=hum), ride.recording, PER_M)
     assert clearest([met], 1.0 / PER_M, True, RATE) is not None
     assert clearest([met, turns(2), turns(3)], 1.0 / PER_M, True, RATE) is None
+
+
+@pytest.mark.parametrize("harmonic", [1, 2, 3])
+def test_a_tone_that_meets_one_harmonic_of_the_wheels_in_every_run_is_no_beat(
+        harmonic: int) -> None:
+    def met(seed: int, *harmonics: int) -> Lines:
+        ride = Ride(seed)
+        hum = sum(0.3 * np.sin(2.0 * np.pi * k * ride.way / TURN_M) for k in harmonics)
+        signals = ride.signals(**dict.fromkeys(CHANNELS, np.asarray(hum)))
+        return turn_lines(signals, ride.recording, PER_M)
+
+    other = harmonic % 3 + 1
+    assert clearest([met(1, harmonic), met(2, harmonic)], 1.0 / PER_M, True, RATE) is None
+    assert clearest([met(1, harmonic, other), met(2, harmonic, other)], 1.0 / PER_M, True,
+                    RATE) is not None
 
 
 def test_a_steady_tone_is_found_with_its_amplitude() -> None:

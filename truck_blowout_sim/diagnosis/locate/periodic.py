@@ -6,13 +6,14 @@ Where nothing beats, power over background is exponential with mean one, the sum
 the gamma law, and the smallest of n parts' ratios times n is exponential, too: a tone must last
 through the run. The course itself has slow waves that no model has, in baseline runs as well: of
 the greatest of N exponential powers in training and of N others, the one exceeds c times the other
-with chance N^(1-c) Gamma(1+c), however strong these are.
+with chance N^(1-c) Gamma(1+c), however strong these are. What strikes once a turn has several
+harmonics; the tone of an engine has one, wherever the wheels' pace meets it.
 
 References: order tracking (Fyfe and Munck 1997); Fisher's test for a hidden periodicity (1929).
-Known limits: fast channels only (20 Hz and more); once per turn says which unit, not which wheel;
-a steady tone is looked for along the course alone, because a truck rolls and bounces at its own
-frequencies on any road, and beside baseline runs only; a run counts up to the first tire blown on
-command, which beats by itself.
+Known limits: fast channels only (20 Hz and more); once per turn says which unit, not which wheel,
+and a pure sine once a turn (imbalance alone) is taken for a tone; a steady tone is looked for along
+the course alone, because a truck rolls and bounces at its own frequencies on any road, and beside
+baseline runs only; a run counts up to the first tire blown on command, which beats by itself.
 Validated with: test/diagnosis/test_periodic.py (false alarms on noise, lines that were put in).
 """
 
@@ -40,7 +41,7 @@ from truck_blowout_sim.simulation.drive import names_of, run_drive
 from truck_blowout_sim.vehicle import Packed
 
 Floats = NDArray[np.float64]
-Term = tuple[str, Floats, Floats]
+Term = tuple[str, int, Floats, Floats]
 Signals = Mapping[str, tuple[Floats, Floats, float]]  # times, measured - model, noise; by channel
 FAST = ("_ax_mps2", "_ay_mps2", "_az_mps2", "_roll_rate_radps", "_pitch_rate_radps")
 ALONG = ("_ax_mps2",)
@@ -65,12 +66,13 @@ class Lines:
     """Power over background, and squared amplitude, at the frequencies tried; rows are terms.
 
     Attributes:
-        channels: of each term; one term for each channel and harmonic.
+        channels, harmonics: of each term.
         ratios, squares: [terms, tries].
         baseline: whether of a baseline run; ``speed_mps`` of the run.
     """
 
     channels: tuple[str, ...]
+    harmonics: tuple[int, ...]
     ratios: Floats
     squares: Floats
     baseline: bool = False
@@ -143,7 +145,7 @@ def turn_lines(signals: Signals, recording: Recording, per_m: Floats) -> Lines:
             continue
         way = np.concatenate(([0.0], np.cumsum(0.5 * (v[1:] + v[:-1]) * np.diff(time_s))))[rolling]
         frequency, ratio, square = _spectrum(way, left[rolling], noise)
-        terms += [(name, np.interp(k * per_m, frequency, ratio),
+        terms += [(name, k, np.interp(k * per_m, frequency, ratio),
                    np.interp(k * per_m, frequency, square))
                   for k in HARMONICS if k * per_m.max() < frequency[-1]]
     return _lines(terms, per_m.size)
@@ -159,14 +161,14 @@ def tone_lines(signals: Signals, paces_hz: Floats) -> Lines:
                  for part in np.array_split(np.arange(time_s.size), _PARTS)]
         ratios, squares = (np.array([np.interp(paces_hz, p[0], p[k]) for p in parts])
                            for k in (1, 2))
-        terms.append((name, _PARTS * ratios.min(axis=0), squares.mean(axis=0)))
+        terms.append((name, 1, _PARTS * ratios.min(axis=0), squares.mean(axis=0)))
     return _lines(terms, paces_hz.size)
 
 
 def _lines(terms: Sequence[Term], tries: int) -> Lines:
-    return Lines(tuple(name for name, _, _ in terms),
-                 np.array([r for _, r, _ in terms]).reshape(-1, tries),
-                 np.array([a for _, _, a in terms]).reshape(-1, tries))
+    return Lines(tuple(name for name, *_ in terms), tuple(k for _, k, _, _ in terms),
+                 np.array([r for *_, r, _ in terms]).reshape(-1, tries),
+                 np.array([a for *_, a in terms]).reshape(-1, tries))
 
 
 def _spectrum(x: Floats, y: Floats, noise: float) -> tuple[Floats, Floats, Floats]:
@@ -205,6 +207,8 @@ def clearest(lines: Sequence[Lines], every: Floats, turning: bool, rate: float) 
         return None
     if min(_scores(part.ratios)[k] for part in train) < min(_BY_ITSELF, least):
         return None
+    if turning and _is_a_tone(train, k, rate):
+        return None
     if not turning and excess + 1.0 < times_as_strong(_CELLS, rate) * max(
             (float(part.ratios.mean(axis=0).max()) for part in lines
              if part.channels and part.baseline), default=0.0):
@@ -215,6 +219,15 @@ def clearest(lines: Sequence[Lines], every: Floats, turning: bool, rate: float) 
                 float(2.0 * np.sum(r - 1.0 - np.log(r))), channel.split("_", 1)[0], channel,
                 amplitude, float(np.mean([part.speed_mps for part in train])),
                 BeatScores(turning, every, score, least))
+
+
+def _is_a_tone(lines: Sequence[Lines], k: int, rate: float) -> bool:
+    """Whether all but one harmonic stands no higher than chance, at a pace that was chosen."""
+    ratios = np.concatenate([part.ratios[:, k] for part in lines])
+    harmonic = np.concatenate([part.harmonics for part in lines])
+    strongest = max(HARMONICS, key=lambda h: float(ratios[harmonic == h].sum()))
+    others = ratios[harmonic != strongest]
+    return not others.size or float(_scores(others)) < by_chance(others.size, 1, rate)
 
 
 def _scores(ratios: Floats) -> Floats:
