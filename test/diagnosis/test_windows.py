@@ -47,6 +47,24 @@ def test_a_restless_force_is_no_event(size: float, length_s: float) -> None:
     assert np.median(found) < 0.0
 
 
+def test_one_run_that_the_model_is_worst_at_shows_no_event() -> None:
+    """Its force wanders, and calm runs elsewhere say nothing about it."""
+    rng = np.random.default_rng(13)
+    found = []
+    for _ in range(50):
+        amounts = noise(rng, 0.3)
+        amounts[0] += noise(rng, 8.0, 3.0)[0]
+        found.append(windows(amounts, timing="step").support())
+    assert np.mean(np.array(found) > 2.0 * np.log(50.0)) <= 0.05
+
+
+def test_a_baseline_run_that_the_model_is_worst_at_hides_no_event() -> None:
+    rng = np.random.default_rng(14)
+    amounts = gust(noise(rng, 0.3), 4.0)
+    amounts[3] += noise(rng, 8.0, 3.0)[3]
+    assert windows(amounts).support() > 20.0
+
+
 def test_a_gust_stands_out_of_a_calm_force_and_not_of_a_wild_one() -> None:
     rng = np.random.default_rng(5)
     calm, wild = noise(rng, 0.5), noise(rng, 8.0)
