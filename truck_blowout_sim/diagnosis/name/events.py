@@ -24,7 +24,7 @@ from truck_blowout_sim.diagnosis.name.candidates import (
     timed_effects,
     unwatched_tires,
 )
-from truck_blowout_sim.diagnosis.name.judging import at_bound
+from truck_blowout_sim.diagnosis.name.judging import ODDS, at_bound
 from truck_blowout_sim.diagnosis.result.parts import Place
 
 _TIMED_COST = 8.0  # evidence that choosing an instant in a run costs
@@ -161,8 +161,8 @@ def _scanned(study: Study, beside: Beside, places: Sequence[tuple[Effect, Place]
         if found[0].hypothesis.effect.adds_up:
             mean = _mean_odds([r.support for r in found])
             fitted = _mean_odds([r.support - r.unseen for r in found])
-            # unseen runs confirm what the others show, or refute it; alone they show no event
-            mean = mean if fitted > 0.0 else min(mean, fitted)
+            # unseen runs confirm what the others show, or refute it; against them they show none
+            mean = mean if fitted > -ODDS else min(mean, fitted)
             forms[key] = [replace(r, support=mean, unseen=mean - fitted) for r in found]
     return [one for found in forms.values() for one in found]
 
