@@ -5,9 +5,9 @@ no model is exact. These amounts a are taken as a process without rest,
 
     a ~ N(0, tau^2 [(1 - rho) I + rho exp(-|t_i - t_j| / l) within a run])
 
-which one run may have many times as large as the others, for its maneuver may be one that the model
-is worst at; and the event as one common amount A over one stretch of each training run. The support
-is twice the log of
+and the event as one common amount A over one stretch of each training run. In one of the runs, tau
+may be many times as large as in the others: its maneuver may be the one that the model is worst at.
+The support is twice the log of
 
     sum_process L(process, stretches free, A ~ N(0, wide^2))
     / sum_process [L(process) + L(process, stretches free, A ~ N(0, ambient^2))]
