@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from truck_blowout_sim.diagnosis.case.study import Study
+from truck_blowout_sim.diagnosis.effects.base import Amount
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.fit.attribute import Ranked
 from truck_blowout_sim.diagnosis.fit.linear import Projector, score
@@ -22,7 +23,8 @@ _ROUNDS = 6
 _ENOUGH = 0.02  # of a standard error: the amount has converged
 _SHEET = 2.0  # prior sigmas a truck of the kind may stray
 _SHEET_POINTS = 5  # amounts of it that are simulated
-_STEP_SHARE = 0.15  # of the amount, lower bound of the finite difference
+_STEP_SHARE = 0.15  # of the amount: finite difference
+_STEP_LEAST = 0.3  # of an amount's step: at least so much, where the amount may be 0
 
 
 def chi2_of(study: Study, projector: Projector, models: Mapping[int, Floats]) -> float:
@@ -44,7 +46,7 @@ def refit(study: Study, start: Ranked, chi2_null: float,
     value, fall, model = tries[best], falls[best], models[best]
     sigma = start.sigma
     for _ in range(_ROUNDS):
-        step = difference_step(amount.step, value, amount.low, amount.high)
+        step = difference_step(amount, value)
         ahead = models_at(study, [start.hypothesis.at(value + step)], named)[0]
         column = study.stack({i: study.runs[i].change(ahead[i], model[i]) for i in study.train})
         residual = study.residual(model)
@@ -115,9 +117,11 @@ def _advance(study: Study, projector: Projector, hypothesis: Hypothesis,
     return value, fall, model, 0.0
 
 
-def difference_step(base: float, value: float, low: float, high: float) -> float:
-    """Finite difference that stays inside the bounds."""
-    step = np.sign(base) * max(abs(base) * 0.3, _STEP_SHARE * abs(value))
-    if not low <= value + step <= high:
-        step = -step
-    return float(step)
+def difference_step(amount: Amount, value: float) -> float:
+    """Finite difference that stays inside the bounds.
+
+    What is always positive, as a hole, is changed by a share of it: its sizes differ by decades.
+    """
+    least = 0.0 if amount.low > 0.0 else _STEP_LEAST * abs(amount.step)
+    step = float(np.sign(amount.step)) * max(least, _STEP_SHARE * abs(value))
+    return step if amount.low <= value + step <= amount.high else -step

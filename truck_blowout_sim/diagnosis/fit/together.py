@@ -58,8 +58,7 @@ def fit_together(study: Study, named: Sequence[Ranked]) -> tuple[list[Ranked], f
 def _columns(study: Study, hypotheses: Sequence[Hypothesis], models: Mapping[int, Floats]
              ) -> Floats:
     """[rows, k] whitened change per unit of each amount."""
-    steps = [difference_step(h.effect.amount.step, h.amount, h.effect.amount.low,
-                             h.effect.amount.high) for h in hypotheses]
+    steps = [difference_step(h.effect.amount, h.amount) for h in hypotheses]
     ahead = models_of(study, [[h.at(h.amount + step) if j == k else h
                                for j, h in enumerate(hypotheses)] for k, step in enumerate(steps)])
     return np.stack([study.stack({i: study.runs[i].change(one[i], models[i])
