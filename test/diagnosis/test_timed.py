@@ -153,7 +153,7 @@ def test_a_small_hole_and_the_law_of_its_flat_tire_are_found_from_a_large_one(
         "tire.steer_right.blow_hole_scale", "tire.steer_right.blow_time_s",
         "tire.steer_right.flat_drag_scale")})
     chi2 = study.projector().chi2(study.residual())
-    away = Ranked(replace(true, amount=0.7, times={"run 1": (3.0, np.inf)}, shape=()), 0.0, 1.0)
+    away = Ranked(replace(true, amount=0.4, times={"run 1": (2.3, np.inf)}, shape=()), 0.0, 1.0)
     found = fitted_event(study, away, chi2)
     assert found.hypothesis.amount == pytest.approx(0.2, rel=0.1)
     assert found.hypothesis.times["run 1"][0] == pytest.approx(1.3, abs=0.1)
