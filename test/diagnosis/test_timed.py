@@ -16,7 +16,7 @@ from truck_blowout_sim.diagnosis.fit.attribute import Ranked
 from truck_blowout_sim.diagnosis.fit.event_fit import fit_event
 from truck_blowout_sim.diagnosis.fit.instants import delayed
 from truck_blowout_sim.diagnosis.fit.refit import refit
-from truck_blowout_sim.diagnosis.fit.timed import refine_times, scan, simulated_start
+from truck_blowout_sim.diagnosis.fit.timed import refine_times, scan, simulated_starts
 from truck_blowout_sim.diagnosis.name.candidates import failed_tires, unwatched_tires
 from truck_blowout_sim.diagnosis.name.events import fitted_event
 from truck_blowout_sim.diagnosis.prove.intervals import time_intervals
@@ -92,7 +92,7 @@ def test_a_large_loss_of_grip_begins_where_simulations_have_it(study_of: Studies
                       **effect.timed(truck, place, 2.4, np.inf)})
     chi2 = study.projector().chi2(study.residual())
     away = Ranked(Hypothesis(effect, place, -0.2, {"run 1": (0.4, np.inf)}), 0.0, 1.0)
-    begun = simulated_start(study, away, chi2)
+    begun = simulated_starts(study, away, chi2)[0]
     assert begun.hypothesis.amount == min(effect.amount.grid)
     assert begun.hypothesis.times["run 1"][0] == pytest.approx(2.4, abs=1.0)
     found = fit_event(study, refine_times(study, begun, chi2), chi2)

@@ -147,19 +147,20 @@ def refine_times(study: Study, start: Ranked, chi2_null: float,
                   evidence=fall + start.evidence - start.delta)
 
 
-def simulated_start(study: Study, start: Ranked, chi2_null: float,
-                    named: Sequence[Hypothesis] = ()) -> Ranked:
-    """Instants and amount to begin with, of an event that is far from linear in its amount.
+def simulated_starts(study: Study, start: Ranked, chi2_null: float,
+                     named: Sequence[Hypothesis] = ()) -> list[Ranked]:
+    """Where to begin with an event that is far from linear in its amount, best first.
 
-    For each amount of the effect's grid, the best instant of each run by simulation; the amount is
-    the one that explains most of all runs together.
+    For each amount of the effect's grid, the best instant of each run by simulation. Without one
+    that explains more, ``start`` alone.
     """
     projector = study.projector([*named, start.hypothesis])
 
     def fall(models: Mapping[int, Floats]) -> float:
         return chi2_null - chi2_of(study, projector, models)
 
-    best, most = start, fall(models_at(study, [start.hypothesis], named)[0])
+    least = fall(models_at(study, [start.hypothesis], named)[0])
+    found: list[tuple[float, Ranked]] = []
     for amount in start.hypothesis.effect.amount.grid:
         times: dict[str, tuple[float, float]] = {}
         for i in study.train:
@@ -173,9 +174,9 @@ def simulated_start(study: Study, start: Ranked, chi2_null: float,
                 times[name] = spans[int(np.argmax(falls))]
         tried = replace(start.hypothesis.at(amount), times=times)
         explained = fall(models_at(study, [tried], named)[0]) if times else 0.0
-        if explained > most:
-            best, most = replace(start, hypothesis=tried), explained
-    return best
+        found.append((explained, replace(start, hypothesis=tried)))
+    better = sorted((one for one in found if one[0] > least), key=lambda one: -one[0])
+    return [one for _, one in better] or [start]
 
 
 def _moved(hypothesis: Hypothesis, run: str, width: float) -> list[Hypothesis]:

@@ -17,7 +17,7 @@ from truck_blowout_sim.diagnosis.fit.models import models_at
 from truck_blowout_sim.diagnosis.fit.refit import chi2_of, refit
 from truck_blowout_sim.diagnosis.fit.scatter import Chance
 from truck_blowout_sim.diagnosis.fit.support import Beside, supported
-from truck_blowout_sim.diagnosis.fit.timed import refine_times, scan, simulated_start
+from truck_blowout_sim.diagnosis.fit.timed import refine_times, scan, simulated_starts
 from truck_blowout_sim.diagnosis.locate.sinking import sinking_hubs
 from truck_blowout_sim.diagnosis.name.candidates import (
     failed_tires,
@@ -30,6 +30,7 @@ from truck_blowout_sim.diagnosis.result.parts import Place
 _TIMED_COST = 8.0  # evidence that choosing an instant in a run costs
 _TURNS = 4  # at most: instants, then amount and law
 _TIMED_SHARE = 0.15  # and the share that freedom of shape costs: steady causes come first
+_STARTS = 2  # amounts from which an event that is far from linear is fitted
 _HOLES = (0.1, 0.3, 1.0)  # of that of a commanded blowout: where to begin
 _HALF = 0.5  # of what the best explains: less is no rival
 _SEEN_TWICE = 3.84  # support of an event that unseen runs show, too: chance reaches it in 5 %
@@ -94,9 +95,9 @@ def rank_events(study: Study, beside: Beside, chi2: float, chance: Chance,
                 one.delta - cost > worth or one.support > chance.asked))):
             keys.add(one.hypothesis.key)
             seen = one
-            if curved:
-                one = simulated_start(study, one, chi2, named)
-            one = fitted_event(study, one, chi2, named)
+            starts = simulated_starts(study, one, chi2, named)[:_STARTS] if curved else [one]
+            one = max((fitted_event(study, each, chi2, named) for each in starts),
+                      key=lambda r: r.delta)
             one = (replace(one, support=seen.support, unseen=seen.unseen)
                    if one.hypothesis.effect.adds_up else supported(study, one, beside, chance))
             cost = _TIMED_COST * len(one.hypothesis.times) + _TIMED_SHARE * max(one.delta, 0.0)
