@@ -69,6 +69,16 @@ def test_both_forms_of_a_leak_change_the_forces_for_the_same_time(
     assert -2.0 * sigma < later < 0.0
 
 
+def test_a_carcass_that_carries_the_load_without_air_hides_a_leak_while_it_empties(
+    study_of: Studies, truck: Packed
+) -> None:
+    stiff = truck.unchecked({f"tire.{TIRE}.rim_contact_radius_m": 0.01})
+    assert rim_pressure_pa(stiff, TIRE) < 0.01 * truck[f"tire.{TIRE}.pressure_pa"]
+    later, sigma = leak_shift_s(study_of().runs[0], leak(truck, 0.2), stiff)
+    assert 2.0 * sigma == pytest.approx(emptying(truck, TIRE, 0.2)[1][-1])
+    assert np.isfinite(later)
+
+
 def test_a_leak_that_a_gauge_reads_hides_nothing(study_of: Studies, truck: Packed) -> None:
     run = study_of().runs[0]
     assert f"tire_pressure_{TIRE}_pa" not in run.recording

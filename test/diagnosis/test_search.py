@@ -7,15 +7,18 @@ from dataclasses import replace
 from types import SimpleNamespace
 from typing import cast
 
+import numpy as np
 import pytest
 
 from truck_blowout_sim.diagnosis.case.study import Progress, Study
 from truck_blowout_sim.diagnosis.effects import LIBRARY
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.fit.attribute import Ranked
+from truck_blowout_sim.diagnosis.fit.scatter import Chance, Scatter
 from truck_blowout_sim.diagnosis.name import candidates
+from truck_blowout_sim.diagnosis.name import search as naming
 from truck_blowout_sim.diagnosis.name.judging import ODDS, Found, excess_of, not_taken_back, slack
-from truck_blowout_sim.diagnosis.name.search import _Tried, search
+from truck_blowout_sim.diagnosis.name.search import _Believed, _Tried, search
 from truck_blowout_sim.diagnosis.name.shortlist import Round, shortlist
 from truck_blowout_sim.diagnosis.sensors import GateResult
 from truck_blowout_sim.vehicle import Packed
@@ -131,3 +134,32 @@ def test_what_is_supported_as_well_stays_an_alias_of_what_explains_more(truck: P
         other = Ranked(bank, 250.0, 1.0, refitted=True, support=support)
         found = _Tried([best, other], asked).rivals(best, {turned.key}, slack(best))
         assert len(found) == aliases
+
+
+def test_a_lost_tire_that_explains_more_is_named_instead_of_a_slope_or_a_wind(
+    truck: Packed, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Few runs support little of what is far from linear; a steady cause it must beat by itself."""
+    def ranked(name: str, delta: float, support: float, timed: bool = True) -> Ranked:
+        effect = next(e for e in LIBRARY if e.name == name and bool(e.timed) is timed)
+        times = {"run 1": (3.0, 4.0)} if timed else {}
+        return Ranked(Hypothesis(effect, effect.places(truck.vehicle)[0], 0.1, times), delta, 1.0,
+                      refitted=True, evidence=delta, support=support)
+
+    def passes(_study: object, _found: object, _this: object, one: Ranked) -> _Believed:
+        return _Believed(one, one.delta, [], ())
+
+    monkeypatch.setattr(naming, "_believed", passes)
+    chance = Chance(Scatter(np.ones(1)), 40.0, 0.01)
+    assert chance.alone.asked < 10.0 < chance.asked
+    lost, wind = ranked("secondary_blowout", 9000.0, 10.0), ranked("crosswind", 9000.0, 10.0)
+    bank = ranked("road_bank", 2000.0, 40.0)
+    for other, passing, named in (
+            (lost, bank, True), (wind, bank, False),
+            (lost, ranked("road_bank", 2000.0, 40.0, timed=False), False),
+            (replace(lost, support=0.5 * chance.alone.asked), bank, False),
+            (replace(lost, delta=1000.0, evidence=1000.0), bank, False)):
+        this = cast(Round, SimpleNamespace(ranked=(other, passing), chance=chance))
+        more = naming._explaining_more(cast(Study, None), Found(), this,
+                                       [_Believed(passing, passing.delta, [], ())])
+        assert [one.ranked for one in more] == ([other] if named else [])

@@ -141,24 +141,20 @@ def test_what_no_sheet_says_of_a_wind_is_fitted_with_it(study_of: Studies, truck
     assert f"gust_drag_share = {applied[keys[2]]:.2g}" in fitted_with(numbers)
 
 
-def test_a_small_hole_and_the_law_of_its_flat_tire_are_found_from_a_large_one(
-        study_of: Studies, truck: Packed) -> None:
+def test_a_small_hole_is_found_from_a_large_one(study_of: Studies, truck: Packed) -> None:
     """Sizes of holes differ by decades, and so must the differences by which one is fitted."""
     effect = next(e for e in LIBRARY if e.name == "secondary_blowout")
     place = next(p for p in effect.places(truck.vehicle) if p.tire == "steer_right")
-    true = Hypothesis(effect, place, 0.2, {"run 1": (1.3, np.inf)}, (-1.5, 0.0, 0.0))
+    true = Hypothesis(effect, place, 0.03, {"run 1": (1.3, np.inf)})
     lost = true.apply(truck, "run 1")
-    assert lost["tire.steer_right.flat_drag_scale"] == pytest.approx(np.exp(-1.5 * 0.4))
     study = study_of({key: lost[key] for key in (
-        "tire.steer_right.blow_hole_scale", "tire.steer_right.blow_time_s",
-        "tire.steer_right.flat_drag_scale")})
+        "tire.steer_right.blow_hole_scale", "tire.steer_right.blow_time_s")})
     chi2 = study.projector().chi2(study.residual())
-    away = Ranked(replace(true, amount=0.4, times={"run 1": (2.3, np.inf)}, shape=()), 0.0, 1.0)
+    away = Ranked(replace(true, amount=0.1, times={"run 1": (2.3, np.inf)}), 0.0, 1.0)
     found = fitted_event(study, away, chi2)
-    assert found.hypothesis.amount == pytest.approx(0.2, rel=0.1)
+    assert found.hypothesis.amount == pytest.approx(0.03, rel=0.1)
     assert found.hypothesis.times["run 1"][0] == pytest.approx(1.3, abs=0.1)
-    assert found.hypothesis.shape[0] == pytest.approx(-1.5, abs=0.2)
-    assert found.delta > 0.95 * chi2
+    assert found.delta > 0.9 * chi2
 
 
 def test_a_tire_is_unwatched_where_its_pressure_is_not_recorded(study_of: Studies) -> None:

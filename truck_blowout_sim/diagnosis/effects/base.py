@@ -59,19 +59,13 @@ class FormNumber:
     """A number of an effect's law that no sheet has; fitted with the event, within its prior.
 
     Attributes:
-        key: packed parameter, ``{unit}`` and ``{tire}`` filled in.
+        key: packed parameter, ``{unit}`` filled in.
         sigma: 1 sigma about what the law has otherwise. ``source``: where that is from.
-        scales: sigma is a share, and the number is positive: its logarithm strays.
     """
 
     key: str
     sigma: Callable[[Packed, Place], float]
     source: str
-    scales: bool = False
-
-    def moved(self, here: float, by: float) -> float:
-        """The number, off by so much from where the law has it."""
-        return here * float(np.exp(by)) if self.scales else here + by
 
 
 @dataclass(frozen=True)

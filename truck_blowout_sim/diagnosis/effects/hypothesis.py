@@ -57,9 +57,9 @@ class Hypothesis:
         """Parameters that were fitted with the amount, from where the effect has them."""
         moved, values = {}, self.effect.values(packed, self.place, self.amount)
         for number, sigmas in zip(self.effect.form_numbers, self.shape, strict=False):
-            key = number.key.format(unit=self.place.body, tire=self.place.tire)
+            key = number.key.format(unit=self.place.body)
             here = values[key] if key in values else packed[key]
-            moved[key] = number.moved(here, sigmas * number.sigma(packed, self.place))
+            moved[key] = here + sigmas * number.sigma(packed, self.place)
         return moved
 
     @property

@@ -50,7 +50,8 @@ def leak_shift_s(run: Run, event: Hypothesis, packed: Packed) -> tuple[float, fl
     model = packed[f"tire.{tire}.pressure_valid"] * packed[f"tire.{tire}.reference_pressure_pa"]
     shows, rim = (float(np.interp(-pressure, -gauge, times))
                   for pressure in (model, rim_pressure_pa(packed, tire)))
-    before_rim = (times[-1] - shows) * rim / (times[-1] - rim)
+    left = float(times[-1]) - rim  # none where the carcass carries the load without air
+    before_rim = (times[-1] - shows) * rim / left if left > 0.0 else float(times[-1])
     return float(shows - 0.5 * before_rim), float(0.5 * before_rim)
 
 
