@@ -44,6 +44,7 @@ _LENGTHS_S = (3.0, np.inf)  # l: of a maneuver, or as long as the run
 _OWN_SIZES = (4.0, 16.0, 64.0)  # times as large as in the other runs, mostly for a maneuver
 _AMOUNTS: Floats = np.geomspace(0.5, 200.0, 30)  # standard errors of the clearest stretch
 _UNLIKELY = 20.0  # log-likelihood by which what is not looked at is worse than the best
+_LIKELIER = float(np.log(20.0))
 _DIM = 1e-9
 
 
@@ -92,26 +93,38 @@ class Windows:
         if self.scale <= 0.0 or not self.trained.any():
             return 0.0
         found = [one for process in self._processes() for one in self._weighed(process)]
+        usual = max((one[0] for one in found), default=0.0)
+        # a run of its own size is asked about where that alone is 20 times as likely: it takes time
+        found += [one for process in self._restless_runs() for one in self._weighed(
+            process, usual + _LIKELIER)]
         idle, ambient, wide = np.array(found).T if found else np.zeros((3, 1))
         return 2.0 * float(log_sum(wide) - np.logaddexp(log_sum(idle), log_sum(ambient)))
 
     def _processes(self) -> Iterator[Floats]:
         """Square roots [n, n] of the correlations that the restless force may have."""
+        yield np.eye(self.run.size)
+        for share, length in product(_SHARES, _LENGTHS_S):
+            yield self._root(share, length)
+
+    def _restless_runs(self) -> Iterator[Floats]:
+        """The same where one run has more of it than the others."""
+        root = self._root(max(_SHARES), min(_LENGTHS_S))
+        for own, size in product(np.unique(self.run), _OWN_SIZES):
+            yield np.where(self.run == own, size, 1.0)[:, None] * root
+
+    def _root(self, share: float, length_s: float) -> Floats:
+        """Square root of a correlation: a share of it lasts for so long."""
         same = self.run[:, None] == self.run[None, :]
         apart = np.abs(self.time_s[:, None] - self.time_s[None, :])
-        kinds = {(share, length): np.linalg.cholesky(
-            (1.0 - share) * np.eye(self.run.size) + share * same * np.exp(-apart / length))
-            for share, length in product(_SHARES, _LENGTHS_S)}
-        yield np.eye(self.run.size)
-        yield from kinds.values()
-        for own, size in product(np.unique(self.run), _OWN_SIZES):
-            larger = np.where(self.run == own, size, 1.0)
-            yield larger[:, None] * kinds[max(_SHARES), min(_LENGTHS_S)]
+        return np.asarray(np.linalg.cholesky((1.0 - share) * np.eye(self.run.size)
+                                             + share * same * np.exp(-apart / length_s)))
 
-    def _weighed(self, root: Floats) -> Iterator[tuple[float, float, float]]:
+    def _weighed(self, root: Floats, least: float = -np.inf
+                 ) -> Iterator[tuple[float, float, float]]:
         """Log-likelihoods for each size: nothing, an everyday event, an event of any size.
 
         Also for sizes that are unlikely without the event: with it, the force may be calm.
+        ``least``: none if nothing is less likely than that at every size.
         """
         value, vector = np.linalg.eigh(root.T @ self.information @ root / self.scale)
         value, loaded = np.maximum(value, 0.0), root @ vector / np.sqrt(self.scale)
@@ -119,6 +132,8 @@ class Windows:
         widened = 1.0 + np.square(_SIZES)[:, None] * value
         idle = 0.5 * (np.square(_SIZES)[:, None] * np.square(seen) / widened
                       - np.log(widened)).sum(axis=1)
+        if idle.max() <= least:
+            return
         owners = [np.flatnonzero(self.run == k)
                   for k in np.unique(self.run[self.trained | self.unseen])]
         for size, wide, rest in zip(_SIZES, widened, idle, strict=True):
