@@ -22,11 +22,10 @@ from truck_blowout_sim.diagnosis.case.study import Study
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.fit.attribute import Ranked
 from truck_blowout_sim.diagnosis.fit.models import models_at, with_effects
-from truck_blowout_sim.diagnosis.fit.refit import chi2_of, difference_step
+from truck_blowout_sim.diagnosis.fit.refit import chi2_of, least_step
 
 Floats = NDArray[np.float64]
 _STEP_S = 0.06  # finite difference of an instant
-_STEP_SHARE = 0.3  # of an amount's step, the same
 _STEP_SIGMA = 0.25  # finite difference of a number of the law
 _SHORTEST_S = 0.06  # an event lasts at least this long
 _ROUNDS = 8
@@ -116,8 +115,7 @@ def amount_column(study: Study, h: Hypothesis, others: Sequence[Hypothesis],
                   runs: Sequence[int]) -> Floats:
     """Whitened change of some training runs per unit of the amount, of a steady cause too."""
     amount = h.effect.amount
-    step = (abs(difference_step(amount, h.amount)) if amount.low > 0.0
-            else abs(_STEP_SHARE * amount.step))
+    step = least_step(amount, h.amount)
     low, high = max(h.amount - step, amount.low), min(h.amount + step, amount.high)
     return study.stack({i: _change(study, i, h.at(low), h.at(high), others) / (high - low)
                         for i in runs})

@@ -117,11 +117,16 @@ def _advance(study: Study, projector: Projector, hypothesis: Hypothesis,
     return value, fall, model, 0.0
 
 
-def difference_step(amount: Amount, value: float) -> float:
-    """Finite difference that stays inside the bounds.
+def least_step(amount: Amount, value: float) -> float:
+    """Finite difference that is never too small, without a sign.
 
     What is always positive, as a hole, is changed by a share of it: its sizes differ by decades.
     """
-    least = 0.0 if amount.low > 0.0 else _STEP_LEAST * abs(amount.step)
-    step = float(np.sign(amount.step)) * max(least, _STEP_SHARE * abs(value))
+    return _STEP_SHARE * abs(value) if amount.low > 0.0 else _STEP_LEAST * abs(amount.step)
+
+
+def difference_step(amount: Amount, value: float) -> float:
+    """Finite difference that stays inside the bounds."""
+    least = max(least_step(amount, value), _STEP_SHARE * abs(value))
+    step = float(np.sign(amount.step)) * least
     return step if amount.low <= value + step <= amount.high else -step

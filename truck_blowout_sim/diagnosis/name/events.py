@@ -6,7 +6,6 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
-from scipy.special import logsumexp
 
 from truck_blowout_sim.diagnosis.case.study import Progress, Study
 from truck_blowout_sim.diagnosis.effects import Effect, secondary_blowout
@@ -18,6 +17,7 @@ from truck_blowout_sim.diagnosis.fit.refit import chi2_of, refit
 from truck_blowout_sim.diagnosis.fit.scatter import Chance
 from truck_blowout_sim.diagnosis.fit.support import Beside, supported
 from truck_blowout_sim.diagnosis.fit.timed import refine_times, scan, simulated_starts
+from truck_blowout_sim.diagnosis.fit.windows import log_sum
 from truck_blowout_sim.diagnosis.locate.sinking import sinking_hubs
 from truck_blowout_sim.diagnosis.name.candidates import (
     failed_tires,
@@ -196,7 +196,7 @@ def _confirmed(study: Study, found: Sequence[Ranked], beside: Beside, chance: Ch
 
 def _mean_odds(supports: Sequence[float]) -> float:
     """Support of a hypothesis that has several forms."""
-    return float(2.0 * logsumexp([0.5 * one for one in supports]) - 2.0 * np.log(len(supports)))
+    return float(2.0 * log_sum(0.5 * np.asarray(supports)) - 2.0 * np.log(len(supports)))
 
 
 def _large(ranked: Sequence[Ranked], chance: Chance) -> bool:
