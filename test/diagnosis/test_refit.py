@@ -11,7 +11,7 @@ from truck_blowout_sim.diagnosis.case.study import Study
 from truck_blowout_sim.diagnosis.effects import LIBRARY
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.fit.attribute import Ranked, rank_steady
-from truck_blowout_sim.diagnosis.fit.refit import refit
+from truck_blowout_sim.diagnosis.fit.refit import chi2_of, chi2_with_each, refit
 from truck_blowout_sim.vehicle import Packed
 
 Studies = Callable[..., Study]
@@ -117,3 +117,13 @@ def test_a_tire_that_levels_off_early_is_seen_before_it_is_fitted(
         effect, amount=replace(effect.amount, grid=())))]).ranked
     assert far.promise > 1.5 * near.promise
     assert far.hypothesis.amount < -0.3
+
+
+def test_models_of_one_run_are_weighed_together_as_they_are_one_by_one(
+        study_of: Studies, truck: Packed) -> None:
+    study = study_of(weak_brake(truck, 0.5))
+    projector, i = study.projector(), study.train[0]
+    trials = [study.models[i], 1.02 * study.models[i], 0.97 * study.models[i]]
+    together = chi2_with_each(study, projector, {}, i, trials)
+    assert together == pytest.approx([chi2_of(study, projector, {i: t}) for t in trials], rel=1e-9)
+    assert together[0] < together[1:].min()

@@ -58,8 +58,7 @@ def event_columns(study: Study, event: Hypothesis, others: Sequence[Hypothesis] 
 def event_information(study: Study, event: Hypothesis, others: Sequence[Hypothesis],
                       columns: Floats, ranges: Floats) -> Floats:
     """Information on the numbers of an event, nuisances projected out, each within its range."""
-    clean = study.projector([*others, event]).remove
-    seen = columns.T @ np.stack([clean(c) for c in columns.T], axis=1)
+    seen = study.projector([*others, event]).information(columns)
     return np.asarray(seen + np.diag(1.0 / np.square(ranges)))
 
 

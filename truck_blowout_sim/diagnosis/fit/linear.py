@@ -91,6 +91,11 @@ class Projector:
         """C^-1 vector, or each column of a matrix; C is noise plus marginalized nuisances."""
         return np.asarray(vector - self.explained(self.amounts(vector)))
 
+    def information(self, columns: Floats) -> Floats:
+        """Columns' C^-1 columns: what is known of amounts fitted together, nuisances removed."""
+        common = self.reach(columns)
+        return np.asarray(columns.T @ columns - common.T @ self.solve(common))
+
     def chi2(self, vector: Floats) -> float:
         """Vector' C^-1 vector: the sum of squares left, priors included."""
         common = self.reach(vector)
@@ -123,7 +128,7 @@ def score(projector: Projector, removed: Floats, column: Floats, low: float = -n
 
 def joint_score(projector: Projector, removed: Floats, columns: Floats) -> tuple[Floats, Floats]:
     """Amounts and covariance of several columns [n, k] fitted together."""
-    information = columns.T @ np.stack([projector.remove(c) for c in columns.T], axis=1)
+    information = projector.information(columns)
     ridge = 1e-9 * np.trace(information) / max(information.shape[0], 1)
     factor = cho_factor(information + (ridge + 1e-12) * np.eye(information.shape[0]))
     return (np.asarray(cho_solve(factor, columns.T @ removed)),

@@ -11,7 +11,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from truck_blowout_sim.diagnosis.case.study import Study
+from truck_blowout_sim.diagnosis.case.study import Study, row_ranges
 from truck_blowout_sim.diagnosis.effects.base import Amount
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.fit.attribute import Ranked
@@ -30,6 +30,18 @@ _STEP_LEAST = 0.3  # of an amount's step: at least so much, where the amount may
 def chi2_of(study: Study, projector: Projector, models: Mapping[int, Floats]) -> float:
     """Sum of squares with some runs' models replaced, nuisances refitted."""
     return projector.chi2(study.residual(models))
+
+
+def chi2_with_each(study: Study, projector: Projector, models: Mapping[int, Floats], i: int,
+                   trials: Sequence[Floats]) -> Floats:
+    """:func:`chi2_of` with each of several models of one run ``i`` besides ``models``."""
+    rows, residual = row_ranges(study)[i], study.residual(models)
+    others = residual.copy()
+    others[rows] = 0.0
+    each = np.stack([study.runs[i].residual(trial) for trial in trials], axis=1)
+    common = projector.reach(others)[:, None] + projector.reach(each, rows)
+    squares = others @ others + np.einsum("rk,rk->k", each, each)
+    return np.asarray(squares - np.einsum("ck,ck->k", common, projector.solve(common)))
 
 
 def refit(study: Study, start: Ranked, chi2_null: float,

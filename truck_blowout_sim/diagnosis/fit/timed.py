@@ -22,7 +22,7 @@ from truck_blowout_sim.diagnosis.fit.attribute import Ranked
 from truck_blowout_sim.diagnosis.fit.instants import bins_between, grid_of, spacing_s
 from truck_blowout_sim.diagnosis.fit.linear import Projector, score
 from truck_blowout_sim.diagnosis.fit.models import models_at, with_effects
-from truck_blowout_sim.diagnosis.fit.refit import chi2_of
+from truck_blowout_sim.diagnosis.fit.refit import chi2_of, chi2_with_each
 from truck_blowout_sim.diagnosis.fit.seconds import responses, windows_of
 from truck_blowout_sim.diagnosis.fit.stretches import of_stretches, parts_of, stretches
 from truck_blowout_sim.diagnosis.fit.support import Beside
@@ -138,7 +138,7 @@ def refine_times(study: Study, start: Ranked, chi2_null: float,
             trials = _moved(best, name, width)
             truck = with_effects(study.packed, named, name)
             results = study.simulate([study.job(study.runs[i], truck, t) for t in trials])
-            falls = [chi2_null - chi2_of(study, projector, {**models, i: r}) for r in results]
+            falls = chi2_null - chi2_with_each(study, projector, models, i, results)
             k = int(np.argmax(falls))
             if falls[k] > fall:
                 best, fall = trials[k], falls[k]
@@ -154,29 +154,33 @@ def simulated_starts(study: Study, start: Ranked, chi2_null: float,
     For each amount of the effect's grid, the best instant of each run by simulation. Without one
     that explains more, ``start`` alone.
     """
-    projector = study.projector([*named, start.hypothesis])
+    event = start.hypothesis
+    projector = study.projector([*named, event])
+    tries = [_begun_at_best(study, projector, event.at(amount), chi2_null, named)
+             for amount in event.effect.amount.grid]
+    models = models_at(study, [event, *tries], named)
+    falls = [chi2_null - chi2_of(study, projector, one) for one in models]
+    better = sorted((k for k in range(len(tries)) if tries[k].times and falls[k + 1] > falls[0]),
+                    key=lambda k: -falls[k + 1])
+    return [replace(start, hypothesis=tries[k]) for k in better] or [start]
 
-    def fall(models: Mapping[int, Floats]) -> float:
-        return chi2_null - chi2_of(study, projector, models)
 
-    least = fall(models_at(study, [start.hypothesis], named)[0])
-    found: list[tuple[float, Ranked]] = []
-    for amount in start.hypothesis.effect.amount.grid:
-        times: dict[str, tuple[float, float]] = {}
-        for i in study.train:
-            run, name = study.runs[i], study.runs[i].recording.name
-            spans = [(float(t), np.inf) for t in grid_of(run, start.hypothesis.effect)]
-            truck = with_effects(study.packed, named, name)
-            results = study.simulate([study.job(run, truck, replace(
-                start.hypothesis.at(amount), times={name: span})) for span in spans])
-            falls = [fall({i: model}) for model in results]
-            if max(falls) > 0.0:
-                times[name] = spans[int(np.argmax(falls))]
-        tried = replace(start.hypothesis.at(amount), times=times)
-        explained = fall(models_at(study, [tried], named)[0]) if times else 0.0
-        found.append((explained, replace(start, hypothesis=tried)))
-    better = sorted((one for one in found if one[0] > least), key=lambda one: -one[0])
-    return [one for _, one in better] or [start]
+def _begun_at_best(study: Study, projector: Projector, event: Hypothesis, chi2_null: float,
+                   named: Sequence[Hypothesis]) -> Hypothesis:
+    """The event at the best instant of each run that shows it, by simulation at its amount."""
+    names = {i: study.runs[i].recording.name for i in study.train}
+    spans = {i: [(float(t), np.inf) for t in grid_of(study.runs[i], event.effect)] for i in names}
+    trucks = {i: with_effects(study.packed, named, names[i]) for i in names}
+    results = iter(study.simulate([
+        study.job(study.runs[i], trucks[i], replace(event, times={names[i]: span}))
+        for i in names for span in spans[i]]))
+    times: dict[str, tuple[float, float]] = {}
+    for i, name in names.items():
+        models = [next(results) for _ in spans[i]]
+        falls = chi2_null - chi2_with_each(study, projector, {}, i, models)
+        if falls.max() > 0.0:
+            times[name] = spans[i][int(np.argmax(falls))]
+    return replace(event, times=times)
 
 
 def _moved(hypothesis: Hypothesis, run: str, width: float) -> list[Hypothesis]:
