@@ -9,7 +9,6 @@ from numpy.typing import NDArray
 
 from truck_blowout_sim.diagnosis.case.runs import Run
 from truck_blowout_sim.diagnosis.case.study import Study, row_ranges
-from truck_blowout_sim.diagnosis.fit.quantiles import NINETY
 from truck_blowout_sim.diagnosis.name.judging import Found
 from truck_blowout_sim.diagnosis.result import (
     Calibrated,
@@ -19,6 +18,7 @@ from truck_blowout_sim.diagnosis.result import (
     Parameter,
     amount_text,
 )
+from truck_blowout_sim.diagnosis.result.quantiles import NINETY
 
 Floats = NDArray[np.float64]
 Left = Sequence[tuple[Run, Floats]]  # run and its whitened residual [n, m]

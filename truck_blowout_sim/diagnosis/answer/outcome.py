@@ -20,7 +20,6 @@ from truck_blowout_sim.diagnosis.answer.unlisted import (
 )
 from truck_blowout_sim.diagnosis.case.antilock import Lockup
 from truck_blowout_sim.diagnosis.case.study import Study
-from truck_blowout_sim.diagnosis.fit.quantiles import NINETY
 from truck_blowout_sim.diagnosis.fit.support import unseen_with
 from truck_blowout_sim.diagnosis.locate.beat import Beat
 from truck_blowout_sim.diagnosis.locate.lagging import Lag
@@ -53,6 +52,7 @@ from truck_blowout_sim.diagnosis.result import (
     Wrench,
 )
 from truck_blowout_sim.diagnosis.result.evidence import FAR
+from truck_blowout_sim.diagnosis.result.quantiles import NINETY
 from truck_blowout_sim.diagnosis.sensors import GateResult
 from truck_blowout_sim.simulation.flat import flat_notes
 from truck_blowout_sim.simulation.silences import silences

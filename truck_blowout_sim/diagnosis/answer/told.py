@@ -15,11 +15,11 @@ from truck_blowout_sim.diagnosis.answer.limits import limit_sentence
 from truck_blowout_sim.diagnosis.case.study import Study
 from truck_blowout_sim.diagnosis.effects.base import Amount
 from truck_blowout_sim.diagnosis.fit.attribute import Ranked
-from truck_blowout_sim.diagnosis.fit.quantiles import NINETY
 from truck_blowout_sim.diagnosis.prove.intervals import Timing
 from truck_blowout_sim.diagnosis.prove.profile import Arms
 from truck_blowout_sim.diagnosis.result import AliasSet, Effect, Parameter, Place
 from truck_blowout_sim.diagnosis.result.parts import Interval
+from truck_blowout_sim.diagnosis.result.quantiles import NINETY
 from truck_blowout_sim.diagnosis.sensors import SensorFinding
 
 _OPEN = (-np.inf, np.inf)

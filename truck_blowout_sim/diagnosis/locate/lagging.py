@@ -31,8 +31,8 @@ from truck_blowout_sim.diagnosis.fit.one_channel import (
     ask_channel,
     asked_of,
 )
-from truck_blowout_sim.diagnosis.fit.quantiles import NINETY
 from truck_blowout_sim.diagnosis.fit.scatter import Scatter
+from truck_blowout_sim.diagnosis.result.quantiles import NINETY
 from truck_blowout_sim.vehicle import Vehicle
 
 _BRAKES = slice(2, None)  # columns of a drive's inputs

@@ -27,7 +27,7 @@ from truck_blowout_sim.diagnosis.case.study import Study
 from truck_blowout_sim.diagnosis.case.trust import LASTS_S, grip_mps2
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.fit.attribute import Ranked
-from truck_blowout_sim.diagnosis.fit.quantiles import NINETY
+from truck_blowout_sim.diagnosis.result.quantiles import NINETY
 from truck_blowout_sim.physics.tires.gas import pressure_rate_paps
 from truck_blowout_sim.vehicle import Packed
 

@@ -25,8 +25,8 @@ from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.fit.attribute import Ranked
 from truck_blowout_sim.diagnosis.fit.event_fit import amount_column, event_columns
 from truck_blowout_sim.diagnosis.fit.models import models_at
-from truck_blowout_sim.diagnosis.fit.quantiles import NINETY
 from truck_blowout_sim.diagnosis.fit.refit import chi2_of
+from truck_blowout_sim.diagnosis.result.quantiles import NINETY
 
 Floats = NDArray[np.float64]
 _RISE = NINETY**2

@@ -21,12 +21,12 @@ from typing import TYPE_CHECKING
 from truck_blowout_sim.comparison.plain_json import finite_or_none
 from truck_blowout_sim.diagnosis.result.evidence import FAR, Calibrated
 from truck_blowout_sim.diagnosis.result.parts import Effect, Fit, Interval, Location, Parameter
+from truck_blowout_sim.diagnosis.result.quantiles import NINETY
 
 if TYPE_CHECKING:
     from truck_blowout_sim.diagnosis.result import Diagnosis
 
 Object = dict[str, object]
-_NINETY = 1.645
 
 
 def encode_diagnosis(diagnosis: Diagnosis) -> Object:
@@ -49,7 +49,7 @@ def encode_diagnosis(diagnosis: Diagnosis) -> Object:
 
 def _number(number: Calibrated) -> Object:
     """A number of the sheet that the recordings pull far from it."""
-    half = _NINETY * number.sigma
+    half = NINETY * number.sigma
     return {"name": number.name, "value": number.value, "unit": number.unit,
             "ci90": [number.value - half, number.value + half], "prior_sigmas": number.pull}
 

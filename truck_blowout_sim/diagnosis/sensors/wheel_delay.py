@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.stats import norm
 
-from truck_blowout_sim.diagnosis.fit.quantiles import NINETY
+from truck_blowout_sim.diagnosis.result.quantiles import NINETY
 from truck_blowout_sim.diagnosis.sensors.distortions import Delay
 from truck_blowout_sim.diagnosis.sensors.findings import Amount, SensorFinding
 from truck_blowout_sim.diagnosis.sensors.words import equation, sentence
