@@ -112,6 +112,16 @@ def test_bounds_hold_the_neutral_amount_the_step_and_every_start(
     assert (np.diff(ends) > 0).all() or (np.diff(ends) < 0).all(), "what is reported must be unique"
 
 
+@pytest.mark.parametrize("effect", [one for one in LIBRARY if one.amount.grid],
+                         ids=lambda e: f"{e.name}{e.variant}")
+def test_the_starts_of_a_search_reach_the_far_ends_of_what_is_possible(effect: Effect) -> None:
+    # from a far smaller amount the descent stops: between lie trucks that skid or do not
+    amount = effect.amount
+    starts = [*amount.grid, amount.step]
+    assert max(starts) >= amount.high / 4.0 or amount.high <= 4.0 * abs(amount.step)
+    assert min(starts) <= amount.low / 4.0 or amount.low >= -4.0 * abs(amount.step)
+
+
 @pytest.mark.parametrize("effect", EVERY)
 def test_words_fill_for_every_place(effect: Effect, truck: Packed) -> None:
     fields = {f for text in (effect.sentence, effect.equation)

@@ -18,7 +18,7 @@ EFFECT = Effect(
     name="aerodynamic_drag",
     amount=Amount("extra_drag_area_m2", "m^2", step=1.0, low=-10.0, high=30.0, material=0.16,
                   source="a head wind of 1 m/s at 25 m/s alone is 8 % (1 sigma)",
-                  grid=(3.0,)),
+                  grid=(3.0, 10.0, -3.0)),
     places=each_unit,
     values=lambda packed, place, a: added(packed, f"unit.{place.body}.drag_area_extra_m2", a),
     sentence="The {where} has {value} m^2 more drag area than modelled.",

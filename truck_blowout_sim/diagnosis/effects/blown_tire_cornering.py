@@ -13,7 +13,7 @@ EFFECT = Effect(
     name="blown_tire_cornering",
     amount=Amount("cornering_factor", "1", step=0.3, low=-1.0, high=4.0, material=1.0,
                   source="a flat tire keeps 5 to 40 % of it between tests: half (1 sigma)",
-                  report=lambda a: 1.0 + a, grid=(1.0, -0.7),
+                  report=lambda a: 1.0 + a, grid=(1.0, -0.7, 2.5),
                   at_low="The blown tire at {where} has lost all of its cornering force (90 %: at "
                          "most {percent} percent of the sheet's)."),
     places=each_tire,

@@ -13,7 +13,7 @@ EFFECT = Effect(
     name="blown_tire_drag",
     amount=Amount("drag_factor", "1", step=0.2, low=-0.9, high=6.0, material=0.8,
                   source="coefficients of 0.08 to 0.25 between tests: 40 % (1 sigma)",
-                  report=lambda a: 1.0 + a, grid=(0.5, -0.4, 1.5)),
+                  report=lambda a: 1.0 + a, grid=(0.5, -0.4, 1.5, 4.0)),
     places=each_tire,
     values=lambda packed, place, a: scaled(packed, [f"tire.{place.tire}.flat_drag_scale"], a),
     applies="blowout",

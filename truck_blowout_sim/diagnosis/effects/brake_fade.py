@@ -12,7 +12,7 @@ EFFECT = Effect(
     name="brake_fade",
     amount=Amount("fade_per_mj", "1/MJ", step=0.3, low=0.0, high=20.0, material=0.1,
                   source="judgement: linings of one type fade alike to 5 % a megajoule (1 sigma)",
-                  grid=(0.5, 2.0)),
+                  grid=(0.5, 2.0, 8.0)),
     places=each_circuit,
     values=lambda packed, place, a: {
         f"circuit.{place.axle}.fade_per_j":

@@ -27,7 +27,7 @@ EFFECT = Effect(
     amount=Amount("extra_lag_s", "s", step=0.08, low=0.0, high=3.0, material=0.08,
                   source="FMVSS 121 timing of good equipment, 60-70 % of the limits: 0.03 s, of "
                          "trailers, one to two relay valves, 0.05 s (1 sigma)",
-                  grid=(0.2, 0.6)),
+                  grid=(0.2, 0.6, 1.5)),
     places=each_circuit,
     values=lambda packed, place, a: added(packed, f"circuit.{place.axle}.lag_extra_s", a),
     applies="brakes",
@@ -38,7 +38,7 @@ EFFECT = Effect(
 
 LATE = replace(
     EFFECT,
-    amount=replace(EFFECT.amount, high=_LATEST_S),
+    amount=replace(EFFECT.amount, high=_LATEST_S, grid=EFFECT.amount.grid[:2]),
     values=lambda packed, place, a: added(packed, f"circuit.{place.axle}.delay_extra_s", a),
     variant=True,
     sentence="The {where} brakes begin to fill {value} s later than modelled.",

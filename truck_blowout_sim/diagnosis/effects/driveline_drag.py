@@ -16,7 +16,7 @@ EFFECT = Effect(
     name="driveline_drag",
     amount=Amount("extra_drag_n", "N", step=800.0, low=-1500.0, high=40000.0, material=0.0026,
                   source="tires lose a fifth of 0.006 of the load as they warm up (1 sigma)",
-                  grid=(3000.0, 9000.0)),
+                  grid=(3000.0, 9000.0, 27000.0)),
     places=whole_truck,
     values=lambda packed, place, a: added(packed, "driveline.drag_extra_n", a),
     sentence="Off the throttle the driveline holds the drive wheels back with {value} N more than "

@@ -25,7 +25,7 @@ EFFECT = Effect(
     name="roll_steer",
     amount=Amount("extra_roll_steer", "1", step=0.05, low=-1.0, high=1.0, material=0.14,
                   source="suspensions of one kind: Fancher et al. 1986; 0.07 (1 sigma)",
-                  grid=(0.2, -0.2)),
+                  grid=(0.2, -0.2, 0.6, -0.6)),
     places=each_axle,
     values=lambda packed, place, a: added(packed, f"axle.{place.axle}.roll_steer_extra", a),
     sentence="Axle {where} steers by {value} degrees for every degree its suspension rolls, beyond "

@@ -10,9 +10,9 @@ from truck_blowout_sim.diagnosis.effects.base import (
 
 EFFECT = Effect(
     name="slow_deflation",
-    amount=Amount("deflation_time_factor", "1", step=0.3, low=-0.8, high=40.0, material=0.6,
+    amount=Amount("deflation_time_factor", "1", step=0.3, low=-0.8, high=499.0, material=0.6,
                   source="cavity, hole and how it tears open: 30 % (1 sigma)",
-                  report=lambda a: 1.0 + a, grid=(1.0, 4.0, 12.0)),
+                  report=lambda a: 1.0 + a, grid=(-0.7, 1.0, 4.0, 12.0, 40.0, 120.0, 360.0)),
     places=each_tire,
     values=lambda packed, place, a: {
         f"tire.{place.tire}.hole_scale":

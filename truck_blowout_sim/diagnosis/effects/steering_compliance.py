@@ -14,7 +14,7 @@ EFFECT = Effect(
     name="steering_compliance",
     amount=Amount("compliance_factor", "1", step=0.15, low=-1.0, high=_LOOSE, material=0.4,
                   source="column, gear and drag link in series, seldom measured: 20 % (1 sigma)",
-                  report=lambda a: 1.0 + a, grid=(0.5, 1.5, 3.0, 9.0)),
+                  report=lambda a: 1.0 + a, grid=(0.5, 1.5, 3.0, 9.0, -0.5)),
     places=steered_axle,
     values=lambda packed, place, a: {
         "steering.stiffness_gain": packed["steering.stiffness_gain"] / max(1.0 + a, 0.02),

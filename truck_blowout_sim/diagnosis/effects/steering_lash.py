@@ -15,7 +15,7 @@ EFFECT = Effect(
     name="steering_lash",
     amount=Amount("extra_lash_rad", "rad", step=0.03, low=0.0, high=_QUARTER_TURN, material=0.04,
                   source="wear by 20 % of a play of 6 deg (1 sigma)",
-                  grid=(0.1, 0.25)),
+                  grid=(0.1, 0.25, 0.75)),
     places=steered_axle,
     values=lambda packed, place, a: added(packed, "steering.lash_extra_rad", a),
     sentence="The hand wheel turns {value} rad further than modelled before the road wheels "

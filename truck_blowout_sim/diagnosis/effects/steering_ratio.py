@@ -18,7 +18,7 @@ EFFECT = Effect(
     name="steering_ratio",
     amount=Amount("ratio_factor", "1", step=0.05, low=-0.5, high=_HARDLY, material=0.06,
                   source="gear and arm lengths by catalogue: 3 % (1 sigma)",
-                  report=lambda a: 1.0 + a, grid=(-0.15, 0.15, 1.0)),
+                  report=lambda a: 1.0 + a, grid=(-0.15, 0.15, 1.0, 2.5)),
     places=steered_axle,
     values=lambda packed, place, a: scaled(packed, ("steering.ratio",), a),
     sentence="The hand wheel must turn {value} times as far as the sheet's ratio says for the same "

@@ -27,7 +27,7 @@ EFFECT = Effect(
     name="tire_saturation",
     amount=Amount("inverse_peak_friction", "1", step=0.2, low=0.0, high=_SLIPPERY, material=0.1,
                   source="peak friction between 0.8 and 1.1: 5 % of its inverse (1 sigma)",
-                  grid=(0.5, 0.8, 1.1)),
+                  grid=(0.5, 0.8, 1.1, 3.0, 9.0)),
     places=linear_axles,
     values=lambda packed, place, a: {
         f"tire.{tire}.saturation": packed[f"tire.{tire}.saturation"] + a
