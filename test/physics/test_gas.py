@@ -137,3 +137,25 @@ def test_collapsing_volume_squeezes_the_gas(
     loss = truck[name + "flat_volume_fraction"] * 0.01
     assert state[s + TIRE_S.pressure_pa] + AIR == pytest.approx((before + AIR) * (1.0 + loss),
                                                                 rel=1e-4)
+
+
+def test_a_hole_that_tears_open_lets_the_pressure_fall_with_the_square_of_time(
+        truck: Packed, state: NDArray[np.float64], slot: Callable[[str, str], int],
+        block: Callable[[str], int]) -> None:
+    """Choked and isothermal, A(t) = A t / T: ln p/p0 = -k t^2 / 2 T until T, then -k (t - T/2)."""
+    s, t = slot("tire", "steer_left"), block("tire.steer_left")
+    name, opens_s, dt = "tire.steer_left.", 0.08, 1e-5
+    values = truck.with_values({name + "hole_opening_s": opens_s, name + "polytropic": 1.0})
+    air, warm = truck["world.air_pressure_pa"], truck["world.air_temperature_k"]
+    k = CHOKED * truck[name + "hole_area_m2"] * math.sqrt(GAS_CONSTANT_JPKGK * warm) / (
+        truck[name + "volume_m3"])
+    full = truck[name + "pressure_pa"]
+    state[s + TIRE_S.pressure_pa], state[s + TIRE_S.blown_time_s] = full, 0.0
+    seen = []
+    for step in range(round(0.12 / dt)):
+        state[0] = step * dt
+        advance_pressure(state, s, values.params, t, 0.0, dt)
+        seen.append(math.log((state[s + TIRE_S.pressure_pa] + air) / (full + air)))
+    half, later = seen[round(0.04 / dt) - 1], seen[-1]
+    assert half == pytest.approx(-k * 0.04**2 / (2.0 * opens_s), rel=2e-3)
+    assert later == pytest.approx(-k * (0.12 - 0.5 * opens_s), rel=2e-3)

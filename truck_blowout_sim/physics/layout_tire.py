@@ -32,6 +32,7 @@ class TireParams(NamedTuple):
     flat_volume_fraction: int
     hole_area_m2: int  # CdA when blown
     hole_scale: int  # 1; what a diagnosis changes
+    hole_opening_s: int  # 0; what a diagnosis changes
     polytropic: int
     blow_time_s: int  # inf: not by itself
     blow_hole_scale: int  # relative hole of a failure by itself

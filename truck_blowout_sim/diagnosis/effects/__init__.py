@@ -64,7 +64,8 @@ _MODULES = (
 )
 LIBRARY: tuple[Effect, ...] = (*(module.EFFECT for module in _MODULES),
                                driveline_drag.RETARDER, brake_lag.LATE,
-                               brake_lag.LATE_AND_SLOW, road_grade.FROM_AN_INSTANT,
+                               brake_lag.LATE_AND_SLOW, slow_deflation.TORN_OPEN,
+                               road_grade.FROM_AN_INSTANT,
                                road_bank.FROM_AN_INSTANT, payload_shift.FOREMOST,
                                payload_shift.REARMOST,
                                steering_ratio.BENT, crosswind.AHEAD, crosswind.BEHIND,

@@ -1,10 +1,13 @@
-"""Pressure falls slower, or faster, than modelled."""
+"""Pressure falls slower, or faster, than modelled: another hole, or one that tears open."""
 
 from __future__ import annotations
+
+from dataclasses import replace
 
 from truck_blowout_sim.diagnosis.effects.base import (
     Amount,
     Effect,
+    added,
     each_tire,
 )
 
@@ -22,4 +25,15 @@ EFFECT = Effect(
     equation="dp/dt = -(1/{value}) * n R T / V * mdot(p)",
     splits="the pressure of that tire",
     absorbs="deflation",
+)
+
+TORN_OPEN = replace(
+    EFFECT,
+    amount=Amount("hole_opening_s", "s", step=0.3, low=0.0, high=60.0, material=0.5,
+                  source="empty 0.5 s after a large hole is cut: what tears open within that is "
+                         "no other failure", grid=(1.0, 3.0, 9.0, 27.0)),
+    values=lambda packed, place, a: added(packed, f"tire.{place.tire}.hole_opening_s", a),
+    variant=True,
+    sentence="The hole in tire {where} is not there at once: it tears open within {value} s.",
+    equation="A(t) = A_0 min((t - t_blowout) / {value} s, 1)",
 )

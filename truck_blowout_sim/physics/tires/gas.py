@@ -2,9 +2,9 @@
 
 References: Andreatta, Bixel, Guenther 2007 (assumptions via thesis L333-L335): one orifice, choked
 then subsonic; St Venant-Wantzel flow function.
-Known limits: one temperature, polytropic with a fixed exponent; the hole opens at once.
+Known limits: one temperature, polytropic with a fixed exponent; a hole opens at once, or evenly.
 Validated with: test/physics/test_gas.py (closed forms: choked isothermal and adiabatic, end of
-choking, subsonic isothermal, finite total time).
+choking, subsonic isothermal, finite total time, a hole that opens).
 """
 
 from __future__ import annotations
@@ -66,6 +66,9 @@ def advance_pressure(x: Floats, s: int, p: Floats, t: int, rim: float, dt: float
     volume = p[t + TIRE.volume_m3] * (1.0 - loss * rim)
     hole = p[t + TIRE.hole_area_m2] * p[t + TIRE.hole_scale] * where(
         p[t + TIRE.blow_time_s] != np.inf, p[t + TIRE.blow_hole_scale], 1.0)
+    opens_s = p[t + TIRE.hole_opening_s]
+    since_s = x[0] + dt - x[s + TIRE_S.blown_time_s]  # where this step ends: it never stays shut
+    hole *= where(since_s < opens_s, since_s / max(opens_s, dt), 1.0)
     n = p[t + TIRE.polytropic]
     rate = pressure_rate_paps(gauge + ambient, p[t + TIRE.pressure_pa] + ambient, ambient,
                               p[WORLD_AT + WORLD.air_temperature_k], volume, hole, n)

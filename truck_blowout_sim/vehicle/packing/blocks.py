@@ -75,6 +75,7 @@ NEUTRAL: dict[type[Any], dict[str, float]] = {
     layout.HubParams: {"brake_gain": 1.0},
     layout.TireParams: {
         "hole_scale": 1.0,
+        "hole_opening_s": 0.0,
         "blow_time_s": inf,
         "blow_hole_scale": 1.0,
         "relaxation_scale": 1.0,

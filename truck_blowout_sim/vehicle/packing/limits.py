@@ -119,6 +119,7 @@ OWN: dict[type[Any], dict[str, Rule]] = {
         "y_m": _PLACE,
         **_each("table map_table blow_time_s", _ANY),
         **_each("hole_scale blow_hole_scale flat_cornering_scale flat_drag_scale", _SCALE),
+        "hole_opening_s": _from(0.0, "a time; 0: at once"),
         "relaxation_scale": _from(0.01, "a factor; tires differ by 3, and the lag divides by it"),
         "rim_damping_nspm": _from(0.0, "a damping"),
         "saturation": _from(0.0, "the inverse of a friction; 0: no limit"),
