@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from truck_blowout_sim.diagnosis.effects.base import Timing
+from truck_blowout_sim.diagnosis.effects.base import CHANGED_IN_S, Timing
 from truck_blowout_sim.diagnosis.fit.stretches import lasting, of_stretches, stretches
 
 COUNT = 7
@@ -39,3 +39,12 @@ def test_what_lasts_is_the_sum_of_its_parts_from_each_instant_on() -> None:
     whole = np.stack([parts[:, k:].sum(axis=1) for k in range(COUNT)], axis=1)
     np.testing.assert_allclose(slope, whole.T @ left)
     np.testing.assert_allclose(bend, whole.T @ whole, atol=1e-12)
+
+
+def test_what_grows_is_over_soon_and_a_wind_may_last() -> None:
+    first, end = stretches("ramp", COUNT, apart_s=CHANGED_IN_S / 2.0)
+    assert (end - first).max() == 2
+    first, end = stretches("ramp", COUNT, apart_s=2.0 * CHANGED_IN_S)
+    assert set(end - first) == {1}
+    first, end = stretches("pulse", COUNT, apart_s=2.0 * CHANGED_IN_S)
+    assert (end - first).max() == COUNT

@@ -151,3 +151,23 @@ def test_unseen_runs_make_no_event_of_a_restless_force(size: float, length_s: fl
     found = np.array([windows(noise(rng, size, length_s), unseen=2).support() for _ in range(50)])
     assert np.mean(found > 2.0 * np.log(50.0)) <= at_most
     assert np.median(found) < 0.0
+
+
+def long_log(rng: np.random.Generator, wander: float, step: float = 0.0) -> Windows:
+    """Ten minutes twice, seen every 6 s: a force that wanders so far in a minute, and a step."""
+    count, apart_s = 100, 6.0
+    amounts = wander * np.sqrt(apart_s / 60.0) * rng.normal(size=(2, count)).cumsum(axis=1)
+    amounts += rng.normal(0.0, 0.5, (2, count))
+    amounts[:, 50:] += step
+    run, information = np.repeat([0, 1], count), np.eye(2 * count) / 0.25
+    return Windows(information, information @ amounts.ravel(), run,
+                   np.tile(apart_s * np.arange(count), 2), run < 1, run >= 1, "step", (-40.0, 40.0),
+                   0.5, 10.0)
+
+
+def test_an_instrument_that_drifts_through_a_long_log_shows_no_event() -> None:
+    rng = np.random.default_rng(3)
+    found = np.array([long_log(rng, 1.0).support() for _ in range(8)])
+    assert found.max() < 2.0 * np.log(50.0)
+    assert np.median(found) < 0.0
+    assert long_log(rng, 0.5, 6.0).support() > 2.0 * np.log(1e6)

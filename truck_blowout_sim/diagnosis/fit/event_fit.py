@@ -19,6 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from truck_blowout_sim.diagnosis.case.study import Study
+from truck_blowout_sim.diagnosis.effects.base import CHANGED_IN_S
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.fit.attribute import Ranked
 from truck_blowout_sim.diagnosis.fit.models import models_at, with_effects
@@ -101,7 +102,8 @@ def _moved(study: Study, event: Hypothesis, step: Floats) -> Hypothesis:
         start, end = times[run.recording.name]
         start = float(np.clip(start + by[0], first, last - _SHORTEST_S))
         if edges == 2:
-            end = max(end + float(by[1]), start + _SHORTEST_S)
+            longest = CHANGED_IN_S if event.effect.timing == "ramp" else np.inf
+            end = float(np.clip(end + by[1], start + _SHORTEST_S, start + longest))
         times[run.recording.name] = (start, end)
     at = float(np.clip(event.amount + step[0], amount.low, amount.high))
     shape = event.whole_shape

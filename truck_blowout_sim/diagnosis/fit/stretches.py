@@ -11,22 +11,29 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from truck_blowout_sim.diagnosis.effects.base import Timing
+from truck_blowout_sim.diagnosis.effects.base import CHANGED_IN_S, Timing
 
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
 
 
-def stretches(timing: Timing, count: int, earliest: int = 0, latest: int | None = None
-              ) -> tuple[Integers, Integers]:
+def stretches(timing: Timing, count: int, earliest: int = 0, latest: int | None = None,
+              apart_s: float = 0.0) -> tuple[Integers, Integers]:
     """First instant and end of every stretch among so many instants, the first ones in order.
 
     A ``step`` has one end, and only its first instant is free: its stretches are as long as one
-    instant.
+    instant. A ``ramp`` is over soon; what changes over minutes is an instrument that drifts.
+
+    Args:
+        timing: of the event.
+        count: how many instants; ``earliest``, ``latest``: of the first ones.
+        apart_s: distance of two instants.
     """
     last = count if latest is None else latest
+    longest = {"step": 1, "ramp": max(int(CHANGED_IN_S / apart_s), 1) if apart_s else count
+               }.get(timing, count)
     pairs = [(first, end) for first in range(earliest, last)
-             for end in ((first + 1,) if timing == "step" else range(first + 1, count + 1))]
+             for end in range(first + 1, min(first + longest, count) + 1)]
     first, end = np.array(pairs, dtype=np.int64).reshape(-1, 2).T
     return first, end
 

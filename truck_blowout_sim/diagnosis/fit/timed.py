@@ -109,7 +109,8 @@ def _best_span(study: Study, projector: Projector, effect: Effect, i: int, grid:
     matrix = np.stack(single, axis=1)
     reach = projector.reach(matrix, rows)
     gram = matrix.T @ matrix - reach.T @ cho_solve(projector.factor, reach)
-    first, end = stretches(effect.timing, grid.size)
+    apart_s = float(grid[1] - grid[0]) if grid.size > 1 else 0.0
+    first, end = stretches(effect.timing, grid.size, apart_s=apart_s)
     slope, information = of_stretches(effect.timing, matrix.T @ part, gram, first, end)
     shown = information > _DIM
     amount = np.clip(slope / np.where(shown, information, 1.0), low, high)

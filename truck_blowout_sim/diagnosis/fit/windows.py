@@ -14,7 +14,8 @@ The support is twice the log of
 
 with the stretches of each run averaged over, so that a free choice costs what it must, and with
 wind, slope and sliding of everyday size on the other side. Size, share and length of the process
-are summed over a grid: the recordings decide. An unseen run may have the event, or not: even odds.
+are summed over a grid: the recordings decide. In a long log, whose instruments drift, nearly all of
+it may last, for 30 s, 300 s and so on. An unseen run may have the event, or not: even odds.
 
 References: Kass and Raftery 1995 (Bayes factors); Rasmussen and Williams 2006, ch. 2 and 5 (process
 and its marginal likelihood); Tukey 1960 (contaminated normal: few observations of another scale).
@@ -41,6 +42,7 @@ Floats = NDArray[np.float64]
 _SIZES: Floats = np.concatenate([[0.0], 2.0 ** np.arange(-4.0, 7.0)])
 _SHARES = (0.5, 0.9)  # rho: from half of it to nearly all
 _LENGTHS_S = (3.0, np.inf)  # l: of a maneuver, or as long as the run
+_LASTING = 0.99  # rho of what drifts over minutes: nearly all of it lasts
 _OWN_SIZES = (4.0, 16.0, 64.0)  # times as large as in the other runs, mostly for a maneuver
 _AMOUNTS: Floats = np.geomspace(0.5, 200.0, 30)  # standard errors of the clearest stretch
 _UNLIKELY = 20.0  # log-likelihood by which what is not looked at is worse than the best
@@ -103,8 +105,17 @@ class Windows:
     def _processes(self) -> Iterator[Floats]:
         """Square roots [n, n] of the correlations that the restless force may have."""
         yield np.eye(self.run.size)
-        for share, length in product(_SHARES, _LENGTHS_S):
+        for share, length in (*product(_SHARES, _LENGTHS_S), *self._drifts()):
             yield self._root(share, length)
+
+    def _drifts(self) -> Iterator[tuple[float, float]]:
+        """Of long logs, whose instruments drift: ten times a maneuver's length, and so on."""
+        longest = max((float(np.ptp(self.time_s[self.run == k])) for k in np.unique(self.run)),
+                      default=0.0)
+        length = 10.0 * min(_LENGTHS_S)
+        while length < longest:
+            yield _LASTING, length
+            length *= 10.0
 
     def _restless_runs(self) -> Iterator[Floats]:
         """The same where one run has more of it than the others."""
@@ -140,8 +151,8 @@ class Windows:
             taken = size**2 / wide
             runs = [(*self._stretches(
                 self.gradient[own] - reach[own] @ (taken * seen),
-                self.information[np.ix_(own, own)] - (reach[own] * taken) @ reach[own].T),
-                bool(self.unseen[own[0]])) for own in owners]
+                self.information[np.ix_(own, own)] - (reach[own] * taken) @ reach[own].T,
+                self.time_s[own]), bool(self.unseen[own[0]])) for own in owners]
             if rest + _most(runs) > idle.max() - _UNLIKELY:
                 ambient, event = self._events(runs)
                 yield rest, rest + ambient, rest + event
@@ -166,12 +177,13 @@ class Windows:
             gained = gained + (np.logaddexp(with_it, 0.0) - np.log(2.0) if unseen else with_it)
         return self._over(amounts, gained, self.ambient), self._over(amounts, gained, self.wide)
 
-    def _stretches(self, slope: Floats, bend: Floats) -> tuple[Floats, Floats]:
+    def _stretches(self, slope: Floats, bend: Floats, time_s: Floats) -> tuple[Floats, Floats]:
         """Slope and bend of every stretch of one run that begins after its first second."""
+        apart_s = float(time_s[1] - time_s[0]) if time_s.size > 1 else 0.0
         if self.timing != "pulse":
             slope, bend = lasting(slope, bend)
         return of_stretches(self.timing, slope, bend,
-                            *stretches(self.timing, slope.size, 1, slope.size - 1))
+                            *stretches(self.timing, slope.size, 1, slope.size - 1, apart_s))
 
     @staticmethod
     def _over(amounts: Floats, gained: Floats, sigma: float) -> float:
