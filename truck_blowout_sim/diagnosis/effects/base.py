@@ -18,7 +18,7 @@ from truck_blowout_sim.vehicle import Packed, Vehicle
 Values = Mapping[str, float]
 Timing = Literal["always", "step", "pulse", "ramp"]
 SLOPE_ENTERED_IN_S = 1.0  # at first; how long is fitted
-# At most: 500 m at 25 m/s, the longest transition of a road; a load slides a metre in 5 s or less.
+# At most, a judgment: a long transition of a road, 500 m at 25 m/s; a load slides a meter in less.
 CHANGED_IN_S = 20.0
 # Half of 0.7: two published forms of tire are taken to be two sigmas apart; see tire_saturation.py.
 TIRE_FORMS_DIFFER = 0.35
