@@ -93,8 +93,13 @@ def run(cases: Path, out: Path, without: str,
     """Diagnose every case that has no line yet."""
     if without not in PARTS:
         raise InputError(f"{without!r}", file="WITHOUT", expected=f"one of {', '.join(PARTS)}")
+    run_all(cases, out, workers, partial(_begin, without))
+
+
+def run_all(cases: Path, out: Path, workers: int, begin: Callable[[], None]) -> None:
+    """Diagnose what has no line yet; each process does ``begin`` first, which blindfolds it."""
     for line in run_cases(find_cases(cases), out, workers=workers, step_s=STEP_S,
-                          with_baselines=False, begin=partial(_begin, without)):
+                          with_baselines=False, begin=begin):
         print(line["case"], flush=True)
 
 

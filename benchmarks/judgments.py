@@ -27,15 +27,12 @@ from typing import Annotated, Any
 import numpy as np
 import typer
 
+from benchmarks.ablation import ROOM, run_all
 from benchmarks.page import Page, Table, start
 from benchmarks.proved import figures_of, of, two_a_world
 from truck_blowout_sim.proof.blindfold import blindfold
-from truck_blowout_sim.proof.cases import find_cases
-from truck_blowout_sim.proof.run import run_cases
 from truck_blowout_sim.report.marked import put_on_page
 
-ROOM = "truck_blowout_sim.diagnosis"
-STEP_S = 0.0025  # as `truck-blowout prove`
 FURTHEST = 1.5  # times as much, or as little
 ROWS: Mapping[str, str] = {
     "effects beyond six spreads of fault-free vehicles, among the causes named": "named",
@@ -76,6 +73,8 @@ JUDGMENTS = (
              "to count as known"),
     Judgment("effects.base", "WRONG_SHEET", "spread of a number where its sheet is wrong, times "
              "that between trucks", share=False),
+    Judgment("effects.base", "CHANGED_IN_S", "seconds that a change which grows and stays takes at "
+             "most", share=False),
     Judgment("fit.seconds", "_WIDE", "1 sigma of an event's amount, of the largest possible"),
     Judgment("fit.shown", "_ANEW", "variance of a truck's numbers that is new each day, of that "
              "between trucks"),
@@ -152,9 +151,7 @@ def run(cases: Path, out: Path,
         draw: Annotated[int, typer.Option(help="which draw of the factors")] = 1,
         workers: Annotated[int, typer.Option(help="processes")] = 1) -> None:
     """Diagnose every case that has no line yet, with judgments as drawn."""
-    for line in run_cases(find_cases(cases), out, workers=workers, step_s=STEP_S,
-                          with_baselines=False, begin=partial(_begin, draw)):
-        print(line["case"], flush=True)
+    run_all(cases, out, workers, partial(_begin, draw))
 
 
 @app.command()

@@ -36,7 +36,7 @@ class Amount:
         material: by so much 19 of 20 trucks of one kind stray from another at most; a share, where
             it grows with the vehicle. ``source``: where that is from.
         report: value to report from the amount; identity by default.
-        grid: where a nonlinear search may start; they reach near the bounds.
+        grid: starts of a nonlinear search; they reach near the bounds.
         file_share: 1 sigma, a share, by which the number of the vehicle's file may be off that
             turns the amount into a force.
         at_low: what to say at the lower bound, where nature reaches it; ``{percent}`` is the end

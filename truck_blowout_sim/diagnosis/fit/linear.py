@@ -92,14 +92,16 @@ class Projector:
         return np.asarray(vector - self.explained(self.amounts(vector)))
 
     def information(self, columns: Floats) -> Floats:
-        """Columns' C^-1 columns: what is known of amounts fitted together, nuisances removed."""
+        """Columns' C^-1 columns: what is known of amounts fitted together, nuisances removed.
+
+        Of one vector, a number.
+        """
         common = self.reach(columns)
         return np.asarray(columns.T @ columns - common.T @ self.solve(common))
 
     def chi2(self, vector: Floats) -> float:
         """Vector' C^-1 vector: the sum of squares left, priors included."""
-        common = self.reach(vector)
-        return float(vector @ vector - common @ self.solve(common))
+        return float(self.information(vector))
 
 
 @dataclass(frozen=True)
