@@ -2,19 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 
 from truck_blowout_sim.diagnosis.case import simulations
+from truck_blowout_sim.diagnosis.case.fingerprints import simulation_key
 from truck_blowout_sim.diagnosis.case.resume import Kept
 from truck_blowout_sim.diagnosis.case.runs import Run, prepare_run
 from truck_blowout_sim.diagnosis.case.simulations import simulate_bins, simulated_abreast
 from truck_blowout_sim.diagnosis.settings import Settings
 from truck_blowout_sim.proof.memory import Memory
 from truck_blowout_sim.recordings import Recording
+from truck_blowout_sim.simulation.course import drive_course
 from truck_blowout_sim.vehicle import Packed
 
 Drives = Callable[..., Recording]
@@ -46,6 +50,7 @@ def test_many_go_abreast_and_give_the_same_to_rounding(
     jobs: list[tuple[Run, Packed]], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     shares = list[float]()
+    monkeypatch.setattr(simulations, "MANY_SIMULATIONS", len(jobs) + 1)
     alone = simulate_bins(jobs, 2)
     monkeypatch.setattr(simulations, "MANY_SIMULATIONS", len(jobs))
     one, two = (simulate_bins(jobs, workers, tell=shares.append) for workers in (1, 2))
@@ -55,6 +60,33 @@ def test_many_go_abreast_and_give_the_same_to_rounding(
         np.testing.assert_allclose((b - a) / run.sigma, 0.0, atol=1e-6)
     assert not np.array_equal(alone[0], one[0])
     assert np.array_equal(alone[16], one[16])
+
+
+def test_what_begins_late_goes_abreast_from_the_earliest_on(
+    run: Run, truck: Packed, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """And is kept by the instant at which all of its part left their driven trucks."""
+    course = drive_course(truck, run.drive)
+    late = [(replace(run, course=course, since_s=2.0 + 0.1 * k), truck.with_values({
+        "unit.trailer.probe_fy_n": 3e3, "unit.trailer.probe_start_s": 2.0 + 0.1 * k,
+        "unit.trailer.probe_end_s": 99.0})) for k in reversed(range(10))]
+    whole = [(run, truck.with_values({MASS: truck[MASS] * (1.0 + 0.01 * k)})) for k in range(9)]
+    jobs = [one for pair in zip(late, [*whole, whole[0]], strict=True) for one in pair]
+    monkeypatch.setattr(simulations, "MANY_SIMULATIONS", 100)
+    alone = simulate_bins(jobs, 2)
+    monkeypatch.setattr(simulations, "MANY_SIMULATIONS", 8)
+    seen = list[tuple[float, ...]]()
+
+    def noted(part: Sequence[tuple[Run, Packed]]) -> list[NDArray[np.float64]]:
+        seen.append(tuple(one.since_s for one, _ in part))
+        return simulated_abreast(part)
+
+    for a, b in zip(alone, simulate_bins(jobs, 1, abreast=noted), strict=True):
+        np.testing.assert_allclose((b - a) / run.sigma, 0.0, atol=1e-6)
+    assert seen == [(0.0,) * 8, (2.0,) * 8]  # two that are left of each kind go alone
+    earlier, later = (simulation_key(replace(run, course=course, since_s=at), truck, abreast=True)
+                      for at in (2.0, 2.1))
+    assert earlier != later
 
 
 def test_a_neighbor_changes_no_bit(jobs: list[tuple[Run, Packed]]) -> None:

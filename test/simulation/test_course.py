@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from truck_blowout_sim.diagnosis.effects import LIBRARY, Effect
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
-from truck_blowout_sim.simulation.course import Course, drive_course
+from truck_blowout_sim.simulation.course import Course, drive_course, left_abreast
 from truck_blowout_sim.simulation.drive import Drive, run_drive
 from truck_blowout_sim.simulation.equilibrium import InitialState
 from truck_blowout_sim.vehicle import Packed, load_vehicle, pack
@@ -76,8 +78,37 @@ def test_a_failure_ends_in_nan_as_it_would(truck: Packed, course: Course) -> Non
     assert np.isnan(found[-1]).any()
 
 
-def test_a_driver_is_refused(truck: Packed) -> None:
-    from dataclasses import replace
+def test_eight_leave_their_courses_abreast(truck: Packed, course: Course) -> None:
+    """Of two drives, one shorter, each truck disturbed at an instant of its own."""
+    shorter = drive_course(truck, replace(a_drive(), inputs=a_drive().inputs[:900]))
+    late = [truck.with_values({"unit.trailer.probe_fy_n": 3e3,
+                               "unit.trailer.probe_start_s": AT_S + 0.15 * k,
+                               "unit.trailer.probe_end_s": 9.0}) for k in range(7)]
+    courses = [shorter if k % 3 == 1 else course for k in range(7)]
+    assert len({c.kind_of(t) for c, t in zip(courses, late, strict=True)}) == 1
+    found = left_abreast(courses, late, AT_S)
+    for k, (one, of_course, each) in enumerate(zip(late, courses, found, strict=True)):
+        alone = of_course.left_at(one, AT_S + 0.15 * k)
+        np.testing.assert_allclose(each, alone, rtol=1e-6, atol=1e-6 * np.nanmax(abs(alone)))
+        assert each.shape == of_course.out.shape
 
+
+def test_a_truck_that_fails_abreast_stops_no_other(truck: Packed, course: Course) -> None:
+    lost = truck.unchecked({"unit.tractor.probe_fx_n": np.nan, "unit.tractor.probe_start_s": AT_S,
+                            "unit.tractor.probe_end_s": 9.0})
+    found, failed = left_abreast([course] * 2, [truck, lost], AT_S)
+    np.testing.assert_allclose(found, course.out, rtol=1e-6, atol=1e-6 * np.nanmax(abs(found)))
+    np.testing.assert_array_equal(np.isnan(failed), np.isnan(course.left_at(lost, AT_S)))
+
+
+def test_a_course_that_failed_goes_alone(truck: Packed, course: Course) -> None:
+    lost = truck.unchecked({"unit.tractor.probe_fx_n": np.nan, "unit.tractor.probe_start_s": 1.0,
+                            "unit.tractor.probe_end_s": 9.0})
+    failed = drive_course(lost, a_drive())
+    assert failed.kind_of(truck) != failed.kind_of(truck) != course.kind_of(truck)
+    assert course.kind_of(truck) == course.kind_of(truck)
+
+
+def test_a_driver_is_refused(truck: Packed) -> None:
     with pytest.raises(ValueError, match="driver"):
         drive_course(truck, replace(a_drive(), pilot=np.zeros(17)))

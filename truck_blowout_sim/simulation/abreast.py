@@ -61,7 +61,10 @@ def execute_alike(trucks: Sequence[Packed], drives: Sequence[Drive],
                   starts: Sequence[Floats | None]) -> list[Ran]:
     """`execute_abreast` of up to eight that are known to be alike: a part of `parts_of`."""
     begun = _settled(trucks, drives, starts)
-    return _run([Driven(truck, drive) for truck, drive in zip(trucks, drives, strict=True)], begun)
+    driven = [Driven(truck, drive) for truck, drive in zip(trucks, drives, strict=True)]
+    n_outputs = len(names_of(trucks[0].vehicle))
+    rows = np.full((len(driven), max(drive.n_rows for drive in drives), n_outputs), np.nan)
+    return run_from(driven, begun, 0, rows)
 
 
 def settle_all(trucks: Sequence[Packed], drives: Sequence[Drive]) -> list[Floats]:
@@ -116,11 +119,15 @@ def _settled(trucks: Sequence[Packed], drives: Sequence[Drive], given: Sequence[
     return states
 
 
-def _run(driven: Sequence[Driven], starts: Sequence[Floats]) -> list[Ran]:
-    """Drive settled trucks that are alike."""
+def run_from(driven: Sequence[Driven], starts: Sequence[Floats], begun: int, out: Floats
+             ) -> list[Ran]:
+    """Drive up to eight alike trucks from a step on.
+
+    Args:
+        starts: their states at the step ``begun``.
+        out: [trucks, rows of the longest, n_outputs]; what was before is theirs already.
+    """
     first, drives = driven[0], [each.drive for each in driven]
-    n_outputs = len(names_of(first.packed.vehicle))
-    out = np.full((len(driven), max(drive.n_rows for drive in drives), n_outputs), np.nan)
     inputs = _stacked([each.inputs for each in driven])
     blow_steps = _stacked([each.blow_steps for each in driven])
     counts = np.zeros((EIGHT, 6), dtype=np.int64)
@@ -130,10 +137,10 @@ def _run(driven: Sequence[Driven], starts: Sequence[Floats]) -> list[Ran]:
     x, ends = side_by_side(starts), room_for_eight(len(starts[0]))
     run_abreast(
         x, side_by_side([each.params for each in driven]), first.packed.topology,
-        room_for_eight(N_INPUTS), first.drive.step_s, first.drive.every,
+        room_for_eight(N_INPUTS), first.drive.step_s, first.drive.every, begun,
         side_by_side([np.array([drive.initial.time_s]) for drive in drives]),
         side_by_side([each.rolls for each in driven]), room_for_eight(N_WORK),
-        room_for_eight(n_outputs), room_for_eight(1), ends, counts, inputs, blow_steps,
+        room_for_eight(out.shape[2]), room_for_eight(1), ends, counts, inputs, blow_steps,
         _stacked([each.blow_slots for each in driven]),
         _stacked([each.blow_watch for each in driven]),
         _stacked([each.blow_delays for each in driven]),

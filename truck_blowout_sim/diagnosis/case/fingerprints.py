@@ -44,9 +44,10 @@ def simulation_key(run: Run, truck: Packed, *, abreast: bool = False) -> bytes:
     """Key of a truck's bin means over a run: a hash of all that they follow from.
 
     A fraction of a millisecond, where the simulation takes tens. ``abreast``: it went as one of
-    eight, which rounds otherwise.
+    eight, which rounds otherwise, from the instant on at which these left their driven trucks.
     """
-    return _digest([_driven(run), *_truck(truck), abreast])
+    since_s = run.since_s if abreast and run.course else -np.inf
+    return _digest([_driven(run), *_truck(truck), abreast, since_s])
 
 
 @lru_cache(maxsize=64)

@@ -163,13 +163,14 @@ class Run:
         """[n * m] whitened measured - model, zero where not measured, bounded where it broke."""
         z = (self.measured - model) / self.sigma
         broken = ~np.isfinite(model) & np.isfinite(self.measured)
-        bounded = np.clip(np.where(broken, _LOST, np.nan_to_num(z, nan=0.0)), -_LOST, _LOST)
+        bounded = np.clip(np.where(broken, _LOST, np.where(np.isnan(z), 0.0, z)), -_LOST, _LOST)
         return self.color.whitened(bounded).ravel()
 
     def change(self, now: Floats, base: Floats) -> Floats:
         """[n * m] whitened now - base, zero where not measured."""
-        z = np.nan_to_num((now - base) / self.sigma, nan=0.0, posinf=0.0, neginf=0.0)
-        return self.color.whitened(np.clip(z, -_LOST, _LOST)).ravel()
+        z = (now - base) / self.sigma
+        bounded = np.clip(np.where(np.isfinite(z), z, 0.0), -_LOST, _LOST)
+        return self.color.whitened(bounded).ravel()
 
 
 def _means(out: Floats, columns: Sequence[int], rows: NDArray[np.int64]) -> Floats:

@@ -4,7 +4,7 @@ Whether a truck goes abreast follows from what is asked for in one call and from
 abreast it gives the same bits whoever its neighbors are. An interrupted diagnosis therefore
 continues to the same answer.
 
-Known limits: what branches off a driven truck (`Run.course`) goes alone.
+Known limits: what branches off driven trucks (`Run.course`) goes from the earliest of eight on.
 Validated with: test/diagnosis/test_simulations.py.
 """
 
@@ -12,6 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,23 +20,27 @@ from numpy.typing import NDArray
 from truck_blowout_sim.diagnosis.case.fingerprints import simulation_key
 from truck_blowout_sim.diagnosis.case.runs import Run
 from truck_blowout_sim.simulation.abreast import execute_alike, parts_of
+from truck_blowout_sim.simulation.alike import in_eights
+from truck_blowout_sim.simulation.course import left_abreast
 from truck_blowout_sim.vehicle import Packed
 
 Floats = NDArray[np.float64]
 Job = tuple[Run, Packed]
 Alone = Callable[[Run, Packed], Floats]
 Abreast = Callable[[Sequence[Job]], list[Floats]]
-# Simulations in one call from which on they go abreast. No case has so many that compiling the
-# step for eight, once for all cases, would pay within it; one of few would wait for nothing.
-MANY_SIMULATIONS = 64
+# Simulations in one call from which on they go abreast: fewer are done sooner in two threads. Every
+# diagnosis somewhere has many, so that compiling the step for eight is never in vain.
+MANY_SIMULATIONS = 8
 
 
 def simulated_abreast(jobs: Sequence[Job]) -> list[Floats]:
     """Bin means of up to eight alike trucks over their runs: `Run.simulated`, to rounding."""
-    ran = execute_alike([truck for _, truck in jobs], [run.drive for run, _ in jobs],
-                        [None] * len(jobs))
-    return [run.bins_of(each.out) + run.correction
-            for (run, _), each in zip(jobs, ran, strict=True)]
+    runs, trucks = zip(*jobs, strict=True)
+    courses = [run.course for run in runs if run.course]
+    outs = (left_abreast(courses, trucks, runs[0].since_s) if courses else
+            [each.out for each in execute_alike(trucks, [run.drive for run in runs],
+                                                [None] * len(jobs))])
+    return [run.bins_of(out) + run.correction for run, out in zip(runs, outs, strict=True)]
 
 
 def known_or_abreast(jobs: Sequence[Job], known: Callable[[bytes], Floats | None],
@@ -62,6 +67,7 @@ def simulate_bins(jobs: Sequence[Job], workers: int, alone: Alone = Run.simulate
     ``tell``: called with the share that is done.
     """
     eights, rest = _parts(jobs)
+    jobs = _left_together(jobs, eights)
 
     def work(part: list[int]) -> list[Floats]:
         if len(part) > 1:
@@ -83,11 +89,27 @@ def simulate_bins(jobs: Sequence[Job], workers: int, alone: Alone = Run.simulate
 
 def _parts(jobs: Sequence[Job]) -> tuple[list[list[int]], list[int]]:
     """Numbers of the jobs that go abreast, up to eight a part, and of those that go alone."""
-    whole = [k for k, (run, _) in enumerate(jobs) if run.course is None]
-    if len(whole) < MANY_SIMULATIONS:
+    if len(jobs) < MANY_SIMULATIONS:
         return [], list(range(len(jobs)))
+    whole = [k for k, (run, _) in enumerate(jobs) if run.course is None]
+    late = sorted((k for k, (run, _) in enumerate(jobs) if run.course),
+                  key=lambda k: jobs[k][0].since_s)
     eights, _ = parts_of([jobs[k][1] for k in whole], [jobs[k][0].drive for k in whole],
                          [None] * len(whole))
-    parts = [[whole[k] for k in part] for part in eights]
+    lates, _ = in_eights([run.course.kind_of(truck) for run, truck in (jobs[k] for k in late)
+                          if run.course])
+    parts = [[group[k] for k in part] for group, found in ((whole, eights), (late, lates))
+             for part in found]
     placed = {k for part in parts for k in part}
     return parts, [k for k in range(len(jobs)) if k not in placed]
+
+
+def _left_together(jobs: Sequence[Job], parts: Sequence[Sequence[int]]) -> list[Job]:
+    """The jobs; those of one part leave their driven trucks at the earliest instant of all."""
+    placed = list(jobs)
+    for part in parts:
+        since_s = min(jobs[k][0].since_s for k in part)
+        for k in part:
+            run, truck = jobs[k]
+            placed[k] = (replace(run, since_s=since_s), truck) if run.course else (run, truck)
+    return placed

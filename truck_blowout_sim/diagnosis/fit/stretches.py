@@ -8,6 +8,8 @@ Validated with: test/diagnosis/test_stretches.py.
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -17,6 +19,7 @@ Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
 
 
+@lru_cache(maxsize=64)
 def stretches(timing: Timing, count: int, earliest: int = 0, latest: int | None = None,
               apart_s: float = 0.0) -> tuple[Integers, Integers]:
     """First instant and end of every stretch among so many instants, the first ones in order.
@@ -34,8 +37,9 @@ def stretches(timing: Timing, count: int, earliest: int = 0, latest: int | None 
                }.get(timing, count)
     pairs = [(first, end) for first in range(earliest, last)
              for end in range(first + 1, min(first + longest, count) + 1)]
-    first, end = np.array(pairs, dtype=np.int64).reshape(-1, 2).T
-    return first, end
+    both = np.array(pairs, dtype=np.int64).reshape(-1, 2).T
+    both.flags.writeable = False  # all who ask are given the same
+    return both[0], both[1]
 
 
 def of_stretches(timing: Timing, slope: Floats, bend: Floats, first: Integers, end: Integers

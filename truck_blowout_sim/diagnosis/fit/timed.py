@@ -9,7 +9,7 @@ each grid time explain most.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,6 +29,7 @@ from truck_blowout_sim.diagnosis.fit.support import Beside
 from truck_blowout_sim.diagnosis.result.parts import Place
 
 Floats = NDArray[np.float64]
+Integers = NDArray[np.int64]
 Times = Mapping[str, tuple[float, float]]
 _REFINE_S = (0.5, 0.25, 0.12)
 _DIM = 1e-12  # information on an amount: less shows nothing
@@ -59,18 +60,45 @@ def scan(study: Study, projector: Projector, effect: Effect, place: Place,
         support = windows.support()
         if support > 0.0 and windows.unseen.any():
             unseen = support - windows.without_unseen.support()
-    best: Ranked | None = None
-    for sign in (1.0, -1.0):
-        found = _best_of_sign(study, projector, effect, place, results, removed, sign)
-        if best is None or found.delta > best.delta:
-            best = found
-    assert best is not None
+    shown = {i: _Shown.of(study, projector, effect, i, results, removed) for i in study.train}
+    best = max((_best_of_sign(study, projector, effect, place, shown, removed, sign)
+                for sign in (1.0, -1.0)), key=lambda found: found.delta)
     return replace(best, support=support, unseen=unseen)
 
 
+@dataclass(frozen=True, eq=False)
+class _Shown:
+    """What one run shows of an event in each stretch of it.
+
+    Attributes:
+        grid: instants; ``matrix`` [rows, instants] the whitened response to each.
+        first, end: of each stretch; ``slope`` and ``information`` of its amount.
+    """
+
+    grid: Floats
+    matrix: Floats
+    first: Integers
+    end: Integers
+    slope: Floats
+    information: Floats
+
+    @staticmethod
+    def of(study: Study, projector: Projector, effect: Effect, i: int,
+           results: Mapping[tuple[int, int], Floats], removed: Floats) -> _Shown:
+        """From the bin means with the event begun at each instant, nuisances removed."""
+        rows = row_ranges(study)[i]
+        grid, single = _responses(study, effect, i, results)
+        matrix = np.stack(single, axis=1)
+        reach = projector.reach(matrix, rows)
+        gram = matrix.T @ matrix - reach.T @ cho_solve(projector.factor, reach)
+        apart_s = float(grid[1] - grid[0]) if grid.size > 1 else 0.0
+        first, end = stretches(effect.timing, grid.size, apart_s=apart_s)
+        slope, information = of_stretches(effect.timing, matrix.T @ removed[rows], gram, first, end)
+        return _Shown(grid, matrix, first, end, slope, information)
+
+
 def _best_of_sign(study: Study, projector: Projector, effect: Effect, place: Place,
-                  results: Mapping[tuple[int, int], Floats], removed: Floats, sign: float
-                  ) -> Ranked:
+                  shown: Mapping[int, _Shown], removed: Floats, sign: float) -> Ranked:
     """Choose the instants for a positive or a negative amount, run by run, then join them."""
     low = max(effect.amount.low, 0.0) if sign > 0 else effect.amount.low
     high = effect.amount.high if sign > 0 else min(effect.amount.high, 0.0)
@@ -78,9 +106,7 @@ def _best_of_sign(study: Study, projector: Projector, effect: Effect, place: Pla
     total: Floats = np.zeros(removed.size)
     for i in study.train:
         run = study.runs[i]
-        grid, single = _responses(study, effect, i, results)
-        delta, span, column = _best_span(study, projector, effect, i, grid, single, removed, low,
-                                         high)
+        delta, span, column = _best_span(effect, shown[i], spacing_s(run), low, high)
         if delta > 4.0:
             times[run.recording.name] = span
             total = total + study.stack({i: column})
@@ -100,26 +126,18 @@ def _responses(study: Study, effect: Effect, i: int, results: Mapping[tuple[int,
     return np.array(times), list(found)
 
 
-def _best_span(study: Study, projector: Projector, effect: Effect, i: int, grid: Floats,
-               single: Sequence[Floats], removed: Floats, low: float, high: float
+def _best_span(effect: Effect, shown: _Shown, apart_s: float, low: float, high: float
                ) -> tuple[float, tuple[float, float], Floats]:
     """Best instant, or interval of what ends or grows, in one run."""
-    rows = row_ranges(study)[i]
-    part = removed[rows]
-    matrix = np.stack(single, axis=1)
-    reach = projector.reach(matrix, rows)
-    gram = matrix.T @ matrix - reach.T @ cho_solve(projector.factor, reach)
-    apart_s = float(grid[1] - grid[0]) if grid.size > 1 else 0.0
-    first, end = stretches(effect.timing, grid.size, apart_s=apart_s)
-    slope, information = of_stretches(effect.timing, matrix.T @ part, gram, first, end)
-    shown = information > _DIM
-    amount = np.clip(slope / np.where(shown, information, 1.0), low, high)
-    fall = np.where(shown, 2.0 * amount * slope - amount**2 * information, 0.0)
+    grid, first, end, slope = shown.grid, shown.first, shown.end, shown.slope
+    seen = shown.information > _DIM
+    amount = np.clip(slope / np.where(seen, shown.information, 1.0), low, high)
+    fall = np.where(seen, 2.0 * amount * slope - amount**2 * shown.information, 0.0)
     k = int(np.argmax(fall))
     if fall[k] <= 0.0:
-        return 0.0, (float(grid[0]), np.inf), matrix[:, 0]
-    span = (float(grid[first[k]]), effect.end_s(float(grid[end[k] - 1]), spacing_s(study.runs[i])))
-    parts = matrix[:, first[k]:end[k]].sum(axis=1)
+        return 0.0, (float(grid[0]), np.inf), shown.matrix[:, 0]
+    span = (float(grid[first[k]]), effect.end_s(float(grid[end[k] - 1]), apart_s))
+    parts = shown.matrix[:, first[k]:end[k]].sum(axis=1)
     return float(fall[k]), span, parts * parts_of(effect.timing, first, end)[k]
 
 

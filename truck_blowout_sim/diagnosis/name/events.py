@@ -30,7 +30,6 @@ from truck_blowout_sim.diagnosis.result.parts import Place
 _TIMED_COST = 8.0  # evidence that choosing an instant in a run costs
 _TURNS = 4  # at most: instants, then amount and law
 _TIMED_SHARE = 0.15  # and the share that freedom of shape costs: steady causes come first
-_STARTS = 2  # amounts from which an event that is far from linear is fitted
 _HOLES = (0.1, 0.3, 1.0)  # of that of a commanded blowout: where to begin
 _HALF = 0.5  # of what the best explains: less is no rival
 _SEEN_TWICE = 3.84  # support of an event that unseen runs show, too: chance reaches it in 5 %
@@ -95,7 +94,8 @@ def rank_events(study: Study, beside: Beside, chi2: float, chance: Chance,
                 one.delta - cost > worth or one.support > chance.asked))):
             keys.add(one.hypothesis.key)
             seen = one
-            starts = simulated_starts(study, one, chi2, named)[:_STARTS] if curved else [one]
+            starts = (simulated_starts(study, one, chi2, named)[:study.refits[1]] if curved
+                      else [one])
             one = max((fitted_event(study, each, chi2, named) for each in starts),
                       key=lambda r: r.delta)
             one = (replace(one, support=seen.support, unseen=seen.unseen)
