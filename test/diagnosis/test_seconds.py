@@ -10,10 +10,11 @@ import pytest
 from truck_blowout_sim.diagnosis.case.study import Study
 from truck_blowout_sim.diagnosis.effects import LIBRARY, Effect
 from truck_blowout_sim.diagnosis.effects.base import Timing
+from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.fit.attribute import Ranked
 from truck_blowout_sim.diagnosis.fit.seconds import _best_event
 from truck_blowout_sim.diagnosis.fit.support import Beside
-from truck_blowout_sim.diagnosis.fit.timed import scan
+from truck_blowout_sim.diagnosis.fit.timed import begun_everywhere, scan
 from truck_blowout_sim.diagnosis.result.parts import Place
 from truck_blowout_sim.vehicle import Packed
 
@@ -43,7 +44,8 @@ def wind(truck: Packed) -> tuple[Effect, Place, dict[str, float]]:
 
 def scanned(study: Study, effect: Effect, place: Place) -> Ranked:
     beside = Beside.of(study, (), study.models)
-    return scan(study, study.projector(), effect, place, (), beside)
+    begun, = begun_everywhere(study, [Hypothesis(effect, place, effect.amount.step)])
+    return scan(study, study.projector(), effect, place, begun, beside)
 
 
 def test_unseen_runs_with_the_wind_of_training_add_support_and_calm_ones_cost_little(

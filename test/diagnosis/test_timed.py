@@ -10,20 +10,32 @@ import pytest
 
 from truck_blowout_sim.diagnosis.answer.words import fitted_with
 from truck_blowout_sim.diagnosis.case.study import Study
-from truck_blowout_sim.diagnosis.effects import LIBRARY
+from truck_blowout_sim.diagnosis.effects import LIBRARY, Effect
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.fit.attribute import Ranked
 from truck_blowout_sim.diagnosis.fit.event_fit import fit_event
 from truck_blowout_sim.diagnosis.fit.instants import delayed
 from truck_blowout_sim.diagnosis.fit.refit import refit
-from truck_blowout_sim.diagnosis.fit.timed import refine_times, scan, simulated_starts
+from truck_blowout_sim.diagnosis.fit.timed import (
+    begun_everywhere,
+    refine_times,
+    scan,
+    simulated_starts,
+)
 from truck_blowout_sim.diagnosis.name.candidates import failed_tires, unwatched_tires
 from truck_blowout_sim.diagnosis.name.events import fitted_event
 from truck_blowout_sim.diagnosis.prove.intervals import time_intervals
+from truck_blowout_sim.diagnosis.result.parts import Place
 from truck_blowout_sim.recordings import Series
 from truck_blowout_sim.vehicle import Packed
 
 Studies = Callable[..., Study]
+
+
+def on_grid(study: Study, effect: Effect, place: Place) -> Ranked:
+    """An event at its best instants of the grid."""
+    begun, = begun_everywhere(study, [Hypothesis(effect, place, effect.amount.step)])
+    return scan(study, study.projector(), effect, place, begun)
 
 
 def located(study: Study, name: str) -> tuple[Ranked, Ranked]:
@@ -32,7 +44,7 @@ def located(study: Study, name: str) -> tuple[Ranked, Ranked]:
     place = next(p for p in effect.places(study.packed.vehicle) if p.body == "trailer")
     projector = study.projector()
     chi2 = projector.chi2(study.residual())
-    rough = scan(study, projector, effect, place)
+    rough = on_grid(study, effect, place)
     fine = refine_times(study, refit(study, refine_times(study, rough, chi2), chi2), chi2)
     return rough, fine
 
@@ -77,8 +89,7 @@ def test_the_block_that_moved_explains_more_than_the_other(study_of: Studies, tr
     assert rearmost.timed is not None
     study = study_of({**rearmost.values(truck, place, 0.3),
                       **rearmost.timed(truck, place, 2.5, 3.2)})
-    projector = study.projector()
-    front, rear = (scan(study, projector, e, place) for e in (foremost, rearmost))
+    front, rear = (on_grid(study, e, place) for e in (foremost, rearmost))
     assert rear.delta > 1.2 * front.delta
     assert rear.hypothesis.times["run 1"][0] == pytest.approx(2.5, abs=0.3)
 
@@ -174,7 +185,7 @@ def test_no_event_is_worth_nothing(study_of: Studies) -> None:
     study = study_of()
     effect = next(e for e in LIBRARY if e.name == "crosswind")
     place = effect.places(study.packed.vehicle)[0]
-    assert scan(study, study.projector(), effect, place).delta < 35.0  # the best of many instants
+    assert on_grid(study, effect, place).delta < 35.0  # the best of many instants
 
 
 def test_a_tire_that_loses_its_air_unasked_is_a_candidate(study_of: Studies) -> None:

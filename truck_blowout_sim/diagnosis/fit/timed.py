@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import cho_solve
 
-from truck_blowout_sim.diagnosis.case.study import Study, row_ranges
+from truck_blowout_sim.diagnosis.case.study import Progress, Study, row_ranges
 from truck_blowout_sim.diagnosis.effects import Effect
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.fit.attribute import Ranked
@@ -31,36 +31,50 @@ from truck_blowout_sim.diagnosis.result.parts import Place
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
 Times = Mapping[str, tuple[float, float]]
+Begun = dict[tuple[int, int], Floats]
 _REFINE_S = (0.5, 0.25, 0.12)
 _DIM = 1e-12  # information on an amount: less shows nothing
 
 
-def scan(study: Study, projector: Projector, effect: Effect, place: Place,
-         named: Sequence[Hypothesis] = (), beside: Beside | None = None) -> Ranked:
+def begun_everywhere(study: Study, events: Sequence[Hypothesis], named: Sequence[Hypothesis] = (),
+                     progress: Progress | None = None) -> list[Begun]:
+    """Bin means with each event begun at each instant of the grid, by training run and instant."""
+    jobs, keys = [], []
+    for j, event in enumerate(events):
+        for i in study.train:
+            run, effect = study.runs[i], event.effect
+            truck = with_effects(study.packed, named, run.recording.name)
+            for k, time in enumerate(grid_of(run, effect).tolist()):
+                span = (time, effect.end_s(time, spacing_s(run)))
+                jobs.append(study.job(run, truck, replace(event, times={
+                    run.recording.name: span})))
+                keys.append((j, i, k))
+    found: list[Begun] = [{} for _ in events]
+    for (j, i, k), bins in zip(keys, study.simulate(jobs, "events", progress), strict=True):
+        found[j][i, k] = bins
+    return found
+
+
+def scan(study: Study, projector: Projector, effect: Effect, place: Place, begun: Begun,
+         beside: Beside | None = None) -> Ranked:
     """Best instants on the grid in all training runs, the common amount, and its support.
 
-    ``beside``: what is in force, to ask the unseen runs too whether they show such an event.
+    Args:
+        study: the case.
+        projector: removes the nuisances.
+        effect: the event.
+        place: where it acts.
+        begun: bin means with one step of its amount begun at each instant (`begun_everywhere`).
+        beside: what is in force, to ask the unseen runs too whether they show such an event.
     """
-    step = effect.amount.step
-    jobs, keys = [], []
-    for i in study.train:
-        run = study.runs[i]
-        truck = with_effects(study.packed, named, run.recording.name)
-        grid = grid_of(run, effect)
-        for k, time in enumerate(grid):
-            span = (float(time), effect.end_s(float(time), spacing_s(run)))
-            trial = Hypothesis(effect, place, step, {run.recording.name: span})
-            jobs.append(study.job(run, truck, trial))
-            keys.append((i, k))
-    results = dict(zip(keys, study.simulate(jobs), strict=True))
     removed = projector.remove(study.residual())
     support = unseen = 0.0
     if effect.adds_up:
-        windows = windows_of(study, projector, effect, place, results, beside)
+        windows = windows_of(study, projector, effect, place, begun, beside)
         support = windows.support()
         if support > 0.0 and windows.unseen.any():
             unseen = support - windows.without_unseen.support()
-    shown = {i: _Shown.of(study, projector, effect, i, results, removed) for i in study.train}
+    shown = {i: _Shown.of(study, projector, effect, i, begun, removed) for i in study.train}
     best = max((_best_of_sign(study, projector, effect, place, shown, removed, sign)
                 for sign in (1.0, -1.0)), key=lambda found: found.delta)
     return replace(best, support=support, unseen=unseen)
@@ -84,10 +98,10 @@ class _Shown:
 
     @staticmethod
     def of(study: Study, projector: Projector, effect: Effect, i: int,
-           results: Mapping[tuple[int, int], Floats], removed: Floats) -> _Shown:
+           begun: Begun, removed: Floats) -> _Shown:
         """From the bin means with the event begun at each instant, nuisances removed."""
         rows = row_ranges(study)[i]
-        grid, single = _responses(study, effect, i, results)
+        grid, single = _responses(study, effect, i, begun)
         matrix = np.stack(single, axis=1)
         reach = projector.reach(matrix, rows)
         gram = matrix.T @ matrix - reach.T @ cho_solve(projector.factor, reach)
@@ -115,11 +129,11 @@ def _best_of_sign(study: Study, projector: Projector, effect: Effect, place: Pla
                   evidence=found.delta)
 
 
-def _responses(study: Study, effect: Effect, i: int, results: Mapping[tuple[int, int], Floats]
+def _responses(study: Study, effect: Effect, i: int, begun: Begun
                ) -> tuple[Floats, list[Floats]]:
     """Instants in one run, and the whitened response per unit of the amount to each."""
     run = study.runs[i]
-    models = [results[(i, k)] for k in range(grid_of(run, effect).size)]
+    models = [begun[i, k] for k in range(grid_of(run, effect).size)]
     delays = bins_between(effect, run, study.settings.bin_s)
     times, found = zip(*responses(study, effect, run, study.models[i], models, delays),
                         strict=True)
@@ -175,8 +189,9 @@ def simulated_starts(study: Study, start: Ranked, chi2_null: float,
     """
     event = start.hypothesis
     projector = study.projector([*named, event])
-    tries = [_begun_at_best(study, projector, event.at(amount), chi2_null, named)
-             for amount in event.effect.amount.grid]
+    amounts = [event.at(amount) for amount in event.effect.amount.grid]
+    tries = [_begun_at_best(study, projector, one, begun, chi2_null) for one, begun in zip(
+        amounts, begun_everywhere(study, amounts, named), strict=True)]
     models = models_at(study, [event, *tries], named)
     falls = [chi2_null - chi2_of(study, projector, one) for one in models]
     better = sorted((k for k in range(len(tries)) if tries[k].times and falls[k + 1] > falls[0]),
@@ -184,21 +199,18 @@ def simulated_starts(study: Study, start: Ranked, chi2_null: float,
     return [replace(start, hypothesis=tries[k]) for k in better] or [start]
 
 
-def _begun_at_best(study: Study, projector: Projector, event: Hypothesis, chi2_null: float,
-                   named: Sequence[Hypothesis]) -> Hypothesis:
+def _begun_at_best(study: Study, projector: Projector, event: Hypothesis, begun: Begun,
+                   chi2_null: float) -> Hypothesis:
     """The event at the best instant of each run that shows it, by simulation at its amount."""
-    names = {i: study.runs[i].recording.name for i in study.train}
-    spans = {i: [(float(t), np.inf) for t in grid_of(study.runs[i], event.effect)] for i in names}
-    trucks = {i: with_effects(study.packed, named, names[i]) for i in names}
-    results = iter(study.simulate([
-        study.job(study.runs[i], trucks[i], replace(event, times={names[i]: span}))
-        for i in names for span in spans[i]]))
     times: dict[str, tuple[float, float]] = {}
-    for i, name in names.items():
-        models = [next(results) for _ in spans[i]]
-        falls = chi2_null - chi2_with_each(study, projector, {}, i, models)
+    for i in study.train:
+        grid = grid_of(study.runs[i], event.effect)
+        falls = chi2_null - chi2_with_each(study, projector, {}, i,
+                                           [begun[i, k] for k in range(grid.size)])
         if falls.max() > 0.0:
-            times[name] = spans[i][int(np.argmax(falls))]
+            start = float(grid[int(np.argmax(falls))])
+            times[study.runs[i].recording.name] = (start, event.effect.end_s(
+                start, spacing_s(study.runs[i])))
     return replace(event, times=times)
 
 

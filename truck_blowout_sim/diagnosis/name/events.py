@@ -16,7 +16,12 @@ from truck_blowout_sim.diagnosis.fit.models import models_at
 from truck_blowout_sim.diagnosis.fit.refit import chi2_of, refit
 from truck_blowout_sim.diagnosis.fit.scatter import Chance
 from truck_blowout_sim.diagnosis.fit.support import Beside, supported
-from truck_blowout_sim.diagnosis.fit.timed import refine_times, scan, simulated_starts
+from truck_blowout_sim.diagnosis.fit.timed import (
+    begun_everywhere,
+    refine_times,
+    scan,
+    simulated_starts,
+)
 from truck_blowout_sim.diagnosis.fit.windows import log_sum
 from truck_blowout_sim.diagnosis.locate.sinking import sinking_hubs
 from truck_blowout_sim.diagnosis.name.candidates import (
@@ -151,13 +156,14 @@ def _scanned(study: Study, beside: Beside, places: Sequence[tuple[Effect, Place]
     """
     projector = study.projector(beside.named)
     forms: dict[tuple[str, str], list[Ranked]] = {}
-    for k, (effect, place) in enumerate(sorted(places, key=lambda one: one[0].variant)):
-        of_event = forms.setdefault((effect.name, str(place)), [])
-        plain = of_event[0] if of_event and effect.adds_up else None
-        if plain is None or plain.support > 0.0 or plain.delta > _LARGE * asked:
-            of_event.append(scan(study, projector, effect, place, beside.named, beside))
-        if progress:
-            progress("events", (k + 1) / len(places))
+    for variant in sorted({effect.variant for effect, _ in places}):
+        tried = [(effect, place) for effect, place in places if effect.variant == variant
+                 and _worth_another(forms.get((effect.name, str(place)), ()), effect, asked)]
+        begun = begun_everywhere(study, [Hypothesis(effect, place, effect.amount.step)
+                                         for effect, place in tried], beside.named, progress)
+        for (effect, place), means in zip(tried, begun, strict=True):
+            forms.setdefault((effect.name, str(place)), []).append(
+                scan(study, projector, effect, place, means, beside))
     for key, found in forms.items():
         if found[0].hypothesis.effect.adds_up:
             mean = _mean_odds([r.support for r in found])
@@ -166,6 +172,12 @@ def _scanned(study: Study, beside: Beside, places: Sequence[tuple[Effect, Place]
             mean = mean if fitted > -ODDS else min(mean, fitted)
             forms[key] = [replace(r, support=mean, unseen=mean - fitted) for r in found]
     return [one for found in forms.values() for one in found]
+
+
+def _worth_another(forms: Sequence[Ranked], effect: Effect, asked: float) -> bool:
+    """Whether to look for a further form of an event, given what was found of its forms so far."""
+    return not (forms and effect.adds_up) or (
+        forms[0].support > 0.0 or forms[0].delta > _LARGE * asked)
 
 
 def _confirmed(study: Study, found: Sequence[Ranked], beside: Beside, chance: Chance,
