@@ -87,6 +87,8 @@ def test_eight_leave_their_courses_abreast(truck: Packed, course: Course) -> Non
     courses = [shorter if k % 3 == 1 else course for k in range(7)]
     assert len({c.kind_of(t) for c, t in zip(courses, late, strict=True)}) == 1
     found = left_abreast(courses, late, AT_S)
+    assert [len(rows) for rows in left_abreast(courses, late, np.inf)] == [
+        len(of_course.out) for of_course in courses]
     for k, (one, of_course, each) in enumerate(zip(late, courses, found, strict=True)):
         alone = of_course.left_at(one, AT_S + 0.15 * k)
         np.testing.assert_allclose(each, alone, rtol=1e-6, atol=1e-6 * np.nanmax(abs(alone)))

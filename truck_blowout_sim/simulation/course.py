@@ -93,7 +93,7 @@ def drive_course(packed: Packed, drive: Drive) -> Course:
 def left_abreast(courses: Sequence[Course], trucks: Sequence[Packed], since_s: float
                  ) -> list[Floats]:
     """`Course.left_at` of up to eight trucks of one `Course.kind_of`, all left at one instant."""
-    k = courses[0].kept_before(since_s)
+    k = min(course.kept_before(since_s) for course in courses)
     step = courses[0].steps[k]
     longest = max(courses, key=lambda course: len(course.out))
     out = np.empty((len(courses), *longest.out.shape))

@@ -105,10 +105,13 @@ def _parts(jobs: Sequence[Job]) -> tuple[list[list[int]], list[int]]:
 
 
 def _left_together(jobs: Sequence[Job], parts: Sequence[Sequence[int]]) -> list[Job]:
-    """The jobs; those of one part leave their driven trucks at the earliest instant of all."""
+    """The jobs; those of one part leave their driven trucks at the earliest instant of all.
+
+    What never begins leaves where the shortest of the runs ends.
+    """
     placed = list(jobs)
     for part in parts:
-        since_s = min(jobs[k][0].since_s for k in part)
+        since_s = min(min(jobs[k][0].since_s, float(jobs[k][0].edges_s[-1])) for k in part)
         for k in part:
             run, truck = jobs[k]
             placed[k] = (replace(run, since_s=since_s), truck) if run.course else (run, truck)
