@@ -43,8 +43,9 @@ _LARGE = 8.0  # times what is asked: a mismatch from which on a tire may have be
 
 def event_places(study: Study, named: Sequence[Hypothesis], steady: Sequence[Ranked],
                  chance: Chance) -> list[tuple[Effect, Place]]:
-    """Where to look: for another form of an event where one explains something.
+    """Where to look: for another form of an event where one explains something, or is supported.
 
+    A grade that begins on the way contradicts a steady one in what was driven before it.
     For a lost tire where much is open, or at a hub that sinks.
     """
     lost, places = secondary_blowout.EFFECT, _possible(study, named)
@@ -55,7 +56,7 @@ def event_places(study: Study, named: Sequence[Hypothesis], steady: Sequence[Ran
     def worth(effect: Effect, place: Place) -> bool:
         if effect.name == lost.name:
             return place.hub in hubs
-        own = [r.promise for r in steady if r.hypothesis.effect.name == effect.name]
+        own = [max(r.promise, r.support) for r in steady if r.hypothesis.effect.name == effect.name]
         return not effect.variant or not own or max(own) > chance.asked
 
     return [(effect, place) for effect, place in places if worth(effect, place)]
