@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import replace
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -13,12 +12,10 @@ from truck_blowout_sim.diagnosis.case.study import Study
 from truck_blowout_sim.diagnosis.effects import LIBRARY
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.fit.attribute import Ranked
-from truck_blowout_sim.diagnosis.fit.instants import grid_of
 from truck_blowout_sim.diagnosis.fit.scatter import Chance, Scatter
 from truck_blowout_sim.diagnosis.fit.shown import SCATTERS
 from truck_blowout_sim.diagnosis.fit.support import (
     Beside,
-    _log_choices,
     support_of_unseen,
     supported,
 )
@@ -115,19 +112,6 @@ def test_a_tire_that_only_training_lost_tells_nothing_of_its_axle(
     for told in (lost(other, 4.0, "train"), lost(own, 6.9, "train"),
                  lost(own, 4.0, "train", "baseline")):
         assert support_of(told, "brake_imbalance", -0.5, HUB) > CHANCE.asked
-
-
-def test_instants_of_hundreds_of_runs_are_paid_for(study_of: Studies, truck: Packed) -> None:
-    """So many combinations that no float holds their number."""
-    study = study_of()
-    run, effect = study.runs[0], next(e for e in LIBRARY if e.name == "crosswind")
-    gust = Hypothesis(effect, effect.places(truck.vehicle)[0], 5.0, {
-        f"run {k}": (1.0, 2.0) for k in range(400)})
-    one, many = (_log_choices(SimpleNamespace(runs=[  # type: ignore[arg-type]
-        replace(run, recording=replace(run.recording, name=f"run {k}")) for k in range(count)]),
-        gust) for count in (1, 400))
-    assert one == pytest.approx(effect.edges * np.log(grid_of(run, effect).size))
-    assert many == pytest.approx(400.0 * one)
 
 
 def test_an_unseen_run_that_nothing_explains_does_not_set_the_numbers_of_the_sheet(

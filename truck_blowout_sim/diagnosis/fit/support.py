@@ -24,7 +24,7 @@ from truck_blowout_sim.diagnosis.case.trust import comparable_rows
 from truck_blowout_sim.diagnosis.effects.base import axles_at
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.fit.attribute import Ranked
-from truck_blowout_sim.diagnosis.fit.instants import grid_of
+from truck_blowout_sim.diagnosis.fit.begun import log_choices
 from truck_blowout_sim.diagnosis.fit.linear import Projector
 from truck_blowout_sim.diagnosis.fit.models import models_at, with_effects
 from truck_blowout_sim.diagnosis.fit.run_weights import run_weights, weighed
@@ -122,7 +122,7 @@ def supported(study: Study, one: Ranked, beside: Beside, chance: Chance) -> Rank
         return replace(one, support=0.0)
     change = away * asked.column[:study.columns.shape[0]]
     scatter = chance.beside(h.key, change, study.columns.T @ change, left)
-    support = scatter.support(shown, _log_choices(study, h))
+    support = scatter.support(shown, log_choices(study, h, beside.named))
     if one.refitted:
         runs = len(study.baseline or study.train)
         support = min(support, most_supported(one.evidence, degrees_of(runs)))
@@ -211,9 +211,3 @@ def _unseen(study: Study, effects: Sequence[Hypothesis]) -> list[Floats]:
     return study.simulate([(run, with_effects(study.packed, effects, run.recording.name))
                            for run in study.holdout])
 
-
-def _log_choices(study: Study, hypothesis: Hypothesis) -> float:
-    """Log of how many combinations of instants the best was taken from; many runs have too many."""
-    tried = [grid_of(run, hypothesis.effect).size for run in study.runs
-             if run.recording.name in hypothesis.times]
-    return float(hypothesis.effect.edges * np.log(np.maximum(tried, 1)).sum())

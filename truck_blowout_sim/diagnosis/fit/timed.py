@@ -15,10 +15,11 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import cho_solve
 
-from truck_blowout_sim.diagnosis.case.study import Progress, Study, row_ranges
+from truck_blowout_sim.diagnosis.case.study import Study, row_ranges
 from truck_blowout_sim.diagnosis.effects import Effect
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.fit.attribute import Ranked
+from truck_blowout_sim.diagnosis.fit.begun import Begun, begun_everywhere
 from truck_blowout_sim.diagnosis.fit.instants import bins_between, grid_of, spacing_s
 from truck_blowout_sim.diagnosis.fit.linear import Projector, score
 from truck_blowout_sim.diagnosis.fit.models import models_at, with_effects
@@ -31,28 +32,9 @@ from truck_blowout_sim.diagnosis.result.parts import Place
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
 Times = Mapping[str, tuple[float, float]]
-Begun = dict[tuple[int, int], Floats]
 _REFINE_S = (0.5, 0.25, 0.12)
+_SWEEPS = 6  # at most, until no run's instant moves
 _DIM = 1e-12  # information on an amount: less shows nothing
-
-
-def begun_everywhere(study: Study, events: Sequence[Hypothesis], named: Sequence[Hypothesis] = (),
-                     progress: Progress | None = None) -> list[Begun]:
-    """Bin means with each event begun at each instant of the grid, by training run and instant."""
-    jobs, keys = [], []
-    for j, event in enumerate(events):
-        for i in study.train:
-            run, effect = study.runs[i], event.effect
-            truck = with_effects(study.packed, named, run.recording.name)
-            for k, time in enumerate(grid_of(run, effect).tolist()):
-                span = (time, effect.end_s(time, spacing_s(run)))
-                jobs.append(study.job(run, truck, replace(event, times={
-                    run.recording.name: span})))
-                keys.append((j, i, k))
-    found: list[Begun] = [{} for _ in events]
-    for (j, i, k), bins in zip(keys, study.simulate(jobs, "events", progress), strict=True):
-        found[j][i, k] = bins
-    return found
 
 
 def scan(study: Study, projector: Projector, effect: Effect, place: Place, begun: Begun,
@@ -184,14 +166,13 @@ def simulated_starts(study: Study, start: Ranked, chi2_null: float,
                      named: Sequence[Hypothesis] = ()) -> list[Ranked]:
     """Where to begin with an event that is far from linear in its amount, best first.
 
-    For each amount of the effect's grid, the best instant of each run by simulation. Without one
-    that explains more, ``start`` alone.
+    For each amount of the effect's grid, the best instants by simulation. Without one that explains
+    more, ``start`` alone.
     """
     event = start.hypothesis
     projector = study.projector([*named, event])
-    amounts = [event.at(amount) for amount in event.effect.amount.grid]
-    tries = [_begun_at_best(study, projector, one, begun, chi2_null) for one, begun in zip(
-        amounts, begun_everywhere(study, amounts, named), strict=True)]
+    tries = at_best_instants(study, [event.at(amount) for amount in event.effect.amount.grid],
+                             named)
     models = models_at(study, [event, *tries], named)
     falls = [chi2_null - chi2_of(study, projector, one) for one in models]
     better = sorted((k for k in range(len(tries)) if tries[k].times and falls[k + 1] > falls[0]),
@@ -199,18 +180,40 @@ def simulated_starts(study: Study, start: Ranked, chi2_null: float,
     return [replace(start, hypothesis=tries[k]) for k in better] or [start]
 
 
-def _begun_at_best(study: Study, projector: Projector, event: Hypothesis, begun: Begun,
-                   chi2_null: float) -> Hypothesis:
-    """The event at the best instant of each run that shows it, by simulation at its amount."""
-    times: dict[str, tuple[float, float]] = {}
-    for i in study.train:
-        grid = grid_of(study.runs[i], event.effect)
-        falls = chi2_null - chi2_with_each(study, projector, {}, i,
-                                           [begun[i, k] for k in range(grid.size)])
-        if falls.max() > 0.0:
-            start = float(grid[int(np.argmax(falls))])
-            times[study.runs[i].recording.name] = (start, event.effect.end_s(
-                start, spacing_s(study.runs[i])))
+def at_best_instants(study: Study, events: Sequence[Hypothesis],
+                     named: Sequence[Hypothesis] = ()) -> list[Hypothesis]:
+    """Each event at the instants of the grid that explain most together, by simulation."""
+    return [_together_best(study, study.projector([*named, event]), event, begun)
+            for event, begun in zip(events, begun_everywhere(study, events, named), strict=True)]
+
+
+def _together_best(study: Study, projector: Projector, event: Hypothesis, begun: Begun
+                   ) -> Hypothesis:
+    """Run by run in turn, the one first that shows most; in a run that contradicts it, never.
+
+    What is missing in one run moves the numbers of the sheet, and with them all other runs.
+    """
+    models: dict[int, Floats] = {}
+    starts: dict[int, int] = {}  # of the grid; -1: never
+    order = list(study.train)
+    for sweep in range(_SWEEPS):
+        before, falls = dict(starts), {}
+        for i in order:
+            trials = [study.models[i], *(begun[i, k] for k in range(
+                grid_of(study.runs[i], event.effect).size))]
+            others = {} if not sweep else {j: model for j, model in models.items() if j != i}
+            sums = chi2_with_each(study, projector, others, i, trials)
+            starts[i] = int(np.argmin(sums)) - 1
+            models[i], falls[i] = trials[starts[i] + 1], float(sums[0] - sums.min())
+        if starts == before:
+            break
+        order = sorted(order, key=lambda i: -falls[i])
+    times = {}
+    for i, k in starts.items():
+        if k >= 0:
+            run = study.runs[i]
+            start = float(grid_of(run, event.effect)[k])
+            times[run.recording.name] = (start, event.effect.end_s(start, spacing_s(run)))
     return replace(event, times=times)
 
 

@@ -11,13 +11,14 @@ from truck_blowout_sim.diagnosis.case.study import Progress, Study
 from truck_blowout_sim.diagnosis.effects import Effect, secondary_blowout
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.fit.attribute import Ranked
+from truck_blowout_sim.diagnosis.fit.begun import begun_everywhere
 from truck_blowout_sim.diagnosis.fit.event_fit import fit_event
 from truck_blowout_sim.diagnosis.fit.models import models_at
 from truck_blowout_sim.diagnosis.fit.refit import chi2_of, refit
 from truck_blowout_sim.diagnosis.fit.scatter import Chance
 from truck_blowout_sim.diagnosis.fit.support import Beside, supported
 from truck_blowout_sim.diagnosis.fit.timed import (
-    begun_everywhere,
+    at_best_instants,
     refine_times,
     scan,
     simulated_starts,
@@ -119,15 +120,22 @@ def fitted_event(study: Study, one: Ranked, chi2: float, named: Sequence[Hypothe
                  ) -> Ranked:
     """Instants, amount and law of an event, by turns until they explain no more.
 
-    At a stronger amount, and another law, other instants are best, farther than a descent goes.
+    At a stronger amount, and another law, other instants are best, farther than a descent goes. Of
+    what is far from linear these are looked for on the whole grid.
     """
+    best: Ranked | None = None
     for _ in range(_TURNS):
-        before = one.delta if one.refitted else -np.inf
         one = refit(study, refine_times(study, one, chi2, named), chi2, named)
         one = fit_event(study, one, chi2, named)
-        if one.delta - before < _TIMED_COST or not one.hypothesis.effect.adds_up:
+        gained = one.delta - (best.delta if best is not None else -np.inf)
+        best = one if gained > 0.0 else best
+        if gained < _TIMED_COST:
             break
-    return one
+        if not one.hypothesis.effect.adds_up:
+            moved, = at_best_instants(study, [one.hypothesis], named)
+            one = replace(one, hypothesis=moved)
+    assert best is not None
+    return best
 
 
 def _failed(study: Study, named: Sequence[Hypothesis], chi2: float, tire: str,
