@@ -184,14 +184,13 @@ def _explaining_more(study: Study, found: Found, this: Round,
                      passing: Sequence[_Believed]) -> list[_Believed]:
     """Causes that explain more than all that passed, beyond chance as single questions.
 
-    That something is missing is shown by then; an event that chose its instants shall not be named
-    only because a cause that is always there was asked among many. Nor instead of a lost tire or a
-    loss of grip: of these, which are far from linear, few runs can support little.
+    That something is missing is shown by then; what explains less shall not be named only because
+    another cause was asked among many. A wind, a slope or a load that moves explains more by the
+    instants that it chose; a lost tire and a loss of grip have paid for theirs.
     """
     most = max(worth(p.ranked) for p in passing)
-    begins = all(p.ranked.hypothesis.times for p in passing)
     more = [one for one in this.ranked if worth(one) > most
-            and (not one.hypothesis.times or (begins and not one.hypothesis.effect.adds_up))
+            and not (one.hypothesis.times and one.hypothesis.effect.adds_up)
             and weakness(one, this.chance.alone) is None]
     tried = [_believed(study, found, this, one) for one in more]
     return [one for one in tried if isinstance(one, _Believed)]
