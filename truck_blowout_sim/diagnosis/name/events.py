@@ -121,21 +121,21 @@ def fitted_event(study: Study, one: Ranked, chi2: float, named: Sequence[Hypothe
     """Instants, amount and law of an event, by turns until they explain no more.
 
     At a stronger amount, and another law, other instants are best, farther than a descent goes. Of
-    what is far from linear these are looked for on the whole grid.
+    what is far from linear these are looked for on the whole grid, if there is time for more than
+    one event.
     """
-    best: Ranked | None = None
+    best, again = None, one.hypothesis.effect.adds_up or study.refits[1] > 1
     for _ in range(_TURNS):
         one = refit(study, refine_times(study, one, chi2, named), chi2, named)
         one = fit_event(study, one, chi2, named)
-        gained = one.delta - (best.delta if best is not None else -np.inf)
+        gained = one.delta - best.delta if best else np.inf
         best = one if gained > 0.0 else best
-        if gained < _TIMED_COST:
+        if gained < _TIMED_COST or not again:
             break
         if not one.hypothesis.effect.adds_up:
             moved, = at_best_instants(study, [one.hypothesis], named)
             one = replace(one, hypothesis=moved)
-    assert best is not None
-    return best
+    return best or one
 
 
 def _failed(study: Study, named: Sequence[Hypothesis], chi2: float, tire: str,
