@@ -94,12 +94,7 @@ def study_of(truck: Packed, few: Settings, drive_it: Drives) -> Studies:
                                        step_s=STEP_S))
         held = () if holdout is None else (prepare_run(
             drive_it(dict(holdout), seed=3, steer=-0.9), "holdout", truck, few, step_s=STEP_S),)
-        study = Study(tuple(runs), held, truck, few)
-        # Its trucks differ by numbers that these small cases leave closed. The widths would take
-        # that for restlessness; they have tests of their own.
-        with patch.object(calibration, "whiten", lambda _: None):
-            calibration.calibrate(study)
-        return study
+        return _calibrated(Study(tuple(runs), held, truck, few))
 
     def make(train: Changes | None = None, *, holdout: Changes | None = None,
              baseline: bool | Changes = False) -> Study:
@@ -111,6 +106,27 @@ def study_of(truck: Packed, few: Settings, drive_it: Drives) -> Studies:
                        _projectors={})
 
     return make
+
+
+@pytest.fixture(scope="session")
+def case_of(truck: Packed, few: Settings) -> Studies:
+    """A calibrated case of the default truck, of training runs alone."""
+
+    def make(*recordings: Recording) -> Study:
+        return _calibrated(Study(tuple(prepare_run(one, "train", truck, few, step_s=STEP_S)
+                                       for one in recordings), (), truck, few))
+
+    return make
+
+
+def _calibrated(study: Study) -> Study:
+    """Its trucks differ by numbers that these small cases leave closed.
+
+    The widths would take that for restlessness; they have tests of their own.
+    """
+    with patch.object(calibration, "whiten", lambda _: None):
+        calibration.calibrate(study)
+    return study
 
 
 def _recorded(truck: Packed, changes: Sequence[tuple[str, float]], seed: int, steer: float,

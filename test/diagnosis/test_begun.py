@@ -5,24 +5,19 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 from types import SimpleNamespace
-from unittest.mock import patch
 
 import numpy as np
 import pytest
 
-from truck_blowout_sim.diagnosis.case import calibration
-from truck_blowout_sim.diagnosis.case.runs import prepare_run
 from truck_blowout_sim.diagnosis.case.study import Study
 from truck_blowout_sim.diagnosis.effects import LIBRARY
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.fit.begun import begun_everywhere, choices, log_choices
 from truck_blowout_sim.diagnosis.fit.instants import grid_of
 from truck_blowout_sim.diagnosis.fit.timed import at_best_instants
-from truck_blowout_sim.diagnosis.settings import Settings
 from truck_blowout_sim.recordings import Recording
 from truck_blowout_sim.vehicle import Packed
 
-STEP_S = 0.0025
 Studies = Callable[..., Study]
 Drives = Callable[..., Recording]
 GRIP = next(e for e in LIBRARY if e.name == "friction_change")
@@ -33,20 +28,6 @@ def icy(truck: Packed, start_s: float, lost: float = -0.85) -> dict[str, float]:
     assert GRIP.timed is not None
     place, = GRIP.places(truck.vehicle)
     return {**GRIP.values(truck, place, lost), **GRIP.timed(truck, place, start_s, np.inf)}
-
-
-@pytest.fixture(scope="module")
-def case_of(truck: Packed, few: Settings) -> Studies:
-    """A case of training runs alone."""
-
-    def make(*recordings: Recording) -> Study:
-        study = Study(tuple(prepare_run(one, "train", truck, few, step_s=STEP_S)
-                            for one in recordings), (), truck, few)
-        with patch.object(calibration, "whiten", lambda _: None):
-            calibration.calibrate(study)
-        return study
-
-    return make
 
 
 def test_choices_between_one_instant_and_all_alike() -> None:

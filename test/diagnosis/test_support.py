@@ -14,11 +14,7 @@ from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.fit.attribute import Ranked
 from truck_blowout_sim.diagnosis.fit.scatter import Chance, Scatter
 from truck_blowout_sim.diagnosis.fit.shown import SCATTERS
-from truck_blowout_sim.diagnosis.fit.support import (
-    Beside,
-    support_of_unseen,
-    supported,
-)
+from truck_blowout_sim.diagnosis.fit.support import Beside, support_of_unseen, supported
 from truck_blowout_sim.recordings import Blowout
 from truck_blowout_sim.vehicle import Packed
 

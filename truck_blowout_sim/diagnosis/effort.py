@@ -14,9 +14,9 @@ class Effort:
 
     Attributes:
         most_effects: how many effects may be named.
-        refits: how many steady candidates are fitted anew for each, and how many events; from so
-            many amounts, too, is fitted what is far from linear, and with more than one its
-            instants are looked for again.
+        refits: how many steady candidates are fitted anew for each, and how many events. An event
+            that is far from linear is fitted from as many amounts as events are fitted; with more
+            than one, its instants are searched again at the fitted amount.
         step_s: fine integration step. Residuals on bins of 0.1 s hardly depend on it, but where
             friction sticks and slips; what it changes there widens the bins.
         coarse: simulate what is tried on the coarsest step that the settings allow.

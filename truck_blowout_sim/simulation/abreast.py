@@ -16,7 +16,6 @@ from typing import TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from truck_blowout_sim.physics.jit import PLAIN_PYTHON
 from truck_blowout_sim.physics.layout import N_INPUTS, N_WORK
 from truck_blowout_sim.physics.octet import EIGHT
 from truck_blowout_sim.physics.octet_arrays import room_for_eight
@@ -61,10 +60,9 @@ def execute_alike(trucks: Sequence[Packed], drives: Sequence[Drive],
                   starts: Sequence[Floats | None]) -> list[Ran]:
     """`execute_abreast` of up to eight that are known to be alike: a part of `parts_of`."""
     begun = _settled(trucks, drives, starts)
-    driven = [Driven(truck, drive) for truck, drive in zip(trucks, drives, strict=True)]
     n_outputs = len(names_of(trucks[0].vehicle))
-    rows = np.full((len(driven), max(drive.n_rows for drive in drives), n_outputs), np.nan)
-    return run_from(driven, begun, 0, rows)
+    rows = np.full((len(drives), max(drive.n_rows for drive in drives), n_outputs), np.nan)
+    return run_from(trucks, drives, begun, 0, rows)
 
 
 def settle_all(trucks: Sequence[Packed], drives: Sequence[Drive]) -> list[Floats]:
@@ -84,8 +82,6 @@ def settle_all(trucks: Sequence[Packed], drives: Sequence[Drive]) -> list[Floats
 def parts_of(trucks: Sequence[Packed], drives: Sequence[Drive],
              starts: Sequence[Floats | None]) -> tuple[list[list[int]], list[int]]:
     """Numbers of the drives that go abreast, up to eight a part, and of those that go alone."""
-    if PLAIN_PYTHON:
-        return [], list(range(len(trucks)))
     return in_eights([kind_of(*each) for each in zip(trucks, drives, starts, strict=True)])
 
 
@@ -119,15 +115,16 @@ def _settled(trucks: Sequence[Packed], drives: Sequence[Drive], given: Sequence[
     return states
 
 
-def run_from(driven: Sequence[Driven], starts: Sequence[Floats], begun: int, out: Floats
-             ) -> list[Ran]:
+def run_from(trucks: Sequence[Packed], drives: Sequence[Drive], starts: Sequence[Floats],
+             begun: int, out: Floats) -> list[Ran]:
     """Drive up to eight alike trucks from a step on.
 
     Args:
         starts: their states at the step ``begun``.
         out: [trucks, rows of the longest, n_outputs]; what was before is theirs already.
     """
-    first, drives = driven[0], [each.drive for each in driven]
+    driven = [Driven(truck, drive) for truck, drive in zip(trucks, drives, strict=True)]
+    first = driven[0]
     inputs = _stacked([each.inputs for each in driven])
     blow_steps = _stacked([each.blow_steps for each in driven])
     counts = np.zeros((EIGHT, 6), dtype=np.int64)

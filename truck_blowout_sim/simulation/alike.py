@@ -12,6 +12,7 @@ from collections.abc import Hashable, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from truck_blowout_sim.physics.jit import PLAIN_PYTHON
 from truck_blowout_sim.physics.layout import (
     ABS,
     ABS_AT,
@@ -35,7 +36,12 @@ _TABLE_HEAD = 2  # numbers before a table that say its size
 
 
 def in_eights(kinds: Sequence[Hashable]) -> tuple[list[list[int]], list[int]]:
-    """Numbers of what goes abreast, of each kind up to eight, and of what goes alone."""
+    """Numbers of what goes abreast, of each kind up to eight, and of what goes alone.
+
+    Uncompiled, everything goes alone.
+    """
+    if PLAIN_PYTHON:
+        return [], list(range(len(kinds)))
     eights, alone = [], []
     for kind in dict.fromkeys(kinds):
         same = [k for k, other in enumerate(kinds) if other == kind]

@@ -17,7 +17,6 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from truck_blowout_sim.physics.jit import PLAIN_PYTHON
 from truck_blowout_sim.simulation.abreast import run_from
 from truck_blowout_sim.simulation.alike import kind_of
 from truck_blowout_sim.simulation.drive import Drive, Driven, names_of
@@ -64,8 +63,7 @@ class Course:
 
     def kind_of(self, packed: Packed) -> Hashable:
         """What must be the same for trucks to leave their courses abreast."""
-        failed = np.isnan(self.out[-1]).all()  # before its end, and its clocks stand still
-        if PLAIN_PYTHON or failed:
+        if np.isnan(self.out[-1]).all():  # it failed before its end: its clocks stand still
             return object()
         return self.drive.initial.time_s, kind_of(packed, self.drive, self.states[0])
 
@@ -99,5 +97,6 @@ def left_abreast(courses: Sequence[Course], trucks: Sequence[Packed], since_s: f
     out = np.empty((len(courses), *longest.out.shape))
     for course, rows in zip(courses, out, strict=True):
         course.note_before(step, rows)
-    driven = [Driven(truck, course.drive) for truck, course in zip(trucks, courses, strict=True)]
-    return [each.out for each in run_from(driven, [c.states[k] for c in courses], step, out)]
+    ran = run_from(trucks, [course.drive for course in courses],
+                   [course.states[k] for course in courses], step, out)
+    return [each.out for each in ran]

@@ -1,8 +1,8 @@
 """Many simulations of a case at once: in threads, and eight abreast where there are many alike.
 
-Whether a truck goes abreast follows from what is asked for in one call and from nothing else, and
-abreast it gives the same bits whoever its neighbors are. An interrupted diagnosis therefore
-continues to the same answer.
+Whether a truck goes abreast, and from which instant on, follows from what is asked for in one call
+and from nothing else. From that instant on it gives the same bits whoever its neighbors are. An
+interrupted diagnosis therefore continues to the same answer.
 
 Known limits: what branches off driven trucks (`Run.course`) goes from the earliest of eight on.
 Validated with: test/diagnosis/test_simulations.py.

@@ -1,12 +1,12 @@
 """An event begun at each instant of the grid, and how many of these explain as much as the best.
 
-An instant that was chosen freely must be paid for: the likelihood is that of the mean over all
-instants, not that of the best. Where grip is lost before a turn asks for it, many instants do as
-well, and little was chosen; where a tire bursts, one does.
+The likelihood of an event at a free instant is the mean over all instants, not that of the best.
+Where grip is lost long before a turn needs it, many instants explain as much, and the mean is
+hardly less than the best; where a tire bursts, one instant explains more than all others.
 
 References: Kass and Raftery 1995 (marginal likelihood); MacKay 2003, ch. 28 (Occam factor).
-Known limits: for what ends again the mean is taken for its beginning and its end alike: as many
-choices as there are instants, twice.
+Known limits: for wind, slope and moving load, one instant is taken to explain more than all others,
+at each free end.
 Validated with: test/diagnosis/test_begun.py.
 """
 

@@ -201,7 +201,8 @@ def _together_best(study: Study, projector: Projector, event: Hypothesis, begun:
         for i in order:
             trials = [study.models[i], *(begun[i, k] for k in range(
                 grid_of(study.runs[i], event.effect).size))]
-            others = {} if not sweep else {j: model for j, model in models.items() if j != i}
+            # first each run by itself, to find out which shows most
+            others = {j: model for j, model in models.items() if sweep and j != i}
             sums = chi2_with_each(study, projector, others, i, trials)
             starts[i] = int(np.argmin(sums)) - 1
             models[i], falls[i] = trials[starts[i] + 1], float(sums[0] - sums.min())

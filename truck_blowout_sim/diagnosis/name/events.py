@@ -120,9 +120,8 @@ def fitted_event(study: Study, one: Ranked, chi2: float, named: Sequence[Hypothe
                  ) -> Ranked:
     """Instants, amount and law of an event, by turns until they explain no more.
 
-    At a stronger amount, and another law, other instants are best, farther than a descent goes. Of
-    what is far from linear these are looked for on the whole grid, if there is time for more than
-    one event.
+    At a stronger amount, and another law, other instants are best, farther than a descent goes. For
+    an event that is far from linear, the whole grid is searched again, but not in a quick answer.
     """
     best, again = None, one.hypothesis.effect.adds_up or study.refits[1] > 1
     for _ in range(_TURNS):
