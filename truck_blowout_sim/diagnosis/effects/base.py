@@ -104,6 +104,7 @@ class Effect:
         absorbs: calibration number that means the same as this amount; ``{hub}`` and ``{role}``
             (of the axle) are filled in.
         of_file: scales a number of the vehicle's file that no calibration number stands for.
+        published_range: `material` is what all published tires differ by: no file is further off.
         far_from_limit: by so much models of equal slope and peak seem to differ in the amount, 1
             sigma, in runs far from the limit of grip; the less, the nearer.
         near_limit: the same of runs at the limit of grip; the less, the farther.
@@ -124,6 +125,7 @@ class Effect:
     kind: Kind = "physics"
     absorbs: str = ""
     of_file: bool = False
+    published_range: bool = False
     far_from_limit: float = 0.0
     near_limit: float = 0.0
     onset_form_s: float = 0.0
@@ -139,14 +141,15 @@ class Effect:
         """1 sigma by which trucks of one kind differ in the amount, and roads, winds and loads.
 
         A number of the vehicle's file may be wrong: then trucks differ from it by four times as
-        much. What forms of a law differ by is no matter of the file. What the sheet still
-        calibrates beside the effect has that chance already.
+        much, unless the spread is already that between all published tires. What forms of a law
+        differ by is no matter of the file. What the sheet still calibrates beside the effect has
+        that chance already.
 
         ``grip_used``: share of the tires' side grip that the runs ask for.
         """
         forms = self.far_from_limit * (1.0 - grip_used) + self.near_limit * grip_used
         trucks = 0.5 * self.amount.material * self.grows_with(packed)
-        stated = (self.absorbs or self.of_file) and not self.met
+        stated = (self.absorbs or self.of_file) and not (self.met or self.published_range)
         sizes = (1.0, WRONG_SHEET) if stated else (1.0,)
         return tuple(float(np.hypot(size * trucks, forms)) for size in sizes)
 

@@ -24,4 +24,5 @@ EFFECT = Effect(
     equation="F_y,flat = {value} * c_flat * F_y(alpha, F_z)",
     splits="a steering reversal after the blowout",
     absorbs="flat_cornering",
+    published_range=True,
 )

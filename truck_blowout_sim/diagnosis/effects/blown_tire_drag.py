@@ -22,4 +22,5 @@ EFFECT = Effect(
     equation="D_flat = {value} * f_flat * F_z  (rolling moment M = D_flat * R_e)",
     splits="the wheel speed of the blown tire, or the loss of speed against the yaw moment",
     absorbs="flat_drag",
+    published_range=True,
 )

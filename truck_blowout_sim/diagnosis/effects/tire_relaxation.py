@@ -22,4 +22,5 @@ EFFECT = Effect(
     equation="{value} * sigma * d(alpha')/ds + alpha' = alpha",
     splits="the lag at two speeds: it shrinks as speed grows",
     absorbs="relaxation",
+    published_range=True,
 )
