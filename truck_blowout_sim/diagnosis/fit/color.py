@@ -20,8 +20,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
+from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
@@ -67,19 +69,28 @@ class Color:
         """[n, m, ...] of a residual [n, m, ...] in widths."""
         if not self.lags and np.all(self.surprise == 1.0):
             return z
-        left = z.copy()
-        shape = (-1, *(1,) * (z.ndim - 2))
-        for k in range(1, min(self.lags, z.shape[0] - 1) + 1):
-            for t in range(k, min(self.lags, z.shape[0])):
-                left[t] -= self.foretold[:, t, k - 1].reshape(shape) * z[t - k]
-            if z.shape[0] > self.lags:
-                left[self.lags:] -= (self.foretold[:, -1, k - 1].reshape(shape)
-                                     * z[self.lags - k:z.shape[0] - k])
-        first = min(self.lags, z.shape[0])
-        for t in range(first):
-            left[t] /= self.surprise[:, t].reshape(shape)
-        left[first:] /= self.surprise[:, -1].reshape(shape)
+        first, left = min(self.lags, z.shape[0]), np.empty_like(z)
+        left[:first] = np.einsum("mts,sm...->tm...", self._begins[:, :first, :first], z[:first])
+        if z.shape[0] > self.lags:
+            before = sliding_window_view(z, self.lags + 1, axis=0)
+            left[self.lags:] = np.einsum("tm...k,mk->tm...", before, self._goes_on)
         return left
+
+    @cached_property
+    def _begins(self) -> Floats:
+        """[m, p, p] what each of the first p bins takes from itself and those before it."""
+        p = self.lags
+        taken: Floats = np.zeros((len(self.foretold), p, p))
+        for t in range(p):
+            taken[:, t, t] = 1.0
+            taken[:, t, :t] = -self.foretold[:, t, :t][:, ::-1]
+        return taken / self.surprise[:, :p, None]
+
+    @cached_property
+    def _goes_on(self) -> Floats:
+        """[m, p + 1] the same of every later bin, itself last."""
+        taken = np.concatenate([-self.foretold[:, -1, ::-1], np.ones((len(self.foretold), 1))], 1)
+        return np.asarray(taken / self.surprise[:, -1:])
 
     def colored(self, white: Floats) -> Floats:
         """The reverse of :meth:`whitened`."""
