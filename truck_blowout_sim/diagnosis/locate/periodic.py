@@ -19,7 +19,7 @@ Validated with: test/diagnosis/test_periodic.py (false alarms on noise, lines th
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -77,6 +77,13 @@ class Lines:
     squares: Floats
     baseline: bool = False
     speed_mps: float = 0.0
+
+    def only(self, channels: Collection[str]) -> Lines:
+        """Those of some channels."""
+        kept = [i for i, name in enumerate(self.channels) if name in channels]
+        return replace(self, channels=tuple(self.channels[i] for i in kept),
+                       harmonics=tuple(self.harmonics[i] for i in kept),
+                       ratios=self.ratios[kept], squares=self.squares[kept])
 
 
 def find_beat(study: Study, named: Sequence[Hypothesis] = ()) -> Beat | None:
@@ -193,13 +200,34 @@ def _spectrum(x: Floats, y: Floats, noise: float) -> tuple[Floats, Floats, Float
 def clearest(lines: Sequence[Lines], every: Floats, turning: bool, rate: float) -> Beat | None:
     """The highest score among those tried, if in every training run, new there, and no chance.
 
+    What a wheel does is looked for in all channels, in those of each unit, and in its vertical
+    ones: a small blow shows only where the wheel stands.
+
     ``rate``: how often chance may reach it where nothing beats.
     """
+    views = _views(lines) if turning else [lines]
+    found = [_clearest(view, every, turning, rate, every.size * len(views)) for view in views]
+    return max((one for one in found if one), key=lambda b: b.evidence, default=None)
+
+
+def _views(lines: Sequence[Lines]) -> list[list[Lines]]:
+    """The same lines, of all channels or of some."""
+    names = sorted({name for part in lines for name in part.channels})
+    units = sorted({name.split("_", 1)[0] for name in names})
+    groups = [names, *([n for n in names if n.startswith(f"{unit}_") and n.endswith(ending)]
+                       for ending in ("", *_SHAKES) for unit in units)]
+    different = dict.fromkeys(tuple(group) for group in groups if group)
+    return [[part.only(group) for part in lines] for group in different] or [list(lines)]
+
+
+def _clearest(lines: Sequence[Lines], every: Floats, turning: bool, rate: float, tries: int
+              ) -> Beat | None:
+    """The same of some channels, the best of so many ``tries``."""
     train = [part for part in lines if part.channels and not part.baseline]
     if not train:
         return None
     ratios = np.concatenate([part.ratios for part in train])
-    score, least = _scores(ratios), by_chance(len(ratios), every.size, rate)
+    score, least = _scores(ratios), by_chance(len(ratios), tries, rate)
     k = int(np.argmax(score))
     excess = float(ratios[:, k].mean()) - 1.0
     if score[k] < least or any(part.ratios[:, k].mean() - 1.0 > _ALWAYS * excess
