@@ -88,6 +88,8 @@ JUDGMENTS = (
     Judgment("locate.lagging", "_SHARED", "lag of the opposite wheel from which on a drag is not "
              "one wheel's, of its own"),
     Judgment("locate.lagging", "_DOUBT", "drags that may be called a wheel's by chance, of all"),
+    Judgment("locate.lines", "_MODELS_DIFFER", "what a model may err by at the distance at which "
+             "the vehicle swings anyway, of that swing"),
     Judgment("locate.periodic", "_ALWAYS", "power of a line in baseline runs from which on it is "
              "always there, of that in training"),
     Judgment("name.events", "_TIMED_COST", "evidence that choosing an instant in a run costs",

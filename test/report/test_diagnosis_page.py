@@ -141,8 +141,8 @@ def test_what_beats_is_drawn(diagnosis: Diagnosis, vehicle: Vehicle) -> None:
     every = np.linspace(2.9, 3.3, 50)
     score = 20.0 * np.exp(-((every - 3.1) / 0.02) ** 2)
     without = diagnosis_page(diagnosis, vehicle).count("<img")
-    for turning in (True, False):
-        beats = BeatScores(turning, every, score, 8.0)
+    for kind in ("turning", "steady", "swinging"):
+        beats = BeatScores(kind, every, score, 8.0)
         beating = replace(diagnosis, evidence=replace(diagnosis.evidence, beats=beats))
         page = diagnosis_page(beating, vehicle)
         assert "Something beats" in page

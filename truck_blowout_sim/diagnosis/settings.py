@@ -92,7 +92,7 @@ class Settings:
 
     @property
     def alarms_by_sign(self) -> float:
-        """Those that each of three signs may raise: a body's stand, and two kinds of beat."""
+        """Those that each of four signs may raise: a body's stand, and three kinds of beat."""
         return 0.01 * self.false_alarms
 
     @property

@@ -83,12 +83,13 @@ def beat_picture(beats: BeatScores) -> Picture:
     """How far each distance or pace that was tried stands above chance."""
     figure = new_figure((WIDE[0], 2.8))
     axes = figure.subplots()
-    x = beats.every if beats.turning else 1.0 / beats.every
+    x = 1.0 / beats.every if beats.kind == "steady" else beats.every
     order = np.argsort(x)
     axes.plot(x[order], beats.score[order], color=BLUE)
     axes.axhline(beats.least, color=SOFT, linewidth=0.8)
-    axes.set_xlabel("distance from beat to beat (m): one wheel turn" if beats.turning
-                    else "beats a second")
+    axes.set_xlabel({"turning": "distance from beat to beat (m): one wheel turn",
+                     "swinging": "distance from swing to swing (m)"}.get(
+                         beats.kind, "beats a second"))
     axes.set_ylabel("standard errors above chance")
     caption = ("What the model leaves of accelerations and rates, all runs together, at the full "
                "rate of the recording. Line: from here on it counts.")

@@ -6,10 +6,13 @@ Validated with: test/diagnosis/test_periodic.py.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Literal
 
 from truck_blowout_sim.diagnosis.result.evidence import BeatScores
 
 HARMONICS = (1, 2, 3)  # of a wheel turn
+# once per wheel turn; at a steady pace along the course; from side to side at an even distance
+Kind = Literal["turning", "steady", "swinging"]
 
 
 @dataclass(frozen=True)
@@ -17,8 +20,8 @@ class Beat:
     """A periodic force that the model does not have.
 
     Attributes:
-        turning: once per wheel turn; else at a steady pace.
-        every: distance [m] of a turn, or time [s], from one beat to the next.
+        kind: how it beats.
+        every: distance [m], or of a steady pace time [s], from one beat to the next.
         score: standard errors by which the lines stand above what chance gives.
         evidence: twice the log-likelihood that the lines gain, comparable with a sum of squares.
         body: unit that shakes most; ``channel`` it shows in; ``amplitude`` there, SI.
@@ -26,7 +29,7 @@ class Beat:
         scores: of everything tried, for a picture.
     """
 
-    turning: bool
+    kind: Kind
     every: float
     score: float
     evidence: float
@@ -39,7 +42,7 @@ class Beat:
     @property
     def pace_hz(self) -> float:
         """Beats a second at the mean speed."""
-        return self.speed_mps / self.every if self.turning else 1.0 / self.every
+        return 1.0 / self.every if self.kind == "steady" else self.speed_mps / self.every
 
     @property
     def unit(self) -> str:
@@ -49,27 +52,33 @@ class Beat:
     @property
     def facts(self) -> tuple[tuple[str, str], ...]:
         """What stands behind it, for the page."""
-        what = "once per wheel turn" if self.turning else "at a steady pace"
+        what = {"turning": "once per wheel turn", "steady": "at a steady pace",
+                "swinging": "at an even distance"}[self.kind]
         return ((f"beat {what}", f"{self.pace_hz:.2f} a second, {self.score:.0f} standard errors, "
                  f"buys {self.evidence:.0f}"),)
 
     @property
     def equation(self) -> str:
         """For an engineer."""
-        if self.turning:
+        if self.kind == "turning":
             return (f"{self.channel} - model = sum_k a_k cos(2 pi k s / {self.every:.3f} m + phi_k)"
                     f", k = 1 to {HARMONICS[-1]}, root of summed a_k^2 = {self.amplitude:.3g} "
                     f"{self.unit}")
-        return (f"{self.channel} - model = {self.amplitude:.3g} {self.unit} * cos(2 pi t / "
-                f"{self.every:.4f} s + phi)")
+        phase = f"t / {self.every:.4f} s" if self.kind == "steady" else f"s / {self.every:.1f} m"
+        return (f"{self.channel} - model = {self.amplitude:.3g} {self.unit} * "
+                f"cos(2 pi {phase} + phi)")
 
     @property
     def sentence(self) -> str:
         """For a driver."""
-        if self.turning:
+        if self.kind == "turning":
             return (f"Something beats once per wheel turn, every {self.every:.2f} m "
                     f"({self.pace_hz:.1f} times a second at {self.speed_mps:.0f} m/s), most on the "
                     f"{self.body}: look at its tires for a loose tread, a flat spot or a bent rim.")
+        if self.kind == "swinging":
+            return (f"The {self.body} swings from side to side every {self.every:.0f} m "
+                    f"({self.pace_hz:.1f} times a second at {self.speed_mps:.0f} m/s), which "
+                    "neither the hand wheel nor a known effect explains.")
         return (f"The {self.body} surges {self.pace_hz:.2f} times a second at a steady pace, which "
                 "neither the pedals nor a known effect explains.")
 
@@ -83,7 +92,11 @@ class Beat:
     @property
     def next_test(self) -> str:
         """What would find its cause."""
-        if self.turning:
+        if self.kind == "swinging":
+            return ("Drive the same road again, at another speed and the other way: what then "
+                    "swings at the same places comes from the road, what swings at the same "
+                    f"distances from the air behind the {self.body}.")
+        if self.kind == "turning":
             return (f"Look at every tire and rim of the {self.body}; then drive steadily with an "
                     "accelerometer on one axle after the other: it beats most over the wheel at "
                     "fault.")

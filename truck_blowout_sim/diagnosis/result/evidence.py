@@ -132,11 +132,12 @@ class BeatScores:
     """How clearly something beats at each distance or pace that was tried.
 
     Attributes:
-        turning: ``every`` is the distance [m] from one beat to the next; else the time [s].
+        kind: ``turning``, ``steady`` or ``swinging``.
+        every: distance [m], or of a steady pace time [s], from one beat to the next.
         score: standard errors above what chance gives; from ``least`` on it counts.
     """
 
-    turning: bool
+    kind: str
     every: FloatArray
     score: FloatArray
     least: float
