@@ -104,7 +104,7 @@ class Effect:
         absorbs: calibration number that means the same as this amount; ``{hub}`` and ``{role}``
             (of the axle) are filled in.
         of_file: scales a number of the vehicle's file that no calibration number stands for.
-        published_range: `material` is what all published tires differ by: no file is further off.
+        published_range: `material` is what all published tests differ by: no file is further off.
         far_from_limit: by so much models of equal slope and peak seem to differ in the amount, 1
             sigma, in runs far from the limit of grip; the less, the nearer.
         near_limit: the same of runs at the limit of grip; the less, the farther.
@@ -141,7 +141,7 @@ class Effect:
         """1 sigma by which trucks of one kind differ in the amount, and roads, winds and loads.
 
         A number of the vehicle's file may be wrong: then trucks differ from it by four times as
-        much, unless the spread is already that between all published tires. What forms of a law
+        much, unless the spread is already that between all published tests. What forms of a law
         differ by is no matter of the file. What the sheet still calibrates beside the effect has
         that chance already.
 

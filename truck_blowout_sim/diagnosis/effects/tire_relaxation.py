@@ -22,5 +22,4 @@ EFFECT = Effect(
     equation="{value} * sigma * d(alpha')/ds + alpha' = alpha",
     splits="the lag at two speeds: it shrinks as speed grows",
     absorbs="relaxation",
-    published_range=True,
 )
