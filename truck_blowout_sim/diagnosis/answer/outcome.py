@@ -19,6 +19,7 @@ from truck_blowout_sim.diagnosis.answer.unlisted import (
     mostly_unlisted,
 )
 from truck_blowout_sim.diagnosis.case.antilock import Lockup
+from truck_blowout_sim.diagnosis.case.sliding import spin_notes
 from truck_blowout_sim.diagnosis.case.study import Study
 from truck_blowout_sim.diagnosis.fit.support import unseen_with
 from truck_blowout_sim.diagnosis.locate.beat import Beat
@@ -322,7 +323,9 @@ def gather(material: Material, told: Material) -> Evidence:
         notes=(*material.gate.notes, *old,
                *(note for r in study.runs
                  for note in (*r.recording.notes, *flat_notes(r.drive.initial.flat),
-                              *silences(r.recording)))),
+                              *silences(r.recording))),
+               *(note for r in (*study.runs, *study.holdout)
+                 for note in spin_notes(r.recording, study.packed.vehicle.units[0]))),
         facts=(*((f"unnamed wrench on the {w.history.body} buys", f"{w.delta:.0f} with {w.degrees}")
                  for w in told.unnamed),
                *(material.beat.facts if material.beat else ()),

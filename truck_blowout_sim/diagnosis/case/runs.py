@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from truck_blowout_sim.diagnosis.case.leaning import Leaning, leaning_of
+from truck_blowout_sim.diagnosis.case.sliding import spins_at_s
 from truck_blowout_sim.diagnosis.case.trust import BRAKES_ON_PA
 from truck_blowout_sim.diagnosis.case.widths import rms_around, swings, widths
 from truck_blowout_sim.diagnosis.fit.color import Color
@@ -200,10 +201,7 @@ def prepare_run(recording: Recording, role: Role, packed: Packed, settings: Sett
     noise = {**channel_noise(recording, quanta), **slow_noise(recording)}
     channels = tuple(n for n in names if n in recording and n in noise
                      and settings.rule(n) and not _redundant(n, drive))
-    n_bins = int((drive.times_s[-1] - drive.initial.time_s - settings.skip_s) / settings.bin_s)
-    _check_length(recording, n_bins, settings)
-    start = drive.initial.time_s + settings.skip_s
-    edges: Floats = (start + np.arange(n_bins + 1) * settings.bin_s).astype(np.float64)
+    edges = _edges(recording, drive, packed.vehicle.units[0], settings)
     if not channels:
         raise InputError("no channel that can be diagnosed", file=recording.name,
                          expected="a speed, a rate, an angle or an acceleration of the vehicle")
@@ -217,14 +215,22 @@ def prepare_run(recording: Recording, role: Role, packed: Packed, settings: Sett
                Color.white(len(channels)), leaning=leaning_of(recording, channels, names))
 
 
-def _check_length(recording: Recording, n_bins: int, settings: Settings) -> None:
-    """Refuse a run in which no instant is far enough from both ends."""
+def _edges(recording: Recording, drive: Drive, unit: str, settings: Settings) -> Floats:
+    """Edges of the bins, up to the end or to where the foremost unit spins.
+
+    Refuses a run in which no instant is far enough from both ends.
+    """
+    start, end = drive.initial.time_s + settings.skip_s, float(drive.times_s[-1])
     least = round(2.0 * EDGE_S / settings.bin_s) + 1
+    n_bins = int((end - start) / settings.bin_s)
     if n_bins < least:
         least_s = settings.skip_s + least * settings.bin_s
         raise InputError(f"lasts {recording.end_s - recording.start_s:.3g} s, which is too short "
                          "for a diagnosis", file=recording.name,
                          expected=f"at least {least_s:.3g} s")
+    spun = min(spins_at_s(recording, unit), end)
+    n_bins = min(n_bins, max(int((spun - start) / settings.bin_s), least))
+    return np.asarray(start + np.arange(n_bins + 1) * settings.bin_s, dtype=np.float64)
 
 
 def _redundant(name: str, drive: Drive) -> bool:
