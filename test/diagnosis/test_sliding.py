@@ -68,5 +68,5 @@ def test_a_run_counts_up_to_its_spin(
     assert cut.simulated(truck).shape == cut.measured.shape
     assert spin_notes(straight, "tractor") == ()
     note, = spin_notes(spun, "tractor")
-    assert note.endswith(" s; what follows is not compared")
+    assert note.endswith(" s; what follows does not count")
     assert "the tractor spins at 4.3 s" in note

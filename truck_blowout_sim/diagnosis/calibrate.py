@@ -28,6 +28,7 @@ from truck_blowout_sim.diagnosis.case.calibration import calibrate as settle
 from truck_blowout_sim.diagnosis.case.names import names_apart
 from truck_blowout_sim.diagnosis.case.nuisance import Nuisance, unit_of
 from truck_blowout_sim.diagnosis.case.runs import prepare_run
+from truck_blowout_sim.diagnosis.case.sliding import spin_notes
 from truck_blowout_sim.diagnosis.case.study import FURTHEST, Study
 from truck_blowout_sim.diagnosis.case.usable import check_each_once, determined
 from truck_blowout_sim.diagnosis.fit.linear import Projector
@@ -207,7 +208,9 @@ def calibrate(
     return Calibration(
         loaded.name, tuple(r.name for r in recordings), tuple(r.name for r in holdout),
         _numbers(packed, rules.nuisances, amounts, spread, told, share), changes, found,
-        truck if share else packed, _notes(rules.nuisances, amounts, share, lockup), share,
+        truck if share else packed, (
+            *_notes(rules.nuisances, amounts, share, lockup),
+            *(note for r in runs for note in spin_notes(r, packed.vehicle.units[0]))), share,
         lockup)  # fmt: skip
 
 

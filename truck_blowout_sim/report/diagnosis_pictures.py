@@ -77,8 +77,10 @@ def diagnosis_pictures(
 def _worst(diagnosis: Diagnosis, labels: Mapping[str, str]) -> Picture | None:
     """The run that the given model misses most, in the channels that show the cause best.
 
-    Those are the channels whose error the diagnosis lowers most; without one, the worst.
+    Those are what the sentence is about, and the channels whose error the diagnosis lowers most;
+    without one, the worst.
     """
+    about = diagnosis.evidence.about
     drawn = [o for o in diagnosis.evidence.overlays if o.role != "baseline" and o.noise]
     if not drawn:
         return None
@@ -86,7 +88,8 @@ def _worst(diagnosis: Diagnosis, labels: Mapping[str, str]) -> Picture | None:
     for one in drawn:
         miss[one.recording] = miss.get(one.recording, 0.0) + _missed(one, one.before)
     run = max(miss, key=lambda name: miss[name])
-    own = sorted((o for o in drawn if o.recording == run), key=lambda o: -_explained(o))
+    own = sorted((o for o in drawn if o.recording == run),
+                 key=lambda o: (o.channel not in about, -_explained(o)))
     return overlay_picture(own[:_WORST_PANELS], labels, "worst", diagnosis.evidence.blowouts)
 
 

@@ -86,11 +86,12 @@ def _cells(run: Run, left: Floats, n: int) -> Floats:
         return np.asarray((np.nansum(cube, axis=1) / np.sqrt(count)).T)
 
 
-def overlays(study: Study, found: Found) -> tuple[Overlay, ...]:
-    """Measured, before and after of the channels that changed most."""
+def overlays(study: Study, found: Found, about: Sequence[str] = ()) -> tuple[Overlay, ...]:
+    """Measured, before and after of what the answer is ``about``, and what changed most."""
     before, after = (pooled(left_before(study, found, "train")),
                      pooled(left_after(study, found, "train")))
-    names = sorted(before, key=lambda n: after.get(n, 0.0) - before[n])[:_MOST_OVERLAYS]
+    changed = sorted(before, key=lambda n: after.get(n, 0.0) - before[n])
+    names = list(dict.fromkeys((*about, *changed)))[:_MOST_OVERLAYS]
     result = []
     for role in ("train", "holdout"):
         pairs = zip(left_before(study, found, role), left_after(study, found, role), strict=True)

@@ -210,6 +210,13 @@ def _moving_on(material: Material) -> Restless | None:
     return moving if moving is not None and moving.evidence > _bought(material) else None
 
 
+def _told_of(material: Material) -> tuple[str, ...]:
+    """Channels that the signs of the answer are about."""
+    posture = material.posture
+    stands = () if posture is None else (f"{posture.body}_{posture.angle}_rad",)
+    return (*(one.channel for one in (material.new_beat, _moving_on(material)) if one), *stands)
+
+
 def unexplained(material: Material) -> bool:
     """Whether training keeps more than baseline, and what was named explains less than half.
 
@@ -313,7 +320,7 @@ def gather(material: Material, told: Material) -> Evidence:
         recordings=tuple((r.recording.name, r.role) for r in (*study.runs, *study.holdout)),
         candidates=evidence.candidates(found), would_show=material.would_show,
         maps=evidence.maps(study, found),
-        overlays=evidence.overlays(study, found),
+        overlays=evidence.overlays(study, found, _told_of(material)), about=_told_of(material),
         forces=tuple(w.history for w in material.wrenches),
         beats=material.beat.scores if material.beat else None,
         calibrated=evidence.calibrated(study, joint_amounts(told)),

@@ -44,8 +44,8 @@ def spins_at_s(recording: Recording, unit: str) -> float:
 
 
 def spin_notes(recording: Recording, unit: str) -> tuple[str, ...]:
-    """What a reader should know of a run that is compared up to a spin only."""
+    """What a reader should know of a run that is fitted up to a spin only."""
     spun_s = spins_at_s(recording, unit)
     if not np.isfinite(spun_s):
         return ()
-    return (f"{recording.name}: the {unit} spins at {spun_s:.1f} s; what follows is not compared",)
+    return (f"{recording.name}: the {unit} spins at {spun_s:.1f} s; what follows does not count",)

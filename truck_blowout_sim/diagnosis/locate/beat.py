@@ -6,6 +6,7 @@ Validated with: test/diagnosis/test_periodic.py.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import degrees
 from typing import Literal
 
 from truck_blowout_sim.diagnosis.result.evidence import BeatScores
@@ -77,8 +78,9 @@ class Beat:
                     f"{self.body}: look at its tires for a loose tread, a flat spot or a bent rim.")
         if self.kind == "swinging":
             return (f"The {self.body} swings from side to side every {self.every:.0f} m "
-                    f"({self.pace_hz:.1f} times a second at {self.speed_mps:.0f} m/s), which "
-                    "neither the hand wheel nor a known effect explains.")
+                    f"({self.pace_hz:.1f} times a second at {self.speed_mps:.0f} m/s), by "
+                    f"{degrees(self.amplitude):.2g} deg/s of yaw rate, which neither the hand "
+                    "wheel nor a known effect explains.")
         return (f"The {self.body} surges {self.pace_hz:.2f} times a second at a steady pace, which "
                 "neither the pedals nor a known effect explains.")
 

@@ -179,6 +179,7 @@ class Evidence:
         candidates: ranked, best first.
         would_show: where nothing was named, what would have been: see its class.
         maps, overlays, forces, beats: see their classes.
+        about: channels that the answer's sentence names, beside those of named effects.
         calibrated: spec-sheet numbers that were estimated, whatever came out.
         equations: what the diagnosed model adds, one line each.
         assumptions: everything that was taken for granted, one sentence each.
@@ -196,6 +197,7 @@ class Evidence:
     would_show: tuple[Showing, ...] = ()
     maps: tuple[ChannelTimeMap, ...] = ()
     overlays: tuple[Overlay, ...] = ()
+    about: tuple[str, ...] = ()
     forces: tuple[ForceHistory, ...] = ()
     beats: BeatScores | None = None
     calibrated: tuple[Calibrated, ...] = ()
