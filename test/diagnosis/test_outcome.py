@@ -130,8 +130,8 @@ def test_a_run_that_begins_on_a_flat_tire_is_noted(calm: Study) -> None:
 
 
 def beats() -> Beat:
-    scores = BeatScores(True, np.array([3.1, 3.2]), np.array([1.0, 20.0]), 8.0)
-    return Beat(True, 3.2, 20.0, 300.0, "tractor", "tractor_az_mps2", 0.1, 22.0, scores)
+    scores = BeatScores("turning", np.array([3.1, 3.2]), np.array([1.0, 20.0]), 8.0)
+    return Beat("turning", 3.2, 20.0, 300.0, "tractor", "tractor_az_mps2", 0.1, 22.0, scores)
 
 
 def test_training_that_keeps_more_than_baseline_is_unknown(pushed: Study, truck: Packed) -> None:

@@ -208,10 +208,8 @@ def calibrate(
     return Calibration(
         loaded.name, tuple(r.name for r in recordings), tuple(r.name for r in holdout),
         _numbers(packed, rules.nuisances, amounts, spread, told, share), changes, found,
-        truck if share else packed, (
-            *_notes(rules.nuisances, amounts, share, lockup),
-            *(note for r in runs for note in spin_notes(r, packed.vehicle.units[0]))), share,
-        lockup)  # fmt: skip
+        truck if share else packed,
+        (*_notes(rules.nuisances, amounts, share, lockup), *_spins(packed, runs)), share, lockup)
 
 
 def write_calibrated_vehicle(
@@ -306,6 +304,11 @@ def _numbers(
             told=bool(told[k]) and share > 0.0, of_the_place=_of_the_place(number),
             at_prior_end=abs(amount) >= FURTHEST))  # fmt: skip
     return tuple(sorted(found, key=lambda n: -abs(n.change) / n.prior_sigma))
+
+
+def _spins(packed: Packed, runs: Sequence[Recording]) -> list[str]:
+    """Which runs were fitted up to a spin only."""
+    return [note for run in runs for note in spin_notes(run, packed.vehicle.units[0])]
 
 
 def _notes(sheet: Sequence[Nuisance], amounts: Floats, share: float, lockup: Lockup | None
