@@ -53,6 +53,8 @@ def test_without_one_of_the_channels_nothing_is_said() -> None:
     for name in whole.channels:
         left = whole.only_channels([n for n in whole.channels if n != name])
         assert spins_at_s(left, "tractor") == np.inf
+        once = whole.with_channels({name: Series(TIME_S[:1], np.ones(1))})
+        assert spins_at_s(once, "tractor") == np.inf
 
 
 def test_a_run_counts_up_to_its_spin(

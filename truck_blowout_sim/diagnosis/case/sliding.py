@@ -29,7 +29,7 @@ def spins_at_s(recording: Recording, unit: str) -> float:
     Infinite, too, where yaw rate, lateral acceleration or speed is not recorded.
     """
     names = [f"{unit}_{name}" for name in ("yaw_rate_radps", "ay_mps2", "vx_mps")]
-    if not all(name in recording for name in names):
+    if not all(name in recording and len(recording[name]) > 1 for name in names):
         return np.inf
     rate = recording[names[0]]
     ay, speed = (np.interp(rate.time_s, recording[name].time_s, recording[name].value)
