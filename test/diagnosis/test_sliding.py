@@ -68,7 +68,7 @@ def test_a_run_counts_up_to_its_spin(
     assert cut.edges_s[-1] == pytest.approx(4.25, abs=0.15)
     assert cut.edges_s[-1] < whole.edges_s[-1] - 1.0
     assert cut.simulated(truck).shape == cut.measured.shape
-    assert spin_notes(straight, "tractor") == ()
-    note, = spin_notes(spun, "tractor")
+    assert spin_notes([straight], "tractor") == []
+    note, = spin_notes([straight, spun], "tractor")
     assert note.endswith(" s; what follows does not count")
     assert "the tractor spins at 4.3 s" in note

@@ -208,8 +208,7 @@ def calibrate(
     return Calibration(
         loaded.name, tuple(r.name for r in recordings), tuple(r.name for r in holdout),
         _numbers(packed, rules.nuisances, amounts, spread, told, share), changes, found,
-        truck if share else packed,
-        (*_notes(rules.nuisances, amounts, share, lockup), *_spins(packed, runs)), share, lockup)
+        truck if share else packed, _notes(study, amounts, share, lockup), share, lockup)
 
 
 def write_calibrated_vehicle(
@@ -306,13 +305,7 @@ def _numbers(
     return tuple(sorted(found, key=lambda n: -abs(n.change) / n.prior_sigma))
 
 
-def _spins(packed: Packed, runs: Sequence[Recording]) -> list[str]:
-    """Which runs were fitted up to a spin only."""
-    return [note for run in runs for note in spin_notes(run, packed.vehicle.units[0])]
-
-
-def _notes(sheet: Sequence[Nuisance], amounts: Floats, share: float, lockup: Lockup | None
-           ) -> tuple[str, ...]:
+def _notes(study: Study, amounts: Floats, share: float, lockup: Lockup | None) -> tuple[str, ...]:
     """What a user must know of the result."""
     notes = [] if lockup is None else [lockup.sentence]
     if share == 0.0:
@@ -322,12 +315,14 @@ def _notes(sheet: Sequence[Nuisance], amounts: Floats, share: float, lockup: Loc
     elif share < 1.0:
         notes.append(f"the numbers were moved {share:.0%} of the way to where linear sensitivities "
                      "point: further on, these runs are predicted worse")
-    ends = [n.name.replace("_", " ") for n, amount in zip(sheet, amounts, strict=True)
+    sheet = zip(study.settings.nuisances, amounts, strict=True)
+    ends = [n.name.replace("_", " ") for n, amount in sheet
             if abs(amount) >= FURTHEST and not _of_the_place(n)]
     if ends:
         notes.append(f"{', '.join(ends)}: these runs ask for more than trucks of one kind differ; "
                      "the sheet is of another vehicle, or physics is missing (diagnose)")
-    return tuple(notes)
+    spins = spin_notes((run.recording for run in study.runs), study.packed.vehicle.units[0])
+    return (*notes, *spins)
 
 
 def _of_the_place(number: Nuisance) -> bool:

@@ -315,12 +315,13 @@ def gather(material: Material, told: Material) -> Evidence:
     law = (material.law.equation,) if unexplained(material) else ()
     signs = tuple(one.equation for one in material.signs)
     old = (material.beat.ordinary,) if material.beat and not material.new_beat else ()
+    about = _told_of(material)
     return Evidence(
         vehicle=material.vehicle,
         recordings=tuple((r.recording.name, r.role) for r in (*study.runs, *study.holdout)),
         candidates=evidence.candidates(found), would_show=material.would_show,
         maps=evidence.maps(study, found),
-        overlays=evidence.overlays(study, found, _told_of(material)), about=_told_of(material),
+        overlays=evidence.overlays(study, found, about), about=about,
         forces=tuple(w.history for w in material.wrenches),
         beats=material.beat.scores if material.beat else None,
         calibrated=evidence.calibrated(study, joint_amounts(told)),
@@ -331,8 +332,8 @@ def gather(material: Material, told: Material) -> Evidence:
                *(note for r in study.runs
                  for note in (*r.recording.notes, *flat_notes(r.drive.initial.flat),
                               *silences(r.recording))),
-               *(note for r in (*study.runs, *study.holdout)
-                 for note in spin_notes(r.recording, study.packed.vehicle.units[0]))),
+               *spin_notes((r.recording for r in (*study.runs, *study.holdout)),
+                           study.packed.vehicle.units[0])),
         facts=(*((f"unnamed wrench on the {w.history.body} buys", f"{w.delta:.0f} with {w.degrees}")
                  for w in told.unnamed),
                *(material.beat.facts if material.beat else ()),

@@ -14,6 +14,8 @@ Validated with: test/diagnosis/test_sliding.py.
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 import numpy as np
 
 from truck_blowout_sim.recordings import Recording
@@ -43,9 +45,8 @@ def spins_at_s(recording: Recording, unit: str) -> float:
     return float(rate.time_s[spun[0]]) if spun.size else np.inf
 
 
-def spin_notes(recording: Recording, unit: str) -> tuple[str, ...]:
-    """What a reader should know of a run that is fitted up to a spin only."""
-    spun_s = spins_at_s(recording, unit)
-    if not np.isfinite(spun_s):
-        return ()
-    return (f"{recording.name}: the {unit} spins at {spun_s:.1f} s; what follows does not count",)
+def spin_notes(recordings: Iterable[Recording], unit: str) -> list[str]:
+    """What a reader should know of runs that are fitted up to a spin only."""
+    spins = [(one.name, spins_at_s(one, unit)) for one in recordings]
+    return [f"{name}: the {unit} spins at {at_s:.1f} s; what follows does not count"
+            for name, at_s in spins if np.isfinite(at_s)]

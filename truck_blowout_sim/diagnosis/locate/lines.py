@@ -16,7 +16,7 @@ Validated with: test/diagnosis/test_periodic.py (false alarms on noise, lines th
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -124,11 +124,8 @@ def measured_less_model(run: Run, truck: Packed) -> Signals:
 def turn_lines(signals: Signals, recording: Recording, per_m: Floats) -> Lines:
     """Lines over distance at the first harmonics of each number of turns a meter."""
     terms: list[Term] = []
-    for name, one in _of_channels(signals, _SHAKEN).items():
-        way, rolling = _way(recording, one.time_s)
-        if rolling.sum() < _LEAST_RATE_HZ * _SHORTEST_S:
-            continue
-        frequency, ratio, square = _spectrum(way[rolling], one.left[rolling], one.noise)
+    for name, way, one in _over_distance(signals, recording, _SHAKEN):
+        frequency, ratio, square = _spectrum(way, one.left, one.noise)
         terms += [(name, k, np.interp(k * per_m, frequency, ratio),
                    np.interp(k * per_m, frequency, square))
                   for k in HARMONICS if k * per_m.max() < frequency[-1]]
@@ -138,12 +135,9 @@ def turn_lines(signals: Signals, recording: Recording, per_m: Floats) -> Lines:
 def wave_lines(signals: Signals, recording: Recording, per_m: Floats) -> Lines:
     """Lines over distance in the yaw rates, beside what the model itself does there."""
     terms: list[Term] = []
-    for name, one in _of_channels(signals, _SWUNG).items():
-        way, rolling = _way(recording, one.time_s)
-        if rolling.sum() < _LEAST_RATE_HZ * _SHORTEST_S:
-            continue
-        frequency, ratio, square = _spectrum(way[rolling], one.left[rolling], one.noise,
-                                             _CLOSE, _MODELS_DIFFER * one.model[rolling])
+    for name, way, one in _over_distance(signals, recording, _SWUNG):
+        frequency, ratio, square = _spectrum(way, one.left, one.noise, _CLOSE,
+                                             _MODELS_DIFFER * one.model)
         terms.append((name, 1, np.interp(per_m, frequency, ratio),
                       np.interp(per_m, frequency, square)))
     return _lines(terms, per_m.size)
@@ -163,6 +157,16 @@ def tone_lines(signals: Signals, paces_hz: Floats) -> Lines:
 
 def _of_channels(signals: Signals, endings: tuple[str, ...]) -> Signals:
     return {name: one for name, one in signals.items() if name.endswith(endings)}
+
+
+def _over_distance(signals: Signals, recording: Recording, endings: tuple[str, ...]
+                   ) -> Iterator[tuple[str, Floats, Signal]]:
+    """Channels, distance covered, and the signal there, where the vehicle rolls for long enough."""
+    for name, one in _of_channels(signals, endings).items():
+        way, rolling = _way(recording, one.time_s)
+        if rolling.sum() >= _LEAST_RATE_HZ * _SHORTEST_S:
+            yield name, way[rolling], Signal(one.time_s[rolling], one.left[rolling],
+                                             one.model[rolling], one.noise)
 
 
 def _way(recording: Recording, time_s: Floats) -> tuple[Floats, NDArray[np.bool_]]:

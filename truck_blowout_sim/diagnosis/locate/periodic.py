@@ -63,8 +63,9 @@ def find_beat(study: Study, named: Sequence[Hypothesis] = ()) -> Beat | None:
         signals = measured_less_model(run, truck)
         about = (run.role == "baseline", run.drive.initial.speed_mps)
         turning.append(_of(turn_lines(signals, run.recording, per_m), *about))
-        steady.append(_of(tone_lines(signals, PACES_HZ), *about))
-        swinging.append(_of(wave_lines(signals, run.recording, WAVES_PER_M), *about))
+        if study.baseline:
+            steady.append(_of(tone_lines(signals, PACES_HZ), *about))
+            swinging.append(_of(wave_lines(signals, run.recording, WAVES_PER_M), *about))
     found = [clearest(turning, 1.0 / per_m, "turning", rate)]
     if study.baseline:  # every sound vehicle has tones and swings: only its baseline tells new ones
         found += [clearest(steady, 1.0 / PACES_HZ, "steady", rate),
