@@ -71,8 +71,9 @@ class Judgment:
 JUDGMENTS = (
     Judgment("case.calibration", "_KNOWN", "prior sigmas to which baseline runs must hold a number "
              "to count as known"),
-    Judgment("case.sliding", "_SPUN_RAD", "radians by which a vehicle turns more than its path in "
-             "two seconds where it spins, so that what follows does not count", share=False),
+    Judgment("case.sliding", "_PARTED_RAD", "radians by which side slip and heading differ from "
+             "the model's within two seconds where one of them slides, so that what follows does "
+             "not count", share=False),
     Judgment("effects.base", "WRONG_SHEET", "spread of a number where its sheet is wrong, times "
              "that between trucks", share=False),
     Judgment("effects.base", "CHANGED_IN_S", "seconds that a change which grows and stays takes at "

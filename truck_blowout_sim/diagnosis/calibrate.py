@@ -27,8 +27,7 @@ from truck_blowout_sim.diagnosis.case.calibration import apply_amounts
 from truck_blowout_sim.diagnosis.case.calibration import calibrate as settle
 from truck_blowout_sim.diagnosis.case.names import names_apart
 from truck_blowout_sim.diagnosis.case.nuisance import Nuisance, unit_of
-from truck_blowout_sim.diagnosis.case.runs import prepare_run
-from truck_blowout_sim.diagnosis.case.sliding import spin_notes
+from truck_blowout_sim.diagnosis.case.runs import parting_notes, prepare_run
 from truck_blowout_sim.diagnosis.case.study import FURTHEST, Study
 from truck_blowout_sim.diagnosis.case.usable import check_each_once, determined
 from truck_blowout_sim.diagnosis.fit.linear import Projector
@@ -321,8 +320,7 @@ def _notes(study: Study, amounts: Floats, share: float, lockup: Lockup | None) -
     if ends:
         notes.append(f"{', '.join(ends)}: these runs ask for more than trucks of one kind differ; "
                      "the sheet is of another vehicle, or physics is missing (diagnose)")
-    spins = spin_notes((run.recording for run in study.runs), study.packed.vehicle.units[0])
-    return (*notes, *spins)
+    return (*notes, *parting_notes(study.runs))
 
 
 def _of_the_place(number: Nuisance) -> bool:

@@ -19,7 +19,7 @@ from truck_blowout_sim.diagnosis.answer.unlisted import (
     mostly_unlisted,
 )
 from truck_blowout_sim.diagnosis.case.antilock import Lockup
-from truck_blowout_sim.diagnosis.case.sliding import spin_notes
+from truck_blowout_sim.diagnosis.case.runs import parting_notes
 from truck_blowout_sim.diagnosis.case.study import Study
 from truck_blowout_sim.diagnosis.fit.support import unseen_with
 from truck_blowout_sim.diagnosis.locate.beat import Beat
@@ -332,8 +332,7 @@ def gather(material: Material, told: Material) -> Evidence:
                *(note for r in study.runs
                  for note in (*r.recording.notes, *flat_notes(r.drive.initial.flat),
                               *silences(r.recording))),
-               *spin_notes((r.recording for r in (*study.runs, *study.holdout)),
-                           study.packed.vehicle.units[0])),
+               *parting_notes((*study.runs, *study.holdout))),
         facts=(*((f"unnamed wrench on the {w.history.body} buys", f"{w.delta:.0f} with {w.degrees}")
                  for w in told.unnamed),
                *(material.beat.facts if material.beat else ()),

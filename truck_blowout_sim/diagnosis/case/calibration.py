@@ -49,6 +49,7 @@ def calibrate(study: Study, rounds: int = 2, progress: Progress | None = None) -
     check_memory(study)
     warm_up(study)
     _drive_all(study)
+    _count_all(study)
     _weigh_all(study)
     build_columns(study, progress)
     study.amounts = {number.name: 0.0 for number in study.settings.nuisances}
@@ -72,6 +73,18 @@ def _drive_all(study: Study) -> None:
     """Models of all runs, holdout too, of the truck at the reference."""
     study.update_models()
     study.holdout_models = study.simulate([(run, study.packed) for run in study.holdout])
+
+
+def _count_all(study: Study) -> None:
+    """Shorten the runs in which the vehicle slides and the reference does not."""
+    units = study.packed.vehicle.units
+    study.runs, models = zip(*(run.counted(model, units) for run, model in zip(
+        study.runs, study.models, strict=True)), strict=True)
+    study.models = list(models)
+    unseen = [run.counted(model, units) for run, model in zip(
+        study.holdout, study.holdout_models, strict=True)]
+    study.holdout = tuple(run for run, _ in unseen)
+    study.holdout_models = [model for _, model in unseen]
 
 
 def _weigh_all(study: Study) -> None:

@@ -7,14 +7,14 @@ its share is widened by the number of bins it spans.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from truck_blowout_sim.diagnosis.case.leaning import Leaning, leaning_of
-from truck_blowout_sim.diagnosis.case.sliding import spins_at_s
+from truck_blowout_sim.diagnosis.case.sliding import Parting, parting_of
 from truck_blowout_sim.diagnosis.case.trust import BRAKES_ON_PA
 from truck_blowout_sim.diagnosis.case.widths import rms_around, swings, widths
 from truck_blowout_sim.diagnosis.fit.color import Color
@@ -54,6 +54,7 @@ class Run:
         color: of the residual in units of ``sigma``; what is whitened has it taken out.
         course, since_s: a driven truck from which those simulated differ only after an instant.
         leaning: accelerations that the recording has free of gravity.
+        parting: where the recording and the model slide apart, which is where the bins end.
     """
 
     recording: Recording
@@ -72,6 +73,7 @@ class Run:
     course: Course | None = None
     since_s: float = 0.0
     leaning: tuple[Leaning, ...] = ()
+    parting: Parting | None = None
 
     @property
     def length_s(self) -> float:
@@ -160,6 +162,20 @@ class Run:
                        rms_around(self.correction, settings))
         return replace(self, swing=swing, sigma=np.where(np.isfinite(self.sigma), sigma, np.nan))
 
+    def counted(self, model: Floats, units: Sequence[str]) -> tuple[Run, Floats]:
+        """This run and a model [n, m] up to where the first unit slides apart from it.
+
+        Enough is left to try an event in.
+        """
+        parting = parting_of(self.edges_s, self.channels, self.measured, model, units)
+        if parting is None:
+            return self, model
+        bin_s = float(self.edges_s[1] - self.edges_s[0])
+        bins = max(int(np.searchsorted(self.edges_s, parting.at_s)), _fewest_bins(bin_s))
+        cut = {name: getattr(self, name)[:bins]
+               for name in ("measured", "sigma", "noise", "swing", "correction")}
+        return replace(self, edges_s=self.edges_s[:bins + 1], parting=parting, **cut), model[:bins]
+
     def residual(self, model: Floats) -> Floats:
         """[n * m] whitened measured - model, zero where not measured, bounded where it broke."""
         z = (self.measured - model) / self.sigma
@@ -201,7 +217,7 @@ def prepare_run(recording: Recording, role: Role, packed: Packed, settings: Sett
     noise = {**channel_noise(recording, quanta), **slow_noise(recording)}
     channels = tuple(n for n in names if n in recording and n in noise
                      and settings.rule(n) and not _redundant(n, drive))
-    edges = _edges(recording, drive, packed.vehicle.units[0], settings)
+    edges = _edges(recording, drive, settings)
     if not channels:
         raise InputError("no channel that can be diagnosed", file=recording.name,
                          expected="a speed, a rate, an angle or an acceleration of the vehicle")
@@ -215,22 +231,21 @@ def prepare_run(recording: Recording, role: Role, packed: Packed, settings: Sett
                Color.white(len(channels)), leaning=leaning_of(recording, channels, names))
 
 
-def _edges(recording: Recording, drive: Drive, unit: str, settings: Settings) -> Floats:
-    """Edges of the bins, up to the end or to where the foremost unit spins.
-
-    Refuses a run in which no instant is far enough from both ends.
-    """
+def _edges(recording: Recording, drive: Drive, settings: Settings) -> Floats:
+    """Edges of the bins; refuses a run in which no instant is far enough from both ends."""
     start, end = drive.initial.time_s + settings.skip_s, float(drive.times_s[-1])
-    least = round(2.0 * EDGE_S / settings.bin_s) + 1
-    n_bins = int((end - start) / settings.bin_s)
+    n_bins, least = int((end - start) / settings.bin_s), _fewest_bins(settings.bin_s)
     if n_bins < least:
         least_s = settings.skip_s + least * settings.bin_s
         raise InputError(f"lasts {recording.end_s - recording.start_s:.3g} s, which is too short "
                          "for a diagnosis", file=recording.name,
                          expected=f"at least {least_s:.3g} s")
-    spun = min(spins_at_s(recording, unit), end)
-    n_bins = min(n_bins, max(int((spun - start) / settings.bin_s), least))
     return np.asarray(start + np.arange(n_bins + 1) * settings.bin_s, dtype=np.float64)
+
+
+def _fewest_bins(bin_s: float) -> int:
+    """Bins that a run needs so that an event can be tried in it."""
+    return round(2.0 * EDGE_S / bin_s) + 1
 
 
 def _redundant(name: str, drive: Drive) -> bool:
@@ -268,3 +283,10 @@ def rms_sigma(run: Run, model: Floats) -> Mapping[str, float]:
     z = (run.measured - model) / run.noise
     return {name: float(np.sqrt(np.nanmean(z[:, k] ** 2))) for k, name in enumerate(run.channels)
             if np.isfinite(z[:, k]).any()}
+
+
+def parting_notes(runs: Iterable[Run]) -> list[str]:
+    """What a reader should know of runs that do not count to their end."""
+    return [f"{run.recording.name}: from {run.parting.at_s:.1f} s on the {run.parting.unit} slides "
+            "and the model does not, or the other way round; what follows does not count"
+            for run in runs if run.parting]
