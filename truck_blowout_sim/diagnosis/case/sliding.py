@@ -4,15 +4,15 @@ From then on small differences grow. The model, driven open-loop by the recorded
 elsewhere, and what it seems to lack is another in each run. So a run counts up to there.
 
 Side slip grows at the yaw rate less lateral acceleration over speed. Where this differs from the
-model's by more than the slip at which a tire holds best, the tires are on the other side of their
-peak; the heading must differ as much, because an accelerometer that leans, or a banked road, feigns
-slip alone, and a wrong steering ratio turns the path with the vehicle. What adds up within two
-seconds tells a slide from an offset of a gyro.
+model's by as much slip as takes a tire to the end of its linear range, neither the model nor its
+sensitivities hold. The heading must differ as much, because a banked road, or an accelerometer that
+leans, feigns slip alone, and a wrong steering ratio turns the path with the vehicle. A gyro that is
+off differs all the time, a slide from some instant on.
 
 References: Inagaki et al. 1994 (side slip and its rate as the limit of control); Pacejka 2012,
-ch. 1 and 4 (side force peaks at slips of 0.1 to 0.2 rad).
-Known limits: needs yaw rate, lateral acceleration and speed; of a model that slides elsewhere than
-the vehicle as well, only the first parting is seen.
+ch. 1 (side force leaves the line at slips of 0.05 rad and peaks at 0.1 to 0.2).
+Known limits: needs yaw rate, lateral acceleration and speed; of a long log, what comes after the
+first slide does not count, though the vehicle may drive on.
 Validated with: test/diagnosis/test_sliding.py.
 """
 
@@ -25,7 +25,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
-_PARTED_RAD = 0.1  # side slip at which tires of cars hold best; those of trucks at 0.1 to 0.2
+_PARTED_RAD = 0.05  # side slip at which a tire's linear range ends
 _WITHIN_S = 2.0
 _FAST_MPS = 5.0  # slower, a small acceleration is a large angle
 
@@ -65,17 +65,18 @@ def _one_parting(edges_s: Floats, channels: Sequence[str], measured: Floats, mod
         grows = signals[:, turns] - signals[:, pushed] / np.maximum(fast, _FAST_MPS)
         return np.where(fast > _FAST_MPS, grows, 0.0)
 
-    slip = _within(edges_s, slips(measured) - slips(model))
-    heading = _within(edges_s, measured[:, turns] - model[:, turns])
-    apart = np.flatnonzero(np.minimum(slip, heading) > _PARTED_RAD)
-    return Parting(unit, float(edges_s[apart[0]])) if apart.size else None
+    rates = np.nan_to_num(np.stack([slips(measured) - slips(model),
+                                    measured[:, turns] - model[:, turns]]),
+                          posinf=0.0, neginf=0.0)
+    found = [_first_apart(edges_s, rates - off) for off in (0.0, np.median(rates, axis=1)[:, None])]
+    at_s = max(found)
+    return Parting(unit, at_s) if np.isfinite(at_s) else None
 
 
-def _within(edges_s: Floats, rate: Floats) -> Floats:
-    """Size of what a rate [n] adds up to within two seconds, at each of the edges [n + 1].
-
-    What is not measured adds nothing.
-    """
-    total = np.concatenate(([0.0], np.cumsum(np.nan_to_num(rate) * np.diff(edges_s))))
-    return np.asarray(np.abs(total - np.interp(edges_s - _WITHIN_S, edges_s, total)))
-
+def _first_apart(edges_s: Floats, rates: Floats) -> float:
+    """Where both of two rates [2, n] add up to too much within two seconds; infinite: nowhere."""
+    total = np.cumsum(rates * np.diff(edges_s), axis=1)
+    apart = np.ones(edges_s.size, dtype=np.bool_)
+    for one in np.pad(total, ((0, 0), (1, 0))):
+        apart &= np.abs(one - np.interp(edges_s - _WITHIN_S, edges_s, one)) > _PARTED_RAD
+    return float(edges_s[apart][0]) if apart.any() else np.inf
