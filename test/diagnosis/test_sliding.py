@@ -96,9 +96,9 @@ def test_a_gyro_with_an_offset_parts_nothing(offset_degps: float) -> None:
 
 def test_a_slide_that_takes_most_of_a_run_parts_where_it_begins() -> None:
     rate, ay = turn()
-    found = parted(motion(rate + 0.5 * (TIME_S > 3.0), ay), motion(rate, ay))
+    found = parted(motion(rate + 0.5 * (TIME_S > 2.5), ay), motion(rate, ay))
     assert found is not None
-    assert found.at_s == pytest.approx(3.1, abs=0.1)
+    assert found.at_s == pytest.approx(2.6, abs=0.1)
 
 
 def test_a_vehicle_that_creeps_parts_nothing() -> None:

@@ -6,8 +6,8 @@ elsewhere, and what it seems to lack is another in each run. So a run counts up 
 Side slip grows at the yaw rate less lateral acceleration over speed. Where this differs from the
 model's by as much slip as takes a tire to the end of its linear range, neither the model nor its
 sensitivities hold. The heading must differ as much, because a banked road, or an accelerometer that
-leans, feigns slip alone, and a wrong steering ratio turns the path with the vehicle. A gyro that is
-off differs all the time, a slide from some instant on.
+leans, feigns slip alone, and a wrong steering ratio turns the path with the vehicle. What differs
+within the first two seconds is taken for a gyro that is off, and its median is removed.
 
 References: Inagaki et al. 1994 (side slip and its rate as the limit of control); Pacejka 2012,
 ch. 1 (side force leaves the line at slips of 0.05 rad and peaks at 0.1 to 0.2).
@@ -68,8 +68,9 @@ def _one_parting(edges_s: Floats, channels: Sequence[str], measured: Floats, mod
     rates = np.nan_to_num(np.stack([slips(measured) - slips(model),
                                     measured[:, turns] - model[:, turns]]),
                           posinf=0.0, neginf=0.0)
-    found = [_first_apart(edges_s, rates - off) for off in (0.0, np.median(rates, axis=1)[:, None])]
-    at_s = max(found)
+    at_s = _first_apart(edges_s, rates)
+    if at_s <= edges_s[0] + _WITHIN_S:
+        at_s = _first_apart(edges_s, rates - np.median(rates, axis=1)[:, None])
     return Parting(unit, at_s) if np.isfinite(at_s) else None
 
 
