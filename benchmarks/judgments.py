@@ -74,6 +74,8 @@ JUDGMENTS = (
     Judgment("case.sliding", "_PARTED_RAD", "radians by which side slip and heading differ from "
              "the model's within two seconds where one of them slides, so that what follows does "
              "not count", share=False),
+    Judgment("case.sliding", "_SAME_SPEED", "difference of speed from the model's below which a "
+             "log counts again after that, of the model's"),
     Judgment("effects.base", "WRONG_SHEET", "spread of a number where its sheet is wrong, times "
              "that between trucks", share=False),
     Judgment("effects.base", "CHANGED_IN_S", "seconds that a change which grows and stays takes at "

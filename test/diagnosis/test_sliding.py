@@ -10,7 +10,7 @@ import pytest
 
 from truck_blowout_sim.diagnosis.case.calibration import calibrate
 from truck_blowout_sim.diagnosis.case.runs import parting_notes, prepare_run
-from truck_blowout_sim.diagnosis.case.sliding import Parting, parting_of
+from truck_blowout_sim.diagnosis.case.sliding import Parting, partings_of
 from truck_blowout_sim.diagnosis.case.study import Study
 from truck_blowout_sim.diagnosis.settings import Settings
 from truck_blowout_sim.recordings import Recording, Series
@@ -37,7 +37,10 @@ def turn(rate_radps: float = 0.3, speed: float = 20.0) -> tuple[np.ndarray, np.n
 
 
 def parted(measured: np.ndarray, model: np.ndarray) -> Parting | None:
-    return parting_of(EDGES_S, CHANNELS, measured, model, UNITS)
+    """The first parting, of a run too short to be counted again."""
+    found = partings_of(EDGES_S, CHANNELS, measured, model, UNITS, least_s=20.0)
+    assert len(found) < 2
+    return found[0] if found else None
 
 
 @pytest.mark.parametrize("sign", [-1.0, 1.0])
@@ -117,7 +120,21 @@ def test_without_one_of_the_channels_nothing_is_said() -> None:
     spun, model = motion(rate + (TIME_S > 7.0), ay), motion(rate, ay)
     for k in range(3):
         channels = [name if j != k else "other" for j, name in enumerate(CHANNELS)]
-        assert parting_of(EDGES_S, channels, spun, model, UNITS[:1]) is None
+        assert partings_of(EDGES_S, channels, spun, model, UNITS[:1], 20.0) == ()
+
+
+def test_a_log_counts_again_once_both_agree() -> None:
+    """Two slides of a second each; at another speed after the second, nothing is alike."""
+    rate, ay = turn()
+    slides = ((TIME_S > 3.0) & (TIME_S < 4.0)) | ((TIME_S > 8.0) & (TIME_S < 9.0))
+    model = motion(rate, ay)
+    found = partings_of(EDGES_S, CHANNELS, motion(rate + slides, ay), model, UNITS, least_s=1.5)
+    assert [one.at_s for one in found] == pytest.approx([3.1, 8.1], abs=0.1)
+    assert [one.until_s for one in found] == pytest.approx([4.6, 9.6], abs=0.6)
+    slower = motion(rate + slides, ay)
+    slower[TIME_S > 8.0, 2] = 15.0
+    *_, last = partings_of(EDGES_S, CHANNELS, slower, model, UNITS, least_s=1.5)
+    assert last.until_s == np.inf
 
 
 def spinning(straight: Recording, at_s: float) -> Recording:
@@ -142,12 +159,31 @@ def test_a_run_counts_up_to_its_parting(
     assert study.holdout_columns[0].shape[0] == cut.measured.size
     note, = parting_notes((kept, cut))
     assert note.startswith("spun: from 4.")
-    assert "the tractor slides and the model does not" in note
+    assert " s on the tractor slides and the model does not" in note
+
+
+def test_a_slide_within_a_log_is_not_measured(
+        truck: Packed, few: Settings, drive_it: Callable[..., Recording]) -> None:
+    straight = drive_it()
+    rate = straight["tractor_yaw_rate_radps"]
+    slid = straight.with_channels({"tractor_yaw_rate_radps": Series(rate.time_s, np.where(
+        (rate.time_s > 3.0) & (rate.time_s < 3.5), 2.0, rate.value))})
+    run = prepare_run(slid, "train", truck, few, step_s=0.0025)
+    cut, model = run.counted(run.simulated(truck), truck.vehicle.units, least_s=0.5)
+    one, = cut.partings
+    assert one.until_s < cut.edges_s[-1] == run.edges_s[-1]
+    during = (cut.edges_s[:-1] > one.at_s) & (cut.edges_s[1:] < one.until_s)
+    assert during.any()
+    assert np.isnan(cut.measured[during]).all()
+    assert np.isfinite(cut.measured[~during][1:-1]).sum() > 0.5 * np.isfinite(run.measured).sum()
+    assert np.all(cut.residual(model).reshape(cut.measured.shape)[during] == 0.0)
+    note, = parting_notes((cut,))
+    assert f"from {one.at_s:.1f} s to {one.until_s:.1f} s the tractor slides" in note
 
 
 def test_a_run_that_spins_at_once_keeps_enough_to_try_an_event(
         truck: Packed, few: Settings, drive_it: Callable[..., Recording]) -> None:
     run = prepare_run(spinning(drive_it(), 0.0), "train", truck, few, step_s=0.0025)
-    cut, model = run.counted(run.simulated(truck), truck.vehicle.units)
+    cut, model = run.counted(run.simulated(truck), truck.vehicle.units, few.episode_s)
     assert cut.length_s == pytest.approx(1.1)
     assert model.shape == cut.measured.shape

@@ -76,15 +76,14 @@ def _drive_all(study: Study) -> None:
 
 
 def _count_all(study: Study) -> None:
-    """Shorten the runs in which the vehicle slides and the reference does not."""
-    units = study.packed.vehicle.units
-    study.runs, models = zip(*(run.counted(model, units) for run, model in zip(
-        study.runs, study.models, strict=True)), strict=True)
-    study.models = list(models)
-    unseen = [run.counted(model, units) for run, model in zip(
-        study.holdout, study.holdout_models, strict=True)]
-    study.holdout = tuple(run for run, _ in unseen)
-    study.holdout_models = [model for _, model in unseen]
+    """Leave out of the runs where the vehicle slides and the reference does not."""
+    units, least_s = study.packed.vehicle.units, study.settings.episode_s
+    fitted, unseen = ([run.counted(model, units, least_s)
+                       for run, model in zip(runs, models, strict=True)] for runs, models in (
+        (study.runs, study.models), (study.holdout, study.holdout_models)))
+    study.runs, study.models = tuple(run for run, _ in fitted), [model for _, model in fitted]
+    study.holdout, study.holdout_models = (tuple(run for run, _ in unseen),
+                                           [model for _, model in unseen])
 
 
 def _weigh_all(study: Study) -> None:

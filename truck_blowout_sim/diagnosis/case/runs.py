@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from truck_blowout_sim.diagnosis.case.leaning import Leaning, leaning_of
-from truck_blowout_sim.diagnosis.case.sliding import Parting, parting_of
+from truck_blowout_sim.diagnosis.case.sliding import Parting, partings_of
 from truck_blowout_sim.diagnosis.case.trust import BRAKES_ON_PA
 from truck_blowout_sim.diagnosis.case.widths import rms_around, swings, widths
 from truck_blowout_sim.diagnosis.fit.color import Color
@@ -54,7 +54,7 @@ class Run:
         color: of the residual in units of ``sigma``; what is whitened has it taken out.
         course, since_s: a driven truck from which those simulated differ only after an instant.
         leaning: accelerations that the recording has free of gravity.
-        parting: where the recording and the model slide apart, which is where the bins end.
+        partings: while the recording and the model slide apart, nothing counts as measured.
     """
 
     recording: Recording
@@ -73,7 +73,7 @@ class Run:
     course: Course | None = None
     since_s: float = 0.0
     leaning: tuple[Leaning, ...] = ()
-    parting: Parting | None = None
+    partings: tuple[Parting, ...] = ()
 
     @property
     def length_s(self) -> float:
@@ -162,19 +162,27 @@ class Run:
                        rms_around(self.correction, settings))
         return replace(self, swing=swing, sigma=np.where(np.isfinite(self.sigma), sigma, np.nan))
 
-    def counted(self, model: Floats, units: Sequence[str]) -> tuple[Run, Floats]:
-        """This run and a model [n, m] up to where the first unit slides apart from it.
+    def counted(self, model: Floats, units: Sequence[str], least_s: float) -> tuple[Run, Floats]:
+        """This run and a model [n, m] without what follows where a unit slides apart from it.
 
-        Enough is left to try an event in.
+        Enough is left to try an event in. ``least_s``: see :func:`partings_of`.
         """
-        parting = parting_of(self.edges_s, self.channels, self.measured, model, units)
-        if parting is None:
+        partings = partings_of(self.edges_s, self.channels, self.measured, model, units, least_s)
+        if not partings:
             return self, model
-        bin_s = float(self.edges_s[1] - self.edges_s[0])
-        bins = max(int(np.searchsorted(self.edges_s, parting.at_s)), _fewest_bins(bin_s))
+        bins, last = self.measured.shape[0], partings[-1]
+        if np.isinf(last.until_s):
+            bins = max(int(np.searchsorted(self.edges_s, last.at_s)),
+                       _fewest_bins(float(self.edges_s[1] - self.edges_s[0])))
         cut = {name: getattr(self, name)[:bins]
                for name in ("measured", "sigma", "noise", "swing", "correction")}
-        return replace(self, edges_s=self.edges_s[:bins + 1], parting=parting, **cut), model[:bins]
+        middles = 0.5 * (self.edges_s[1:bins + 1] + self.edges_s[:bins])
+        for one in partings:
+            between = ((middles > one.at_s) & (middles < one.until_s) & np.isfinite(one.until_s))
+            cut |= {name: np.where(between[:, None], np.nan, cut[name])
+                    for name in ("measured", "sigma")}
+        return (replace(self, edges_s=self.edges_s[:bins + 1], partings=partings, **cut),
+                model[:bins])
 
     def residual(self, model: Floats) -> Floats:
         """[n * m] whitened measured - model, zero where not measured, bounded where it broke."""
@@ -286,7 +294,8 @@ def rms_sigma(run: Run, model: Floats) -> Mapping[str, float]:
 
 
 def parting_notes(runs: Iterable[Run]) -> list[str]:
-    """What a reader should know of runs that do not count to their end."""
-    return [f"{run.recording.name}: from {run.parting.at_s:.1f} s on the {run.parting.unit} slides "
-            "and the model does not, or the other way round; what follows does not count"
-            for run in runs if run.parting]
+    """What a reader should know of runs that do not count as a whole."""
+    return [f"{run.recording.name}: from {one.at_s:.1f} s "
+            f"{'on' if np.isinf(one.until_s) else f'to {one.until_s:.1f} s'} the {one.unit} slides "
+            "and the model does not, or the other way round; this does not count"
+            for run in runs for one in run.partings]
