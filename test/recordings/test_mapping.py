@@ -339,6 +339,20 @@ def test_a_stop_shows_a_speed_in_another_unit(factors: dict[str, float], words: 
     assert bool(said) == bool(words)
 
 
+def test_a_spin_is_no_speed_in_another_unit() -> None:
+    """A body that goes straight on, braked by 4 m/s2 from 25 m/s while it turns by 70 deg."""
+    time_s = np.arange(0, 10, 0.02)
+    brakes = np.where(time_s > 4.0, 4.0, 0.0)
+    speed, yaw = 25.0 - 0.02 * np.cumsum(brakes), 1.2 * np.clip((time_s - 4.0) / 4.0, 0.0, 1.0) ** 2
+    made = {"tractor_vx_mps": speed * np.cos(yaw), "tractor_vy_mps": -speed * np.sin(yaw),
+            "tractor_yaw_rate_radps": np.gradient(yaw, time_s),
+            "tractor_ax_mps2": -brakes * np.cos(yaw)}  # fmt: skip
+    drive = Recording("spin", {n: Series(time_s, v) for n, v in made.items()})
+    assert contradictions(drive) == ()
+    unseen = drive.only_channels([n for n in made if n != "tractor_vy_mps"])
+    assert contradictions(unseen) != (), "only the side velocity tells"
+
+
 def test_tire_pressures_in_psi_are_not_said_to_be_kpa() -> None:
     bar = find_unit("bar")
     assert bar is not None

@@ -3,12 +3,13 @@
     yaw rate      = d(heading)/dt
     speed         = length of d(position)/dt
     lateral force = speed * yaw rate (steady)
-    forward force = d(speed)/dt, but for a constant
+    forward force = d(speed)/dt - yaw rate * side velocity, but for a constant
     yaw rate      = turning of the path, in sign
     upward force  = 9.81 m/s2 in the mean
 
 References: planar kinematics of a rigid body; ISO 8855.
-Known limits: notes only; a drive without a turn or a change of place shows nothing.
+Known limits: notes only; a drive without a turn or a change of place shows nothing; without a side
+velocity, the forward force of a vehicle that spins seems to be in another unit.
 Validated with: test/recordings/test_mapping.py.
 """
 
@@ -113,8 +114,8 @@ def _ratios(recording: Recording) -> Iterator[tuple[str, str, float]]:
         return
     for unit in UNITS:
         have = {stem: recording.at(f"{unit}_{stem}", times)
-                for stem in ("yaw_rad", "yaw_rate_radps", "x_m", "y_m", "vx_mps", "ax_mps2",
-                             "ay_mps2")
+                for stem in ("yaw_rad", "yaw_rate_radps", "x_m", "y_m", "vx_mps", "vy_mps",
+                             "ax_mps2", "ay_mps2")
                 if f"{unit}_{stem}" in recording}  # fmt: skip
         rate, speed = have.get("yaw_rate_radps"), have.get("vx_mps")
         if rate is not None and "yaw_rad" in have:
@@ -129,7 +130,10 @@ def _ratios(recording: Recording) -> Iterator[tuple[str, str, float]]:
         if "ay_mps2" in have and rate is not None and speed is not None:
             yield from _pair(unit, "ay_mps2", _TURN, have["ay_mps2"], speed * rate)
         if "ax_mps2" in have and speed is not None:
-            along = (_over_a_second(side) for side in (have["ax_mps2"], np.gradient(speed, times)))
+            pushed = np.gradient(speed, times)
+            if rate is not None and "vy_mps" in have:
+                pushed = pushed - rate * have["vy_mps"]
+            along = (_over_a_second(side) for side in (have["ax_mps2"], pushed))
             yield from _pair(unit, "ax_mps2", _CHANGE, *(side - np.nanmean(side) for side in along))
         up = f"{unit}_az_mps2"
         if up in recording and not gravity_is_removed(recording, unit):
