@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from truck_blowout_sim.diagnosis.answer.words import fill
 from truck_blowout_sim.diagnosis.effects import LIBRARY, Effect
+from truck_blowout_sim.diagnosis.effects.base import GripUsed
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.result.parts import Place
 from truck_blowout_sim.diagnosis.settings import load_settings
@@ -222,9 +223,17 @@ def test_a_tire_of_another_form_looks_like_one_of_a_lower_peak(largest_slip: flo
 
 def test_what_acts_near_the_limit_strays_more_far_from_it(truck: Packed) -> None:
     effect = next(e for e in LIBRARY if e.name == "tire_saturation" and not e.variant)
-    sizes = [effect.strays(truck, used)[0] for used in (1.0, 0.9, 0.5, 0.2)]
+    sizes = [effect.strays(truck, GripUsed(used, 1.0))[0] for used in (1.0, 0.9, 0.5, 0.2)]
     assert sizes == sorted(sizes)
     assert sizes[0] == pytest.approx(0.5 * effect.amount.material)
+
+
+def test_braking_hard_shows_friction_but_no_side_force(truck: Packed) -> None:
+    braked = GripUsed(0.1, 1.0)
+    friction, peak = (next(e for e in LIBRARY if e.name == name and not e.variant)
+                      for name in ("friction_change", "tire_saturation"))
+    assert friction.strays(truck, braked) == friction.strays(truck)
+    assert peak.strays(truck, braked) > peak.strays(truck)
 
 
 def test_a_wrong_sheet_does_not_widen_what_forms_differ_by(truck: Packed) -> None:
@@ -232,7 +241,7 @@ def test_a_wrong_sheet_does_not_widen_what_forms_differ_by(truck: Packed) -> Non
     trucks = 0.5 * effect.amount.material
     for used in (1.0, 0.5, 0.0):
         forms = effect.far_from_limit * (1.0 - used) + effect.near_limit * used
-        usual, wrong = effect.strays(truck, used)
+        usual, wrong = effect.strays(truck, GripUsed(used, 1.0))
         assert usual**2 == pytest.approx(trucks**2 + forms**2)
         assert wrong**2 == pytest.approx((4.0 * trucks) ** 2 + forms**2)
 

@@ -23,6 +23,7 @@ from truck_blowout_sim.diagnosis.case.simulations import (
 )
 from truck_blowout_sim.diagnosis.case.trust import grip_used
 from truck_blowout_sim.diagnosis.effects import Effect
+from truck_blowout_sim.diagnosis.effects.base import GripUsed
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.effort import USUAL
 from truck_blowout_sim.diagnosis.fit.linear import Projector
@@ -92,8 +93,8 @@ class Study:
         return tuple(i for i, run in enumerate(self.runs) if run.role == "train")
 
     @cached_property
-    def grip_used(self) -> float:
-        """Share of the tires' side grip that training asks for, 0 to 1."""
+    def grip_used(self) -> GripUsed:
+        """Shares of the tires' grip that training asks for."""
         return grip_used(self)
 
     @property

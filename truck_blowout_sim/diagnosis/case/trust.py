@@ -3,8 +3,8 @@
 Baseline runs on sound tires say nothing of a lost one. Near the limit of grip laws of tires differ
 most.
 
-Known limits: lateral acceleration is that of the first unit's yaw rate and speed; without both
-channels no turn counts as hard.
+Known limits: accelerations are those of the first unit's yaw rate and speed; without both channels
+no turn counts as hard; a slope counts as braking.
 Validated with: test/diagnosis/test_trust.py, test_comparable.py.
 """
 
@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import uniform_filter1d
 
+from truck_blowout_sim.diagnosis.effects.base import GripUsed
 from truck_blowout_sim.vehicle import Packed
 
 if TYPE_CHECKING:
@@ -43,27 +44,30 @@ def comparable_rows(study: Study, run: Run) -> Floats:
     return np.repeat(known, len(run.channels)).astype(np.float64)
 
 
-def grip_used(study: Study) -> float:
-    """Share of the tires' side grip that training asks for, by recording or model, 0 to 1.
+def grip_used(study: Study) -> GripUsed:
+    """Shares of the tires' grip that training asks for, by recording or model.
 
-    The harder of both: tires that let go early keep the vehicle from turning hard.
+    The harder of both: tires that let go early keep the vehicle from turning or braking hard.
     """
     unit = study.packed.vehicle.units[0]
     names = (f"{unit}_yaw_rate_radps", f"{unit}_vx_mps")
-    hardest = 0.0
+    lasts = max(round(LASTS_S / study.settings.bin_s), 1)
+    hardest: Floats = np.zeros(2)
     for i in study.train:
         run = study.runs[i]
-        if names[0] not in run.channels or names[1] not in run.recording:
+        if names[1] not in run.recording:
             continue
-        speed = run.recording[names[1]]
-        middles = 0.5 * (run.edges_s[1:] + run.edges_s[:-1])
-        rates = [values[:, run.channels.index(names[0])]
-                 for values in (run.measured, study.models[i])]
-        lateral = np.abs(rates) * np.interp(middles, speed.time_s, speed.value)
-        lasting = uniform_filter1d(np.nan_to_num(lateral), max(round(
-            LASTS_S / study.settings.bin_s), 1), axis=1)
-        hardest = max(hardest, float(lasting.max(initial=0.0)))
-    return min(hardest / max(grip_mps2(study.packed), 1e-9), 1.0)
+        recorded = run.recording[names[1]]
+        speed = np.interp(0.5 * (run.edges_s[1:] + run.edges_s[:-1]), recorded.time_s,
+                          recorded.value)
+        for signals in (run.measured, study.models[i]):
+            turns, drives = (signals[:, run.channels.index(name)] if name in run.channels else other
+                             for name, other in zip(names, (0.0 * speed, speed), strict=True))
+            side, forward = (uniform_filter1d(np.nan_to_num(one), lasts) for one in (
+                turns * speed, np.gradient(drives, study.settings.bin_s)))
+            hardest = np.maximum(hardest, [np.abs(side).max(initial=0.0),
+                                           np.hypot(side, forward).max(initial=0.0)])
+    return GripUsed(*np.minimum(hardest / max(grip_mps2(study.packed), 1e-9), 1.0).tolist())
 
 
 def grip_mps2(packed: Packed) -> float:

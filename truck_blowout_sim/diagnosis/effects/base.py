@@ -26,6 +26,17 @@ WRONG_SHEET = 4.0  # times what trucks of a kind differ by, where a sheet is wro
 
 
 @dataclass(frozen=True)
+class GripUsed:
+    """Shares of the tires' grip, 0 to 1: to the side, and to the side and forward together."""
+
+    side: float
+    whole: float
+
+
+AT_THE_LIMIT = GripUsed(1.0, 1.0)
+
+
+@dataclass(frozen=True)
 class Amount:
     """The number that says how strong an effect is; 0 is neutral.
 
@@ -108,6 +119,7 @@ class Effect:
         far_from_limit: by so much models of equal slope and peak seem to differ in the amount, 1
             sigma, in runs far from the limit of grip; the less, the nearer.
         near_limit: the same of runs at the limit of grip; the less, the farther.
+        any_direction: this limit is that of side and forward force together, not of side force.
     """
 
     name: str
@@ -128,6 +140,7 @@ class Effect:
     published_range: bool = False
     far_from_limit: float = 0.0
     near_limit: float = 0.0
+    any_direction: bool = False
     onset_form_s: float = 0.0
     hides: Literal["nothing", "leak", "grip"] = "nothing"
     met: bool = False
@@ -137,7 +150,7 @@ class Effect:
     grows_with: Callable[[Packed], float] = lambda packed: 1.0
     neutral: Callable[[Packed], float] = lambda packed: 0.0
 
-    def strays(self, packed: Packed, grip_used: float = 1.0) -> tuple[float, ...]:
+    def strays(self, packed: Packed, grip_used: GripUsed = AT_THE_LIMIT) -> tuple[float, ...]:
         """1 sigma by which trucks of one kind differ in the amount, and roads, winds and loads.
 
         A number of the vehicle's file may be wrong: then trucks differ from it by four times as
@@ -145,9 +158,10 @@ class Effect:
         differ by is no matter of the file. What the sheet still calibrates beside the effect has
         that chance already.
 
-        ``grip_used``: share of the tires' side grip that the runs ask for.
+        ``grip_used``: what the runs ask for.
         """
-        forms = self.far_from_limit * (1.0 - grip_used) + self.near_limit * grip_used
+        used = grip_used.whole if self.any_direction else grip_used.side
+        forms = self.far_from_limit * (1.0 - used) + self.near_limit * used
         trucks = 0.5 * self.amount.material * self.grows_with(packed)
         stated = (self.absorbs or self.of_file) and not (self.met or self.published_range)
         sizes = (1.0, WRONG_SHEET) if stated else (1.0,)

@@ -2,7 +2,7 @@
 
 A tire of another form bends earlier. That shows only from the instant on at which the vehicle is
 driven hard, and looks like less friction from then on, by as much as it looks like a lower peak
-(`tire_saturation.py`).
+(`tire_saturation.py`). Braking hard shows friction as turning hard does.
 """
 
 from __future__ import annotations
@@ -33,4 +33,5 @@ EFFECT = Effect(
     splits="hard braking: both axes feel it, and only near the limit",
     absorbs="peak_friction",
     far_from_limit=TIRE_FORMS_DIFFER,
+    any_direction=True,
 )
