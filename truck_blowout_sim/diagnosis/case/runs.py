@@ -177,9 +177,9 @@ class Run:
         cut = {name: getattr(self, name)[:bins]
                for name in ("measured", "sigma", "noise", "swing", "correction")}
         middles = 0.5 * (self.edges_s[1:bins + 1] + self.edges_s[:bins])
-        for one in partings:
-            between = ((middles > one.at_s) & (middles < one.until_s) & np.isfinite(one.until_s))
-            cut |= {name: np.where(between[:, None], np.nan, cut[name])
+        for one in partings[:-1] if np.isinf(last.until_s) else partings:
+            during = (middles > one.at_s) & (middles < one.until_s)
+            cut |= {name: np.where(during[:, None], np.nan, cut[name])
                     for name in ("measured", "sigma")}
         return (replace(self, edges_s=self.edges_s[:bins + 1], partings=partings, **cut),
                 model[:bins])

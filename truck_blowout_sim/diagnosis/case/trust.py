@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 Floats = NDArray[np.float64]
 BRAKES_ON_PA = 20_000.0
-LASTS_S = 0.5
+_LASTS_S = 0.5
 
 
 def comparable_until_s(study: Study, run: Run) -> float:
@@ -51,7 +51,7 @@ def grip_used(study: Study) -> GripUsed:
     """
     unit = study.packed.vehicle.units[0]
     names = (f"{unit}_yaw_rate_radps", f"{unit}_vx_mps")
-    lasts = max(round(LASTS_S / study.settings.bin_s), 1)
+    bin_s = study.settings.bin_s
     hardest: Floats = np.zeros(2)
     for i in study.train:
         run = study.runs[i]
@@ -63,11 +63,16 @@ def grip_used(study: Study) -> GripUsed:
         for signals in (run.measured, study.models[i]):
             turns, drives = (signals[:, run.channels.index(name)] if name in run.channels else other
                              for name, other in zip(names, (0.0 * speed, speed), strict=True))
-            side, forward = (uniform_filter1d(np.nan_to_num(one), lasts) for one in (
-                turns * speed, np.gradient(drives, study.settings.bin_s)))
+            side, forward = (lasting(one, bin_s) for one in (turns * speed,
+                                                             np.gradient(drives, bin_s)))
             hardest = np.maximum(hardest, [np.abs(side).max(initial=0.0),
                                            np.hypot(side, forward).max(initial=0.0)])
     return GripUsed(*np.minimum(hardest / max(grip_mps2(study.packed), 1e-9), 1.0).tolist())
+
+
+def lasting(values: Floats, bin_s: float) -> Floats:
+    """[n] running mean over half a second; what is not measured is 0."""
+    return np.asarray(uniform_filter1d(np.nan_to_num(values), max(round(_LASTS_S / bin_s), 1)))
 
 
 def grip_mps2(packed: Packed) -> float:

@@ -20,11 +20,10 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.ndimage import uniform_filter1d
 
 from truck_blowout_sim.diagnosis.case.runs import Run
 from truck_blowout_sim.diagnosis.case.study import Study
-from truck_blowout_sim.diagnosis.case.trust import LASTS_S, grip_mps2
+from truck_blowout_sim.diagnosis.case.trust import grip_mps2, lasting
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.fit.attribute import Ranked
 from truck_blowout_sim.diagnosis.result.quantiles import NINETY
@@ -86,9 +85,9 @@ def asked_for_mps2(study: Study, run: Run) -> Floats:
     rate, speed = (np.interp(middles, run.recording[name].time_s, run.recording[name].value)
                    if name in run.recording else np.zeros(middles.size)
                    for name in (f"{unit}_yaw_rate_radps", f"{unit}_vx_mps"))
-    lasts = max(round(LASTS_S / study.settings.bin_s), 1)
-    forward = np.gradient(uniform_filter1d(speed, lasts), study.settings.bin_s)
-    return np.hypot(uniform_filter1d(speed * rate, lasts), uniform_filter1d(forward, lasts))
+    bin_s = study.settings.bin_s
+    forward = np.gradient(lasting(speed, bin_s), bin_s)
+    return np.hypot(lasting(speed * rate, bin_s), lasting(forward, bin_s))
 
 
 def earliest_s(study: Study, run: Run, found: Ranked, low_s: float) -> float:

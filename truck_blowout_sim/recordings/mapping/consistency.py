@@ -9,7 +9,7 @@
 
 References: planar kinematics of a rigid body; ISO 8855.
 Known limits: notes only; a drive without a turn or a change of place shows nothing; without a side
-velocity, the forward force of a vehicle that spins seems to be in another unit.
+velocity, the forward force of a vehicle that spins can seem to be in another unit.
 Validated with: test/recordings/test_mapping.py.
 """
 
