@@ -8,7 +8,8 @@ from typing import Protocol
 
 import numpy as np
 
-from truck_blowout_sim.diagnosis.case.study import Study
+from truck_blowout_sim.diagnosis.case.study import FURTHEST, Study
+from truck_blowout_sim.diagnosis.effects.base import WRONG_SHEET
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.model.law import Law
 from truck_blowout_sim.diagnosis.name.judging import Found
@@ -112,13 +113,22 @@ def _verdict(verdict: Verdict, effects: Sequence[Effect], pulled: Sequence[tuple
                 "kind differ; nothing is missing that they could show.")
     if verdict == "miscalibrated":
         names = ", ".join(f"{n.replace('_', ' ')} ({a:+.1f} sigma)" for n, a in pulled[:3])
-        return f"No missing physics shows, but the sheet is off{': ' if names else ''}{names}."
+        return (f"No missing physics shows, but the sheet is off{': ' if names else ''}{names}."
+                + _beyond_trucks(pulled))
     said = [] if verdict == "unknown" else [effect.sentence for effect in effects]
     if law is not None:
         said.append(f"Something acts on the {law.body} that no known effect explains; its plainest "
                     f"law is {law.equation}, which left-out windows confirm to "
                     f"{100.0 * law.explained:.0f} percent{_unseen(law)}.")
     return " ".join((*said, *(sign.sentence for sign in signs)))
+
+
+def _beyond_trucks(pulled: Sequence[tuple[str, float]]) -> str:
+    """What to say of numbers that no truck has, not even one whose sheet is wrong."""
+    if all(abs(pull) <= WRONG_SHEET * FURTHEST for _, pull in pulled):
+        return ""
+    return (" No truck is so far off its sheet: the model has another form there, or something is "
+            "missing that these recordings cannot tell.")
 
 
 def _unseen(law: Law) -> str:

@@ -2,15 +2,13 @@
 
 Two good models of one truck differ more or less, depending on the truck and on how it is driven, so
 no level of what is left says that something is missing. But baseline runs show what this model
-leaves of this truck. The mean squares that each run keeps are compared as logarithms by Student's
-test, all of training and its worst run; unseen runs count with training. Runs are few, so their
-scatter has a prior of its own.
+leaves of this truck. So the mean squares that each run keeps are compared by the test of
+`by_chance.py`; unseen runs count with training.
 Without baseline runs, training is held against the widths as they were guessed: these are what good
 models of any such truck differ by. A guess errs by a factor of its own: instruments that drift and
 tremble leave as much as a worse model.
 
-References: Student 1908; Satterthwaite 1946 (degrees of freedom of a sum of variances); Gelman et
-al. 2013, ch. 3 (a scaled inverse chi-square prior).
+References: see `by_chance.py`.
 Known limits: a maneuver much harder than the baseline's leaves more, too; without baseline runs
 only a gross mismatch shows.
 Validated with: test/diagnosis/test_left_over.py.
@@ -24,16 +22,14 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import cho_factor, cho_solve
-from scipy.stats import t as student
 
 from truck_blowout_sim.diagnosis.case.restlessness import left_by_fit
 from truck_blowout_sim.diagnosis.case.study import Study, row_ranges
 from truck_blowout_sim.diagnosis.case.trust import comparable_rows
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
-from truck_blowout_sim.diagnosis.fit.width_error import RUN_SCATTER
+from truck_blowout_sim.diagnosis.locate.by_chance import chance_of_any
 
 Floats = NDArray[np.float64]
-_RUNS = 6.0  # as many runs is that prior worth: cases seldom have more
 _LEAST = 1e-6
 GUESSED = 1.0  # squares a row, where the widths are what two good models differ by
 # Noise that lasts: of ten samples in a bin, as at 100 Hz, one to all are new.
@@ -121,59 +117,10 @@ def excess(study: Study, squares: Sequence[float], usual: float) -> float:
     return sum((squares[i] - usual) * study.runs[i].measured.size for i in study.train)
 
 
-def _test(train: Sequence[float], baseline: Sequence[float], guess: float = 0.0
-          ) -> tuple[float, float, float]:
-    """Mean logarithm of baseline, spread of the difference of the means, degrees of freedom.
-
-    ``guess``: 1 sigma of the logarithm of what stands for baseline runs, where there are none.
-    """
-    groups = [np.log(train), np.log(baseline)]
-    degrees = sum(one.size - 1 for one in groups) + _RUNS
-    pooled = (sum(float(np.sum((one - one.mean()) ** 2)) for one in groups)
-              + _RUNS * RUN_SCATTER**2) / degrees
-    return (float(groups[1].mean()),
-            *_with_guess(pooled * sum(1.0 / one.size for one in groups), degrees, guess))
-
-
-def _with_guess(variance: float, degrees: float, guess: float) -> tuple[float, float]:
-    """Spread and degrees of freedom of an estimated variance and one that is known."""
-    total = variance + guess**2
-    return float(np.sqrt(total)), float(degrees * (total / variance) ** 2)
-
-
-def most_by_chance(train: Sequence[float], baseline: Sequence[float], rate: float) -> float:
-    """The most that training keeps on the geometric mean, but for a share ``rate`` of cases."""
-    mean, spread, degrees = _test(train, baseline)
-    return float(np.exp(mean + spread * student.isf(rate, degrees)))
-
-
-def chance_of(train: Sequence[float], baseline: Sequence[float], guess: float = 0.0) -> float:
-    """Chance that training keeps so much on the geometric mean where nothing is missing."""
-    mean, spread, degrees = _test(train, baseline, guess)
-    return float(student.sf((np.mean(np.log(train)) - mean) / spread, degrees))
-
-
 def chance_of_more(study: Study, squares: Sequence[float]) -> float:
-    """Chance that training, or one run of it, keeps so much more where nothing is missing."""
+    """Chance that training, or some runs of it, keep so much more where nothing is missing."""
     train = [squares[i] for i in study.train] + list(squares[len(study.runs):])
-    baseline = _still(study, squares)
-    guess = 0.0 if study.baseline else _GUESS
-    return min(2.0 * min(chance_of(train, baseline, guess),
-                         _chance_of_one(train, baseline, guess)), 1.0)
-
-
-def _chance_of_one(train: Sequence[float], baseline: Sequence[float], guess: float) -> float:
-    """Chance that the worst of the training runs keeps so much more, as far as the others scatter.
-
-    A load that sways may do so in one run only.
-    """
-    logs, still = np.sort(np.log(train)), np.log(baseline)
-    others = logs[:-1]
-    degrees = max(others.size - 1, 0) + still.size - 1 + _RUNS
-    squares = sum(float(np.sum((one - one.mean()) ** 2)) for one in (others, still) if one.size)
-    spread, degrees = _with_guess(
-        (squares + _RUNS * RUN_SCATTER**2) / degrees * (1.0 + 1.0 / still.size), degrees, guess)
-    return float(logs.size * student.sf((logs[-1] - still.mean()) / spread, degrees))
+    return chance_of_any(train, _still(study, squares), 0.0 if study.baseline else _GUESS)
 
 
 def keeps_more(study: Study, squares: Sequence[float]) -> bool:

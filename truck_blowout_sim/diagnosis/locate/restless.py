@@ -2,9 +2,9 @@
 
 The missing wrench (`wrench.py`) weighs a force on a whole body; a small one that swings shows in
 one channel first. What everything named, and calibration, leave of each channel in training is held
-against what they leave in the baseline runs of the same truck, by the test of `left_over.py`.
+against what they leave in the baseline runs of the same truck, by the test of `by_chance.py`.
 
-References: as `left_over.py`; Bonferroni 1936 (several channels are asked).
+References: as `by_chance.py`; Bonferroni 1936 (several channels are asked).
 Known limits: says that something acts and where it shows, not what; says nothing without baseline
 runs, and nothing where an instrument was found faulty.
 Validated with: test/diagnosis/test_restless.py (a load that swings is noticed, a calm truck not).
@@ -20,8 +20,9 @@ from numpy.typing import NDArray
 
 from truck_blowout_sim.diagnosis.case.study import Study, row_ranges
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
+from truck_blowout_sim.diagnosis.locate.by_chance import chance_of, most_by_chance
 from truck_blowout_sim.diagnosis.locate.comparable import Left
-from truck_blowout_sim.diagnosis.locate.left_over import GUESSED, chance_of, most_by_chance
+from truck_blowout_sim.diagnosis.locate.left_over import GUESSED
 
 Floats = NDArray[np.float64]
 _UNITS = (("_mps2", "m/s2"), ("_mps", "m/s"), ("_radps", "rad/s"), ("_rad", "rad"))
