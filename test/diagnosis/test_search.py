@@ -62,8 +62,8 @@ def test_a_further_cause_must_be_twenty_times_as_likely(
     asked: list[float] = []
 
     def watched(study: Study, named: Sequence[Hypothesis], progress: Progress | None,
-                further: float) -> Round:
-        this = shortlist(study, named, progress, further)
+                further: float, placed: Sequence[Sequence[Hypothesis]]) -> Round:
+        this = shortlist(study, named, progress, further, placed)
         asked.append(this.chance.asked - replace(this.chance, further=0.0).asked)
         return this
 

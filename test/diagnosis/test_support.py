@@ -70,6 +70,23 @@ def test_what_unseen_runs_add_is_told_apart(study_of: Studies, truck: Packed) ->
         assert one.support - added == pytest.approx(alone)
 
 
+@pytest.mark.parametrize("shown", [True, False])
+def test_beside_an_event_unseen_runs_are_asked_where_it_is_placed_in_them(
+    study_of: Studies, truck: Packed, shown: bool
+) -> None:
+    """A breath of wind is named; whether the brake is weak, unseen runs tell as well."""
+    study = study_of(weak_brake(truck), holdout=weak_brake(truck) if shown else {})
+    one, (unseen,) = hypothesis(study, "brake_imbalance", -0.5, HUB), study.holdout
+    wind = hypothesis(study, "crosswind", 1e-3, times={
+        study.runs[i].recording.name: (3.0, 5.0) for i in study.train}).hypothesis
+    there = replace(wind, times={unseen.recording.name: (4.0, 6.0)})
+    open_, placed = (Beside.of(study, (wind,), study.models, known) for known in ((), ((there,),)))
+    assert not open_.unseen
+    assert len(placed.unseen) == 1
+    alone, told = (supported(study, one, beside, CHANCE).support for beside in (open_, placed))
+    assert (told > alone) is shown
+
+
 def test_no_amount_has_no_support(study_of: Studies) -> None:
     assert support_of(study_of(), "road_bank", 0.0) == 0.0
 

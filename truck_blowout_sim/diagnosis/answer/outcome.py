@@ -100,7 +100,8 @@ class Material:
     def squares(self) -> tuple[float, ...]:
         """Squares a row that each run keeps with everything named in force, unseen runs last."""
         named = [r.hypothesis for r in self.found.named]
-        return mean_squares(self.study, named, unseen_with(self.study, named))
+        placed = [one.named for one in self.found.after]
+        return mean_squares(self.study, named, unseen_with(self.study, named, placed))
 
     @property
     def signs(self) -> tuple[words.Sign, ...]:

@@ -40,8 +40,9 @@ class Beside:
     """What is in force already, beside a hypothesis.
 
     Attributes:
-        named: hypotheses; ``models``: of all runs with them in force, ``unseen``: of the holdout,
-            none where one of them begins at an instant.
+        named: hypotheses; ``models``: of all runs with them in force.
+        placed: the same for each unseen run, events at their instants there; empty where these are
+            open. ``unseen``: models of these runs.
         columns: [rows, k] of the nuisances over all runs, unseen too, and ``gram``, their products;
             empty where no unseen run is asked.
         driven: what each run asks of the sheet, unseen ones last.
@@ -49,22 +50,24 @@ class Beside:
 
     named: tuple[Hypothesis, ...]
     models: tuple[Floats, ...]
+    placed: tuple[tuple[Hypothesis, ...], ...]
     unseen: tuple[Floats, ...]
     columns: Floats
     gram: Floats
     driven: tuple[Floats, ...]
 
     @staticmethod
-    def of(study: Study, named: Sequence[Hypothesis], models: Sequence[Floats]) -> Beside:
-        """With the holdout simulated."""
+    def of(study: Study, named: Sequence[Hypothesis], models: Sequence[Floats],
+           placed: Sequence[Sequence[Hypothesis]] = ()) -> Beside:
+        """With the holdout simulated; events are ``placed`` in each run of it, if known."""
         nothing: Floats = np.zeros((0, 0))
-        manners = tuple(driven(study))
-        unseen = unseen_with(study, named)
+        manners, every = tuple(driven(study)), placed_in(study, named, placed)
+        unseen = unseen_with(study, named, placed)
         if not unseen:
-            return Beside(tuple(named), tuple(models), (), nothing, nothing, manners)
+            return Beside(tuple(named), tuple(models), (), (), nothing, nothing, manners)
         columns = np.concatenate([study.columns, *study.holdout_columns])
         gram = study.gram_of(range(len(study.runs) + len(study.holdout)))
-        return Beside(tuple(named), tuple(models), unseen, columns, gram, manners)
+        return Beside(tuple(named), tuple(models), every, unseen, columns, gram, manners)
 
 
 @dataclass(frozen=True, eq=False)
@@ -151,14 +154,14 @@ def _asked(study: Study, h: Hypothesis, beside: Beside, away: float) -> _Asked:
         i in study.train, study.settings.episode_s, None if h.effect.timed else beside.driven[i]))
     seen = _Asked(study.projector([*beside.named, h]), study.residual(dict(enumerate(models))),
                   study.stack({i: c for i, c in columns.items() if i in study.train}), parts)
-    if beside.unseen and asks_unseen(h, beside.named):
+    if asks_unseen(h, beside):
         return _with_unseen(study, seen, h, beside, away)
     return seen
 
 
-def asks_unseen(h: Hypothesis, named: Sequence[Hypothesis]) -> bool:
-    """Whether the support of a hypothesis beside what is named knows the unseen runs, if any."""
-    return not (h.effect.timed or h.effect.met or any(one.effect.timed for one in named))
+def asks_unseen(h: Hypothesis, beside: Beside) -> bool:
+    """Whether the support of a hypothesis beside what is named knows the unseen runs."""
+    return bool(beside.unseen) and not (h.effect.timed or h.effect.met)
 
 
 def _telling(study: Study, run: Run, h: Hypothesis) -> Floats:
@@ -187,7 +190,7 @@ def _with_unseen(study: Study, seen: _Asked, h: Hypothesis, beside: Beside, away
     residuals, changes, parts = [seen.residual], [seen.column], list(seen.parts)
     first = seen.residual.size
     for run, base, model, manner in zip(
-            study.holdout, beside.unseen, _unseen(study, (*beside.named, h)),
+            study.holdout, beside.unseen, _unseen(study, [(*one, h) for one in beside.placed]),
             beside.driven[len(study.runs):], strict=True):
         change = run.change(model, base) / away
         parts += parts_of(run, first, change * _telling(study, run, h), True,
@@ -199,15 +202,24 @@ def _with_unseen(study: Study, seen: _Asked, h: Hypothesis, beside: Beside, away
                   np.concatenate(changes), tuple(parts))
 
 
-def unseen_with(study: Study, named: Sequence[Hypothesis]) -> tuple[Floats, ...]:
-    """Models of the unseen runs with ``named`` in force; none where an instant is open in them."""
+def placed_in(study: Study, named: Sequence[Hypothesis],
+              placed: Sequence[Sequence[Hypothesis]] = ()) -> tuple[tuple[Hypothesis, ...], ...]:
+    """What is in force in each unseen run; nothing where the instant of an event is open there."""
     if any(h.effect.timed for h in named):
-        return ()
-    return tuple(_unseen(study, named) if named else study.holdout_models)
+        return tuple(tuple(one) for one in placed)
+    return (tuple(named),) * len(study.holdout)
 
 
-def _unseen(study: Study, effects: Sequence[Hypothesis]) -> list[Floats]:
-    """Models of the holdout with steady effects in force."""
+def unseen_with(study: Study, named: Sequence[Hypothesis],
+                placed: Sequence[Sequence[Hypothesis]] = ()) -> tuple[Floats, ...]:
+    """Models of the unseen runs with ``named`` in force; none where an instant is open in them."""
+    if not named:
+        return tuple(study.holdout_models)
+    every = placed_in(study, named, placed)
+    return tuple(_unseen(study, every)) if every else ()
+
+
+def _unseen(study: Study, placed: Sequence[Sequence[Hypothesis]]) -> list[Floats]:
+    """Models of the holdout with effects in force."""
     return study.simulate([(run, with_effects(study.packed, effects, run.recording.name))
-                           for run in study.holdout])
-
+                           for run, effects in zip(study.holdout, placed, strict=True)])

@@ -59,7 +59,7 @@ def search(study: Study, progress: Progress | None = None, most: int = _MOST_EFF
         named = [r.hypothesis for r in found.named]
         # two defects at once are rarer than one, and neither laws nor corrections are exact
         further = 0.0 if sound and not named else ODDS
-        this = shortlist(study, named, progress, further)
+        this = shortlist(study, named, progress, further, [one.named for one in found.after])
         ranked, found.chance = this.ranked, found.chance or this.chance
         if not rounds:
             found.tried = [Trial(r, Fate("refit", r.promise)) for r in ranked]
@@ -217,7 +217,7 @@ def _against(study: Study, found: Found, this: Round, one: Ranked, after: Sequen
     count, and only those that are left where a supported amount may scatter from run to run.
     """
     better = predicts_better(found.after, after)
-    known = asks_unseen(one.hypothesis, this.beside.named)
+    known = asks_unseen(one.hypothesis, this.beside)
     if better > (-ODDS if known else 0.0) or not can_judge(study, one.hypothesis):
         return None
     scatters = known and one.support > ODDS and (

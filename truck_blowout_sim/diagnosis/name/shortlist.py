@@ -29,16 +29,20 @@ class Round:
 
 
 def shortlist(study: Study, named: Sequence[Hypothesis], progress: Progress | None,
-              further: float = 0.0) -> Round:
+              further: float = 0.0, placed: Sequence[Sequence[Hypothesis]] = ()) -> Round:
     """All hypotheses not yet named, the promising ones refitted, best first.
 
-    ``further``: support asked beyond chance.
+    Args:
+        study: its models have ``named`` in force.
+        named: hypotheses; ``placed``: the same in each unseen run, with events at their instants.
+        progress: is told how far the round has come.
+        further: support asked beyond chance.
     """
     taken = {h.key for h in named}
     chi2 = study.projector(named).chi2(study.residual())
     steady = [h for h in steady_candidates(study) if h.key not in taken]
     ranking = rank_steady(study, steady, named, progress)
-    ranked, beside = ranking.ranked, Beside.of(study, named, study.models)
+    ranked, beside = ranking.ranked, Beside.of(study, named, study.models, placed)
     chance = Chance(ranking.scatter, ranking.independent, study.settings.alarms_by_name,
                     ranking.questions, further)
     places = event_places(study, named, ranked, chance)
