@@ -32,7 +32,6 @@ from truck_blowout_sim.diagnosis.name.judging import (
     ODDS,
     Found,
     at_bound,
-    models_with,
     predict_with,
     predicts_better,
     weakness,
@@ -86,8 +85,8 @@ def pair_with(study: Study, found: Found, disbelieved: Sequence[Ranked], chance:
         return pair
     before = study.models
     named = [*(r.hypothesis for r in found.named), first.hypothesis]
-    study.models = models_with(study, named)
-    ranked = shortlist(study, named, progress).ranked
+    study.models, after = predict_with(study, named)
+    ranked = shortlist(study, named, progress, placed=[run.named for run in after]).ranked
     study.models = before
     seconds = [one for one in ranked if not weakness(one, chance)]
     for second in sorted(seconds, key=worth, reverse=True)[:_SECONDS]:
@@ -137,7 +136,8 @@ def _each_supported(study: Study, fitted: Sequence[Ranked], chance: Chance, toge
     found = []
     for k, one in enumerate(fitted):
         others = [r.hypothesis for j, r in enumerate(fitted) if j != k]
-        beside = Beside.of(study, others, models_with(study, others))
+        models, after = predict_with(study, others)
+        beside = Beside.of(study, others, models, [run.named for run in after])
         joint = replace(one, evidence=max(one.evidence, together))
         found.append(replace(one, support=supported(study, joint, beside, chance).support))
     return found

@@ -57,8 +57,7 @@ def search(study: Study, progress: Progress | None = None, most: int = _MOST_EFF
     rounds: list[_Tried] = []
     while len(found.named) < most:
         named = [r.hypothesis for r in found.named]
-        # two defects at once are rarer than one, and neither laws nor corrections are exact
-        further = 0.0 if sound and not named else ODDS
+        further = 0.0 if sound else ODDS  # no correction is exact
         this = shortlist(study, named, progress, further, [one.named for one in found.after])
         ranked, found.chance = this.ranked, found.chance or this.chance
         if not rounds:
@@ -133,12 +132,13 @@ def _accept(study: Study, found: Found, this: Round, named: Sequence[Hypothesis]
     left = study.settings.law_leaves * max((r.evidence for r in found.named), default=0.0)
     excess = excess_of(study, found)
     passing: list[_Believed] = []
+    aside = 0.0
     for one in this.ranked:
         # what explains most of the rest is no leftover of a stronger effect's inexactness
         fate = weakness(one, this.chance, left if one.delta < _MOST * excess else 0.0)
         most = max((worth(p.ranked) for p in passing), default=0.0)
         if fate is None and imitates(one, this.ranked, this.chance):
-            fate = Fate("imitates")
+            fate, aside = Fate("imitates"), max(aside, worth(one))
         elif fate is None and passing and worth(one) < most - slack(passing[0].ranked):
             fate = Fate("explains", worth(one), most)
         elif fate is None:
@@ -153,7 +153,7 @@ def _accept(study: Study, found: Found, this: Round, named: Sequence[Hypothesis]
             note(found, one, fate)
     if not passing:
         return None, disbelieved
-    passing += _explaining_more(study, found, this, passing)
+    passing += _explaining_more(study, found, this, passing, aside)
     best = max(passing, key=lambda p: p.worth)
     fate = Fate("accepted", best.ranked.support, this.chance.asked)
     return _named(study, found, best, fate), disbelieved
@@ -181,14 +181,17 @@ def _named(study: Study, found: Found, best: _Believed, fate: Fate) -> Ranked:
 
 
 def _explaining_more(study: Study, found: Found, this: Round,
-                     passing: Sequence[_Believed]) -> list[_Believed]:
+                     passing: Sequence[_Believed], aside: float) -> list[_Believed]:
     """Causes that explain more than all that passed, beyond chance as single questions.
+
+    And more than ``aside``, what a wind explains that was set aside: else they may only be traces
+    of it, and it is asked again beside what is named.
 
     That something is missing is shown by then; what explains less shall not be named only because
     another cause was asked among many. A wind, a slope or a load that moves explains more by the
     instants that it chose; a lost tire and a loss of grip have paid for theirs.
     """
-    most = max(worth(p.ranked) for p in passing)
+    most = max(aside, *(worth(p.ranked) for p in passing))
     more = [one for one in this.ranked if worth(one) > most
             and not (one.hypothesis.times and one.hypothesis.effect.adds_up)
             and weakness(one, this.chance.alone) is None]
