@@ -87,7 +87,7 @@ JUDGMENTS = (
              "differ by, of all"),
     Judgment("fit.width_error", "RUN_SCATTER", "1 sigma from run to run of the logarithm of the "
              "mean square that a model leaves", share=False),
-    Judgment("locate.left_over", "_RUNS", "runs that this prior is worth", share=False),
+    Judgment("locate.by_chance", "_RUNS", "runs that this prior is worth", share=False),
     Judgment("locate.left_over", "NAMING_SHARE", "excess of training over baseline that a name "
              "must remove, of all"),
     Judgment("locate.lagging", "_SHARED", "lag of the opposite wheel from which on a drag is not "

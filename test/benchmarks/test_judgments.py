@@ -33,10 +33,10 @@ before = [one.value for one in JUDGMENTS]
 vary(1)
 after = [one.value for one in JUDGMENTS]
 assert all(a != b and 0.66 < b / a < 1.51 for a, b in zip(before, after, strict=True))
-left_over, outcome, scatter = (import_module(f"{ROOM}.{name}") for name in (
-    "locate.left_over", "answer.outcome", "fit.width_error"))
+left_over, outcome, by_chance, scatter = (import_module(f"{ROOM}.{name}") for name in (
+    "locate.left_over", "answer.outcome", "locate.by_chance", "fit.width_error"))
 assert left_over.NAMING_SHARE == outcome.NAMING_SHARE
-assert left_over.RUN_SCATTER == scatter.RUN_SCATTER
+assert by_chance.RUN_SCATTER == scatter.RUN_SCATTER
 """
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True,
                           check=False, cwd=PAGE.parents[1])
