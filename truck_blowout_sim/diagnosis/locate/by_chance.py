@@ -18,10 +18,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import lru_cache
-from math import comb
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.special import comb
 from scipy.stats import t as student
 
 from truck_blowout_sim.diagnosis.fit.width_error import RUN_SCATTER
@@ -29,8 +29,10 @@ from truck_blowout_sim.diagnosis.fit.width_error import RUN_SCATTER
 Floats = NDArray[np.float64]
 _RUNS = 6.0  # as many runs is the prior of their scatter worth: cases seldom have more
 _DRAWS = 100_000
+_BLOCK = 10_000  # of these at a time
 _RESOLVED = 10  # of the draws: fewer do not say how rare something is
 _SEED = 1908
+_MANY = 1e300  # ways: more are no number
 
 
 def most_by_chance(train: Sequence[float], baseline: Sequence[float], rate: float) -> float:
@@ -64,10 +66,13 @@ def chance_of_any(train: Sequence[float], baseline: Sequence[float], guess: floa
 def _rarest_by_chance(train: int, baseline: int, guess: float) -> Floats:
     """[draws] of :func:`_rarest` where nothing is missing, sorted."""
     rng = np.random.default_rng(_SEED)
-    scatter = RUN_SCATTER * np.sqrt(_RUNS / rng.chisquare(_RUNS, (_DRAWS, 1)))
-    runs = scatter * rng.standard_normal((_DRAWS, train + baseline))
-    still = runs[:, train:] + guess * rng.standard_normal((_DRAWS, baseline))
-    return np.sort(_rarest(runs[:, :train], still, guess))
+    found = []
+    for _ in range(_DRAWS // _BLOCK):
+        scatter = RUN_SCATTER * np.sqrt(_RUNS / rng.chisquare(_RUNS, (_BLOCK, 1)))
+        runs = scatter * rng.standard_normal((_BLOCK, train + baseline))
+        still = runs[:, train:] + guess * rng.standard_normal((_BLOCK, baseline))
+        found.append(_rarest(runs[:, :train], still, guess))
+    return np.sort(np.concatenate(found))
 
 
 def _rarest(train: Floats, still: Floats, guess: float) -> Floats:
@@ -76,10 +81,9 @@ def _rarest(train: Floats, still: Floats, guess: float) -> Floats:
     For k runs it is multiplied by the number of ways to choose these. ``still``: [..., m].
     """
     count = train.shape[-1]
-    falling = np.sort(train, axis=-1)[..., ::-1]
-    worst = [comb(count, k) * _chance_of_worst(falling, still, k, guess)
-             for k in range(1, count + 1)]
-    return np.asarray(np.min([_chance_of_all(train, still, guess), *worst], axis=0))
+    ways = np.minimum(comb(count, np.arange(1, count + 1)), _MANY)
+    worst = (ways * _chances_of_worst(train, still, guess)).min(axis=-1)
+    return np.minimum(_chance_of_all(train, still, guess), worst)
 
 
 def _chance_of_all(train: Floats, still: Floats, guess: float) -> Floats:
@@ -88,32 +92,40 @@ def _chance_of_all(train: Floats, still: Floats, guess: float) -> Floats:
     return np.asarray(student.sf((train.mean(axis=-1) - still.mean(axis=-1)) / spread, degrees))
 
 
-def _chance_of_worst(falling: Floats, still: Floats, k: int, guess: float) -> Floats:
-    """[...] that one run is beyond ``still`` as far as the k-th is; the k worst tell no scatter."""
-    rest = falling[..., k:]
-    variance, degrees = _pooled(rest, still)
+def _chances_of_worst(train: Floats, still: Floats, guess: float) -> Floats:
+    """[..., n] that one run is beyond ``still`` as far as the k-th is; the k worst tell no scatter.
+
+    The other runs do, by their number, their sum and that of their squares.
+    """
+    usual = still.mean(axis=-1, keepdims=True)
+    beyond = np.sort(train - usual, axis=-1)[..., ::-1]
+    others = np.arange(train.shape[-1])[::-1]
+    square = (_sum_of_later(beyond**2)
+              - _sum_of_later(beyond)**2 / np.maximum(others, 1))
+    degrees = _RUNS + still.shape[-1] - 1 + np.maximum(others - 1, 0)
+    own = np.sum(np.square(still - usual), axis=-1, keepdims=True)
+    variance = (np.maximum(square, 0.0) + own + _RUNS * RUN_SCATTER**2) / degrees
     spread, known = _with_guess(variance * (1.0 + 1.0 / still.shape[-1]), degrees, guess)
-    return np.asarray(student.sf((falling[..., k - 1] - still.mean(axis=-1)) / spread, known))
+    return np.asarray(student.sf(beyond / spread, known))
+
+
+def _sum_of_later(values: Floats) -> Floats:
+    """[..., n] sum of all that come after each."""
+    return np.asarray(np.cumsum(values[..., ::-1], axis=-1)[..., ::-1] - values)
 
 
 def _apart(train: Floats, still: Floats, guess: float) -> tuple[Floats, Floats]:
     """[...] spread of the difference of two means, and its degrees of freedom."""
-    variance, degrees = _pooled(train, still)
-    means = 1.0 / train.shape[-1] + 1.0 / still.shape[-1]
-    return _with_guess(variance * means, degrees, guess)
-
-
-def _pooled(*groups: Floats) -> tuple[Floats, float]:
-    """[...] variance within groups [..., n], the prior included, and its degrees of freedom."""
     squares: Floats = np.asarray(_RUNS * RUN_SCATTER**2)
     degrees = _RUNS
-    for one in (one for one in groups if one.shape[-1]):
+    for one in (train, still):
         squares = squares + np.sum(np.square(one - one.mean(axis=-1, keepdims=True)), axis=-1)
         degrees += one.shape[-1] - 1
-    return squares / degrees, degrees
+    means = 1.0 / train.shape[-1] + 1.0 / still.shape[-1]
+    return _with_guess(squares / degrees * means, np.asarray(degrees), guess)
 
 
-def _with_guess(variance: Floats, degrees: float, guess: float) -> tuple[Floats, Floats]:
+def _with_guess(variance: Floats, degrees: Floats, guess: float) -> tuple[Floats, Floats]:
     """Spread and degrees of freedom of an estimated variance and one that is known."""
     total = variance + guess**2
     return np.asarray(np.sqrt(total)), np.asarray(degrees * np.square(total / variance))
