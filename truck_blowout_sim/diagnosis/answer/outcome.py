@@ -21,7 +21,7 @@ from truck_blowout_sim.diagnosis.answer.unlisted import (
 from truck_blowout_sim.diagnosis.case.antilock import Lockup
 from truck_blowout_sim.diagnosis.case.runs import parting_notes
 from truck_blowout_sim.diagnosis.case.study import Study
-from truck_blowout_sim.diagnosis.fit.support import unseen_with
+from truck_blowout_sim.diagnosis.fit.support import placed_in, unseen_with
 from truck_blowout_sim.diagnosis.locate.beat import Beat
 from truck_blowout_sim.diagnosis.locate.lagging import Lag
 from truck_blowout_sim.diagnosis.locate.left_over import (
@@ -100,8 +100,8 @@ class Material:
     def squares(self) -> tuple[float, ...]:
         """Squares a row that each run keeps with everything named in force, unseen runs last."""
         named = [r.hypothesis for r in self.found.named]
-        placed = [one.named for one in self.found.after]
-        return mean_squares(self.study, named, unseen_with(self.study, named, placed))
+        placed = placed_in(self.study, named, [one.named for one in self.found.after])
+        return mean_squares(self.study, named, unseen_with(self.study, placed))
 
     @property
     def signs(self) -> tuple[words.Sign, ...]:

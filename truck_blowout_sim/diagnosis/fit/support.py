@@ -62,9 +62,9 @@ class Beside:
         """With the holdout simulated; events are ``placed`` in each run of it, if known."""
         nothing: Floats = np.zeros((0, 0))
         manners, every = tuple(driven(study)), placed_in(study, named, placed)
-        unseen = unseen_with(study, named, placed)
+        unseen = unseen_with(study, every)
         if not unseen:
-            return Beside(tuple(named), tuple(models), (), (), nothing, nothing, manners)
+            return Beside(tuple(named), tuple(models), every, (), nothing, nothing, manners)
         columns = np.concatenate([study.columns, *study.holdout_columns])
         gram = study.gram_of(range(len(study.runs) + len(study.holdout)))
         return Beside(tuple(named), tuple(models), every, unseen, columns, gram, manners)
@@ -210,13 +210,11 @@ def placed_in(study: Study, named: Sequence[Hypothesis],
     return (tuple(named),) * len(study.holdout)
 
 
-def unseen_with(study: Study, named: Sequence[Hypothesis],
-                placed: Sequence[Sequence[Hypothesis]] = ()) -> tuple[Floats, ...]:
-    """Models of the unseen runs with ``named`` in force; none where an instant is open in them."""
-    if not named:
-        return tuple(study.holdout_models)
-    every = placed_in(study, named, placed)
-    return tuple(_unseen(study, every)) if every else ()
+def unseen_with(study: Study, placed: Sequence[Sequence[Hypothesis]]) -> tuple[Floats, ...]:
+    """Models of the unseen runs with what :func:`placed_in` gives in force; none for nothing."""
+    if any(placed):
+        return tuple(_unseen(study, placed))
+    return tuple(study.holdout_models) if placed else ()
 
 
 def _unseen(study: Study, placed: Sequence[Sequence[Hypothesis]]) -> list[Floats]:
