@@ -105,7 +105,8 @@ JUDGMENTS = (
              "times what is asked", share=False),
     Judgment("name.judging", "_LAW", "residual that inexact laws may move from one cause to "
              "another, of all"),
-    Judgment("name.judging", "_ALIKE", "evidence that an alias may have less, of the best"),
+    Judgment("name.judging", "ALIAS_SHARE", "evidence that an alias has, at least, of that of "
+             "the best"),
     Judgment("name.judging", "_EVENT_WORTH", "evidence of an event beside that of a steady cause"),
     Judgment("name.pairing", "_MUCH", "support of a cause that the holdout rejects, from which on "
              "a second one is sought, times what is asked", share=False),

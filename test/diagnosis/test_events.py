@@ -55,6 +55,28 @@ def test_the_event_that_explains_most_is_fitted_though_others_scatter_less(
         "crosswind", "payload_shift", "secondary_blowout"}
 
 
+@pytest.mark.parametrize(("left_open", "fitted"), [(1e4, True), (50.0, False)])
+def test_a_loss_of_grip_that_shows_only_when_large_is_simulated_where_much_is_open(
+    study_of: Callable[..., Study], monkeypatch: pytest.MonkeyPatch, left_open: float, fitted: bool
+) -> None:
+    """Brakes that use half of the grip do not show that a third of it is gone."""
+    study = study_of()
+    small = scanned("friction_change", 0.0, 0.0)
+    small = replace(small, hypothesis=replace(small.hypothesis, times={}))
+    other = replace(scanned("payload_shift", left_open, 0.0), refitted=True)
+    large = replace(small, hypothesis=replace(small.hypothesis, amount=-0.85,
+                                              times={"run 1": (2.0, np.inf)}))
+    monkeypatch.setattr(events, "_scanned", lambda *_: [small])
+    monkeypatch.setattr(events, "simulated_starts", lambda *_: [large])
+    monkeypatch.setattr(events, "fitted_event", lambda study, one, *_: replace(
+        one, delta=500.0, refitted=True))
+    monkeypatch.setattr(events, "supported", lambda study, one, *_: one)
+    chi2 = 1e4 + study.level * study.columns.shape[0]
+    ranked = events.rank_events(study, Beside.of(study, (), study.models), chi2, CHANCE,
+                                (other,), (), None)
+    assert [one.hypothesis.amount for one in ranked if one.refitted] == ([-0.85] if fitted else [])
+
+
 @pytest.mark.parametrize(("delta", "again", "unseen", "least", "trusted", "left"), [
     (300.0, [8.0, 8.0], 0.0, 0.0, True, 30.0),  # beyond chance as a single question
     (300.0, [2.0, 2.0], 0.0, 0.0, True, 2.0),  # other hypotheses scatter as much

@@ -97,12 +97,12 @@ def rank_events(study: Study, beside: Beside, chi2: float, chance: Chance,
         among = (one.hypothesis.key in keys or len(keys) < study.refits[1]
                  or one.delta - cost > most)
         worth = max(worth, _HALF * most)
-        if one.hypothesis.times and (curved or (among and (
-                one.delta - cost > worth or one.support > chance.asked))):
+        promising = among and (one.delta - cost > worth or one.support > chance.asked)
+        starts = (simulated_starts(study, one, chi2, named)[:study.refits[1]] if curved
+                  else [one] if promising else [])
+        if any(each.hypothesis.times for each in starts):
             keys.add(one.hypothesis.key)
             seen = one
-            starts = (simulated_starts(study, one, chi2, named)[:study.refits[1]] if curved
-                      else [one])
             one = max((fitted_event(study, each, chi2, named) for each in starts),
                       key=lambda r: r.delta)
             one = (replace(one, support=seen.support, unseen=seen.unseen)

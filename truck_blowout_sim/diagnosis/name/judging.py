@@ -24,7 +24,7 @@ from truck_blowout_sim.diagnosis.sensors import GateResult, SensorFinding
 Floats = NDArray[np.float64]
 _LAW = 0.5  # of what is left unexplained: how far inexact laws may change places
 ODDS = 2.0 * np.log(20.0)  # support by which an explanation is 20 times as likely as another
-_ALIKE = 0.4  # less evidence than the best by more than this share is no alias
+ALIAS_SHARE = 0.6  # of the evidence of the best: what explains less is no alias
 _AT_BOUND = 0.002  # of the range
 _EVENT_WORTH = 0.8
 
@@ -106,7 +106,7 @@ def slack(best: Ranked, left: float = 0.0) -> float:
     what explains less than three fifths.
     """
     room = ODDS * max(best.delta / max(best.support, 1.0), 1.0)
-    return min(room + _LAW * left, _ALIKE * best.delta)
+    return min(room + _LAW * left, (1.0 - ALIAS_SHARE) * best.delta)
 
 
 def can_judge(study: Study, hypothesis: Hypothesis) -> bool:

@@ -14,6 +14,7 @@ from truck_blowout_sim.diagnosis.fit.scatter import Chance
 from truck_blowout_sim.diagnosis.fit.support import Beside, supported
 from truck_blowout_sim.diagnosis.name.candidates import steady_candidates
 from truck_blowout_sim.diagnosis.name.events import event_places, rank_events
+from truck_blowout_sim.diagnosis.name.judging import ALIAS_SHARE
 
 
 @dataclass(frozen=True, eq=False)
@@ -72,7 +73,9 @@ def best_forms(ranked: Sequence[Ranked], asked: float) -> list[Ranked]:
 def _promising(ranked: Sequence[Ranked], chance: Chance, most: int) -> list[Ranked]:
     """What to fit anew: by turns the best by what it explains and by how well it is supported.
 
-    Of an effect at a place every law that explains something is fitted.
+    Also the best place of every other effect that explains enough to be an alias: places of one
+    effect that are alike must not hide it. Of an effect at a place every law that explains
+    something is fitted.
     """
     worth = [one for one in ranked if one.promise > chance.asked]
     chosen: dict[tuple[str, str], list[Ranked]] = {}
@@ -80,6 +83,11 @@ def _promising(ranked: Sequence[Ranked], chance: Chance, most: int) -> list[Rank
         for one in pair:
             if len(chosen) < most:
                 chosen.setdefault(one.hypothesis.key, [])
+    fitted = {effect for effect, _ in chosen}
+    for one in (r for r in worth if r.promise >= ALIAS_SHARE * worth[0].promise):
+        if one.hypothesis.effect.name not in fitted:
+            fitted.add(one.hypothesis.effect.name)
+            chosen.setdefault(one.hypothesis.key, [])
     for one in worth:
         if one.hypothesis.key in chosen:
             chosen[one.hypothesis.key].append(one)
