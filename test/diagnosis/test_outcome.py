@@ -143,6 +143,22 @@ def test_training_that_keeps_more_than_baseline_is_unknown(pushed: Study, truck:
     assert decide(material(pushed, (swallowed,))) == "missing_physics"
 
 
+@pytest.mark.parametrize(("unseen_falls_to", "verdict"), [
+    (1.0, "missing_physics"), (19.0, "unknown")])
+def test_a_name_that_explains_most_of_unseen_runs_is_not_withheld(
+    pushed: Study, truck: Packed, unseen_falls_to: float, verdict: str
+) -> None:
+    """Training keeps 10 of 12 squares a row, an unseen run of the same length some of 20."""
+    assert len(pushed.baseline) == len(pushed.train) == 1
+    size = pushed.runs[pushed.train[0]].measured.size
+    study = replace(pushed, holdout=(pushed.runs[pushed.train[0]],))
+    one = material(study, (ranked(truck, "blown_tire_drag", 0.5, 2.0 * size),))
+    still = [1.0 if i in study.baseline else 12.0 for i in range(len(study.runs))]
+    after = [1.0 if i in study.baseline else 10.0 for i in range(len(study.runs))]
+    vars(one).update(squares=(*after, unseen_falls_to), squares_unnamed=(*still, 20.0))
+    assert decide(one) == verdict
+
+
 def test_what_a_corrected_instrument_leaves_is_nothing_unknown(pushed: Study) -> None:
     assert decide(material(pushed, faults=1)) == "sensor_artefact"
 

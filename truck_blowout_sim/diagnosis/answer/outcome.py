@@ -28,6 +28,7 @@ from truck_blowout_sim.diagnosis.locate.left_over import (
     NAMING_SHARE,
     chance_of_more,
     excess,
+    excess_of_all,
     expected_squares,
     keeps_more,
     mean_squares,
@@ -102,6 +103,12 @@ class Material:
         named = [r.hypothesis for r in self.found.named]
         placed = placed_in(self.study, named, [one.named for one in self.found.after])
         return mean_squares(self.study, named, unseen_with(self.study, placed))
+
+    @cached_property
+    def squares_unnamed(self) -> tuple[float, ...]:
+        """The same with nothing named."""
+        unnamed = replace(self.study, models=list(self.found.models_null))
+        return mean_squares(unnamed, unseen=unnamed.holdout_models)
 
     @property
     def signs(self) -> tuple[words.Sign, ...]:
@@ -221,8 +228,9 @@ def _told_of(material: Material) -> tuple[str, ...]:
 def unexplained(material: Material) -> bool:
     """Whether training keeps more than baseline, and what was named explains less than half.
 
-    Not asked beside a faulty instrument: once corrected, it leaves more of itself than models do.
-    Nor without baseline runs, see `untold`.
+    Less than half of training, and of training and the unseen runs together: these are asked, too,
+    whether they keep more. Not asked beside a faulty instrument: once corrected, it leaves more of
+    itself than models do. Nor without baseline runs, see `untold`.
     """
     if material.gate.findings or not material.study.baseline:
         return False
@@ -230,7 +238,11 @@ def unexplained(material: Material) -> bool:
     usual = expected_squares(study, squares)
     if not keeps_more(study, squares):
         return False
-    return bought < NAMING_SHARE * (excess(study, squares, usual) + bought)
+    if bought >= NAMING_SHARE * (excess(study, squares, usual) + bought):
+        return False
+    left = excess_of_all(study, squares, usual)
+    return not material.found.named or left > (1.0 - NAMING_SHARE) * excess_of_all(
+        study, material.squares_unnamed, usual)
 
 
 def untold(material: Material) -> bool:

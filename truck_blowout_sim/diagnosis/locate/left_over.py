@@ -117,6 +117,13 @@ def excess(study: Study, squares: Sequence[float], usual: float) -> float:
     return sum((squares[i] - usual) * study.runs[i].measured.size for i in study.train)
 
 
+def excess_of_all(study: Study, squares: Sequence[float], usual: float) -> float:
+    """The same, of the unseen runs, too."""
+    unseen = zip(study.holdout, squares[len(study.runs):], strict=False)
+    return excess(study, squares, usual) + sum(
+        (square - usual) * run.measured.size for run, square in unseen)
+
+
 def chance_of_more(study: Study, squares: Sequence[float]) -> float:
     """Chance that training, or some runs of it, keep so much more where nothing is missing."""
     train = [squares[i] for i in study.train] + list(squares[len(study.runs):])
