@@ -106,9 +106,9 @@ class Material:
 
     @cached_property
     def squares_unnamed(self) -> tuple[float, ...]:
-        """The same with nothing named."""
+        """The same with nothing named, of the same runs."""
         unnamed = replace(self.study, models=list(self.found.models_null))
-        return mean_squares(unnamed, unseen=unnamed.holdout_models)
+        return mean_squares(unnamed, unseen=unnamed.holdout_models)[:len(self.squares)]
 
     @property
     def signs(self) -> tuple[words.Sign, ...]:
