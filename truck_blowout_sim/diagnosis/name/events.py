@@ -98,8 +98,9 @@ def rank_events(study: Study, beside: Beside, chi2: float, chance: Chance,
                  or one.delta - cost > most)
         worth = max(worth, _HALF * most)
         promising = among and (one.delta - cost > worth or one.support > chance.asked)
-        starts = (simulated_starts(study, one, chi2, named)[:study.refits[1]] if curved
-                  else [one] if promising else [])
+        starts = [one] if promising else []
+        if curved:
+            starts = simulated_starts(study, one, chi2, named)[:study.refits[1]]
         if any(each.hypothesis.times for each in starts):
             keys.add(one.hypothesis.key)
             seen = one

@@ -84,10 +84,11 @@ def _promising(ranked: Sequence[Ranked], chance: Chance, most: int) -> list[Rank
             if len(chosen) < most:
                 chosen.setdefault(one.hypothesis.key, [])
     fitted = {effect for effect, _ in chosen}
-    for one in (r for r in worth if r.promise >= ALIAS_SHARE * worth[0].promise):
-        if one.hypothesis.effect.name not in fitted:
-            fitted.add(one.hypothesis.effect.name)
-            chosen.setdefault(one.hypothesis.key, [])
+    for one in worth:
+        name = one.hypothesis.effect.name
+        if name not in fitted and one.promise >= ALIAS_SHARE * worth[0].promise:
+            fitted.add(name)
+            chosen[one.hypothesis.key] = []
     for one in worth:
         if one.hypothesis.key in chosen:
             chosen[one.hypothesis.key].append(one)
