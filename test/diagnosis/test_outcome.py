@@ -159,6 +159,19 @@ def test_a_name_that_explains_most_of_unseen_runs_is_not_withheld(
     assert decide(one) == verdict
 
 
+def test_what_a_name_leaves_is_said_with_the_run_that_keeps_most(
+    pushed: Study, truck: Packed
+) -> None:
+    left = pushed.projector().chi2(pushed.residual())
+    some = material(pushed, (ranked(truck, "blown_tire_drag", 0.5, 2.0 * left),))
+    worst = pushed.runs[pushed.train[0]].recording.name
+    (said,) = cautions(some)
+    assert said.startswith(f"That is not all: {worst} still differs")
+    assert said in answer(some).sentence
+    vars(some).update(squares=(1.0,) * len(pushed.runs))
+    assert cautions(some) == ()
+
+
 def test_what_a_corrected_instrument_leaves_is_nothing_unknown(pushed: Study) -> None:
     assert decide(material(pushed, faults=1)) == "sensor_artefact"
 

@@ -154,7 +154,26 @@ def answer(material: Material) -> Diagnosis:
 def cautions(material: Material) -> tuple[str, ...]:
     """Sentences beside the verdict, whatever it is."""
     said = () if material.lockup is None else (material.lockup.sentence,)
-    return (*said, words.left_untold(material.squares)) if untold(material) else said
+    if untold(material):
+        return (*said, words.left_untold(material.squares))
+    return (*said, _left_beside_names(material)) if _more_beside_names(material) else said
+
+
+def _more_beside_names(material: Material) -> bool:
+    """Whether training keeps more than baseline though a name stands, which explains most of it."""
+    study = material.study
+    return (bool(study.baseline) and not material.gate.findings
+            and decide(material) == "missing_physics" and keeps_more(study, material.squares))
+
+
+def _left_beside_names(material: Material) -> str:
+    """Which run keeps most, and how much more than baseline runs do."""
+    study, squares = material.study, material.squares
+    asked = [*study.train, *range(len(study.runs), len(squares))]
+    worst = max(asked, key=lambda i: squares[i])
+    run = [*study.runs, *study.holdout][worst]
+    return words.left_beside_names(
+        run.recording.name, float(np.sqrt(squares[worst] / expected_squares(study, squares))))
 
 
 def as_told(material: Material) -> Material:

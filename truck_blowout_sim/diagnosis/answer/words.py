@@ -106,6 +106,12 @@ def left_untold(squares: Sequence[float]) -> str:
             "another truck, or physics is missing.")
 
 
+def left_beside_names(run: str, times: float) -> str:
+    """What is named explains most, but not all: which run keeps most beside baseline runs."""
+    return (f"That is not all: {run} still differs {times:.1f} times as much as baseline runs do, "
+            "so something smaller is missing, too, or what is named has another form.")
+
+
 def _verdict(verdict: Verdict, effects: Sequence[Effect], pulled: Sequence[tuple[str, float]],
              law: Law | None, signs: Sequence[Sign]) -> str:
     if verdict == "consistent":
