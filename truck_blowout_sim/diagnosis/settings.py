@@ -83,7 +83,7 @@ class Settings:
     @property
     def alarms_by_name(self) -> float:
         """False alarms that the search for names may raise: the others are for ``unknown``."""
-        return 0.45 * self.false_alarms
+        return 0.44 * self.false_alarms
 
     @property
     def alarms_by_rest(self) -> float:
@@ -99,7 +99,7 @@ class Settings:
     def law_leaves(self) -> float:
         """Share of what an effect explains that an inexact form of its law may leave to others.
 
-        Squares go with the square of how far forms of one law differ, at most.
+        Squares go with the square of how far two forms of one law differ (rms).
         """
         return max(self.form_share, *self.forms.values(), 0.0) ** 2
 

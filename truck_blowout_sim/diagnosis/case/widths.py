@@ -1,13 +1,14 @@
 """How far good models of one vehicle may differ in each bin: the widths, first guess.
 
-    sigma^2 = noise^2 + (w^2 (floor^2 + (relative swing)^2) + step^2) correlation / bin
+    sigma^2 = noise^2 + (floor^2 + (relative swing)^2 + step^2) correlation / bin
 
 Step is what a finer step changes in the model, rms over half a maneuver: where friction sticks and
 slips, no step is fine enough for two simulations to agree.
 
-The swing is the rms, over half a maneuver, of how far the *model's* signal is from its median. A
-model that is late is off most where its signal passes zero, so the swing of one bin would be wrong.
-The measured signal would be wrong, too: what is missing moves the vehicle, and would excuse itself.
+The swing is the rms, over half a maneuver, of how far a signal is from its median: the smaller one
+of model and recording. A model that is late is off most where its signal passes zero, so the swing
+of one bin would be wrong. The measured signal alone would be wrong, too: what is missing moves the
+vehicle, and would excuse itself.
 
 References: Kennedy and O'Hagan 2001 (a model's discrepancy beside the noise of the instrument).
 Known limits: a model that stands still where the vehicle moves is believed to its floor.
@@ -56,7 +57,7 @@ def widths(channels: Sequence[str], noise: Floats, swing: Floats, settings: Sett
 
     Args:
         channels: names, m of them; ``noise``: [n, m] standard errors of the instrument alone.
-        swing: [n, m] of the model's signal.
+        swing: [n, m] the smaller of the model's and the recording's.
         settings: floors and shares; ``step``: [n, m] rms of what a finer step changes.
     """
     floor, relative = _rules(channels, settings)

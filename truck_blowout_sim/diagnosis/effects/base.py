@@ -115,7 +115,7 @@ class Effect:
         absorbs: calibration number that means the same as this amount; ``{hub}`` and ``{role}``
             (of the axle) are filled in.
         of_file: scales a number of the vehicle's file that no calibration number stands for.
-        published_range: `material` is what all published tests differ by: no file is further off.
+        whole_range: `material` covers all that such parts are held to do: no file is further off.
         far_from_limit: by so much models of equal slope and peak seem to differ in the amount, 1
             sigma, in runs far from the limit of grip; the less, the nearer.
         near_limit: the same of runs at the limit of grip; the less, the farther.
@@ -137,7 +137,7 @@ class Effect:
     kind: Kind = "physics"
     absorbs: str = ""
     of_file: bool = False
-    published_range: bool = False
+    whole_range: bool = False
     far_from_limit: float = 0.0
     near_limit: float = 0.0
     any_direction: bool = False
@@ -154,7 +154,7 @@ class Effect:
         """1 sigma by which trucks of one kind differ in the amount, and roads, winds and loads.
 
         A number of the vehicle's file may be wrong: then trucks differ from it by four times as
-        much, unless the spread is already that between all published tests. What forms of a law
+        much, unless the spread already covers all that such parts do. What forms of a law
         differ by is no matter of the file. What the sheet still calibrates beside the effect has
         that chance already.
 
@@ -163,7 +163,7 @@ class Effect:
         used = grip_used.whole if self.any_direction else grip_used.side
         forms = self.far_from_limit * (1.0 - used) + self.near_limit * used
         trucks = 0.5 * self.amount.material * self.grows_with(packed)
-        stated = (self.absorbs or self.of_file) and not (self.met or self.published_range)
+        stated = (self.absorbs or self.of_file) and not (self.met or self.whole_range)
         sizes = (1.0, WRONG_SHEET) if stated else (1.0,)
         return tuple(float(np.hypot(size * trucks, forms)) for size in sizes)
 

@@ -11,8 +11,8 @@ from truck_blowout_sim.diagnosis.effects.base import (
 
 EFFECT = Effect(
     name="blown_tire_cornering",
-    amount=Amount("cornering_factor", "1", step=0.3, low=-1.0, high=4.0, material=1.0,
-                  source="a flat tire keeps 5 to 40 % of it between tests: half (1 sigma)",
+    amount=Amount("cornering_factor", "1", step=0.3, low=-1.0, high=4.0, material=1.2,
+                  source="a flat tire keeps 5 to 40 % of it: 60 % (1 sigma)",
                   report=lambda a: 1.0 + a, grid=(1.0, -0.7, 2.5),
                   at_low="The blown tire at {where} has lost all of its cornering force (90 %: at "
                          "most {percent} percent of the sheet's)."),
@@ -24,5 +24,5 @@ EFFECT = Effect(
     equation="F_y,flat = {value} * c_flat * F_y(alpha, F_z)",
     splits="a steering reversal after the blowout",
     absorbs="flat_cornering",
-    published_range=True,
+    whole_range=True,
 )

@@ -11,8 +11,8 @@ from truck_blowout_sim.diagnosis.effects.base import (
 
 EFFECT = Effect(
     name="blown_tire_drag",
-    amount=Amount("drag_factor", "1", step=0.2, low=-0.9, high=6.0, material=0.8,
-                  source="coefficients of 0.08 to 0.25 between tests: 40 % (1 sigma)",
+    amount=Amount("drag_factor", "1", step=0.2, low=-0.9, high=6.0, material=0.66,
+                  source="coefficients of 0.08 to 0.25 on the rim: 33 % (1 sigma)",
                   report=lambda a: 1.0 + a, grid=(0.5, -0.4, 1.5, 4.0)),
     places=each_tire,
     values=lambda packed, place, a: scaled(packed, [f"tire.{place.tire}.flat_drag_scale"], a),
@@ -22,5 +22,5 @@ EFFECT = Effect(
     equation="D_flat = {value} * f_flat * F_z  (rolling moment M = D_flat * R_e)",
     splits="the wheel speed of the blown tire, or the loss of speed against the yaw moment",
     absorbs="flat_drag",
-    published_range=True,
+    whole_range=True,
 )

@@ -46,7 +46,7 @@ def _wind(packed: Packed, place: Place, amount: float, ahead: float) -> Values:
 
 EFFECT = Effect(
     name="crosswind",
-    amount=Amount("wind_speed_mps", "m/s", step=3.0, low=-50.0, high=50.0, material=4.5,
+    amount=Amount("wind_speed_mps", "m/s", step=3.0, low=-50.0, high=50.0, material=4.4,
                   file_share=_SIDE_FORCE,
                   source="turbulence of a fifth of a fresh breeze, 11 m/s: 2.2 m/s (1 sigma)"),
     places=each_unit,

@@ -14,7 +14,7 @@ from truck_blowout_sim.diagnosis.effects.base import (
 
 EFFECT = Effect(
     name="driveline_drag",
-    amount=Amount("extra_drag_n", "N", step=800.0, low=-1500.0, high=40000.0, material=0.0026,
+    amount=Amount("extra_drag_n", "N", step=800.0, low=-1500.0, high=40000.0, material=0.0024,
                   source="tires lose a fifth of 0.006 of the load as they warm up (1 sigma)",
                   grid=(3000.0, 9000.0, 27000.0)),
     places=whole_truck,

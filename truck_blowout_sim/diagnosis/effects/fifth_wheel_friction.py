@@ -11,8 +11,8 @@ from truck_blowout_sim.diagnosis.effects.base import (
 
 EFFECT = Effect(
     name="fifth_wheel_friction",
-    amount=Amount("extra_moment_nm", "N m", step=1500.0, low=0.0, high=60000.0, material=1500.0,
-                  source="greased or dry, 1 to 2 kN m: 0.75 kN m (1 sigma)",
+    amount=Amount("extra_moment_nm", "N m", step=1500.0, low=0.0, high=60000.0, material=640.0,
+                  source="friction of greased plates, 0.05 to 0.15: 32 % of 1 kN m (1 sigma)",
                   grid=(6000.0, 20000.0, 45000.0)),
     places=lambda vehicle: whole_truck(vehicle) if len(vehicle.units) == 2 else (),
     values=lambda packed, place, a: added(packed, "fifth_wheel.yaw_friction_nm", a),

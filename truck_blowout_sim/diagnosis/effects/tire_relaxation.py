@@ -11,8 +11,8 @@ from truck_blowout_sim.diagnosis.effects.base import (
 
 EFFECT = Effect(
     name="tire_relaxation",
-    amount=Amount("relaxation_factor", "1", step=0.3, low=0.0, high=8.0, material=0.8,
-                  source="0.3 to 0.8 m between truck tires: Pacejka 2012, ch. 7; 40 % (1 sigma)",
+    amount=Amount("relaxation_factor", "1", step=0.3, low=0.0, high=8.0, material=0.56,
+                  source="0.3 to 0.8 m between truck tires: 28 % (1 sigma)",
                   report=lambda a: 1.0 + a, grid=(1.0, 3.0, 6.0)),
     places=whole_truck,
     values=lambda packed, place, a: scaled(

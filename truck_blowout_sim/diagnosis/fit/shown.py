@@ -110,7 +110,7 @@ class Shown:
     @cached_property
     def likelihoods(self) -> tuple[Floats, Floats]:
         """Log-likelihoods [k] for each scatter, without the effect and at its best amount."""
-        chance = np.log([1.0, _WRONG_SHEETS][:len(self.strays)])
+        chance = np.log([1.0 - _WRONG_SHEETS, _WRONG_SHEETS] if len(self.strays) > 1 else [1.0])
         both = [[more + part for part in self._likelihood(stray)]
                 for more, stray in zip(chance, self.strays, strict=True)]
         without, best = np.logaddexp.reduce(np.array(both), axis=0)

@@ -34,6 +34,7 @@ Integers = NDArray[np.int64]
 Times = Mapping[str, tuple[float, float]]
 _REFINE_S = (0.5, 0.25, 0.12)
 _SWEEPS = 6  # at most, until no run's instant moves
+_SHOWN = 4.0  # of the sum of squares, two standard errors: below it a run has no event
 _DIM = 1e-12  # information on an amount: less shows nothing
 
 
@@ -103,7 +104,7 @@ def _best_of_sign(study: Study, projector: Projector, effect: Effect, place: Pla
     for i in study.train:
         run = study.runs[i]
         delta, span, column = _best_span(effect, shown[i], spacing_s(run), low, high)
-        if delta > 4.0:
+        if delta > _SHOWN:
             times[run.recording.name] = span
             total = total + study.stack({i: column})
     found = score(projector, removed, total, low, high)

@@ -17,7 +17,8 @@ from truck_blowout_sim.diagnosis.result.parts import Place
 from truck_blowout_sim.diagnosis.sensors import SensorFinding
 
 FloatArray = NDArray[np.float64]
-# prior sigmas from the sheet beyond which a number is told: less than the three where it is stopped
+# prior sigmas from the sheet beyond which a number is told: just below the three at which
+# predictions stop it, so that what is stopped is told
 FAR = 2.9
 Role = Literal["train", "holdout", "baseline"]
 
