@@ -17,7 +17,7 @@ from truck_blowout_sim.yaml_numbers import load_yaml
 def settings_tree(path: Path) -> dict[str, Any]:
     """The keys of a file; what it does not say is as in the file that it extends.
 
-    Numbers of the sheet and of the method are taken over one by one, channels and limits as a
+    Numbers of the sheet and of the method are taken over one by one, channels and forms as a
     whole.
 
     Raises:

@@ -180,7 +180,7 @@ def as_told(material: Material) -> Material:
     """The material with the effects that the answer names in force: none where it is `unknown`.
 
     What explains less than half of a mismatch is no name for it; it stays among the candidates.
-    What has no name to withhold stays in force.
+    Where only candidates without a name are in force, they stay in force.
     """
     study, found = material.study, material.found
     if not listed(found.named) or decide(material) != "unknown":

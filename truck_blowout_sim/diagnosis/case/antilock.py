@@ -4,8 +4,9 @@ Anti-lock control that works lets no wheel it senses stand for longer than a mom
 recording shows one that does, under the brake and on a fast vehicle, the control is broken or was
 never fitted; the model then goes without it, or else no grip of the road would explain the run.
 
-References: FMVSS 121 (49 CFR 571.121) S5.3.1: above 20 mph no lockup but that which the control
-allows, and none of more than one second at a wheel that it does not control.
+References: FMVSS 121 (49 CFR 571.121) S5.3.1: above 20 mph, a controlled wheel may lock for a
+second at most. (One wheel of an axle may be without control, and lock for longer: a wheel without a
+sensor is not asked.)
 Known limits: the whole vehicle is taken to have it or not; what no recorded wheel tells stays as
 the sheet has it; a wheel on a lost tire tells nothing.
 Validated with: test/diagnosis/test_antilock.py.

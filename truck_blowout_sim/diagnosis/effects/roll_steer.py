@@ -4,7 +4,8 @@ Near the limit of grip a tire's form looks the same: the slip at which it makes 
 the force, as roll does. Between a brush tire, tanh, the Magic Formula and Dugoff's tire of equal
 slope and peak, the slips at a share u of the peak differ by 0.16 u^2 (1 sigma, up to u = 0.6, and
 no less beyond) in units of the peak over the slope. Divided by the roll angle there, with 6/rad
-of slope over load and 0.1 rad/g of roll, that is a roll steer of about 0.2 u.
+of slope over load and 0.1 rad/g of roll, that is a roll steer of 0.27 u up to
+u = 0.6 and of 0.2 u nearer to the limit, where it matters.
 
 References: Pacejka 2012, ch. 3 (brush) and 4 (Magic Formula); Dugoff et al. 1970.
 Validated with: test/diagnosis/test_effects.py (the four forms, inverted).

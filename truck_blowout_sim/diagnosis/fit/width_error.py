@@ -7,7 +7,7 @@ square of a t-law. What says more than that says of the effect cannot be said: w
 an amount that changes hardly more than widths allow, they may agree on what the model does wrong.
 
 References: Student 1908; Satterthwaite 1946 (degrees of freedom of an estimated variance).
-Known limits: one factor for all channels; how much runs differ is a judgement (see `left_over.py`).
+Known limits: one factor for all channels; how much runs differ is a judgement (see `by_chance.py`).
 Validated with: test/diagnosis/test_width_error.py (a t-law's quantiles; Gaussian for many runs).
 """
 

@@ -5,7 +5,7 @@ all together; its curvature, nuisances projected out, is the information of a Ga
 onset alone would be taken for better known than it is: a later start and a stronger amount look
 alike. Another form of law has another amount, and the instants move with it. What begins gradually,
 in another way than modelled, adds `onset_form_s` of its effect, and what also ends a share of its
-duration: a gust (1 - cos) of the same force, middle and width as one that is on or off begins 0.29
+duration: a gust (1 - cos) of the same force, middle and width as one that is on or off begins 0.30
 of that duration earlier; a load that slides faster and faster begins 0.32 earlier than one that
 slides evenly. What was there before it showed is in `hidden.py`.
 
