@@ -250,6 +250,13 @@ def test_the_greatest_of_two_sets_of_powers_differ_by_a_known_factor(strong: flo
     assert np.mean(beyond) == pytest.approx(0.01, abs=0.004)
 
 
+def test_the_factor_grows_as_false_alarms_become_rarer_and_stays_finite() -> None:
+    factors = [times_as_strong(32, rate) for rate in (1.0, 0.1, 1e-4, 1e-9, 1e-30)]
+    assert factors == sorted(factors)
+    assert factors[0] >= 1.0
+    assert factors[-1] <= 16.0
+
+
 def test_a_tone_no_stronger_than_the_waves_of_baseline_runs_is_none() -> None:
     train, other = tones(1, surge=0.03), tones(2)
     loud = replace(other, ratios=np.roll(train.ratios, 120, axis=1), baseline=True)

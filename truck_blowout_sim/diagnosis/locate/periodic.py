@@ -45,7 +45,9 @@ from truck_blowout_sim.diagnosis.result.evidence import BeatScores
 
 Floats = NDArray[np.float64]
 _SHAKES = ("_az_mps2",)  # vertical: a wheel shakes the unit that stands on it
-_CELLS = 32  # paces that a third of a run of 14 s resolves, and distances that one of 300 m does
+# paces that a third of a run of 14 s resolves, and distances that one of 300 m does; in a run of
+# 10 s they are 23, and chance reaches as much four times as often
+_CELLS = 32
 _BY_ITSELF = 2.0  # standard errors in each run: an engine's tone meets a wheel's pace in one only
 _ALWAYS = 0.3  # of the training runs' lines: from here on the baseline has them too
 
@@ -152,7 +154,10 @@ def times_as_strong(cells: int, rate: float) -> float:
     """Factor by which the greatest of so many powers exceeds that of as many others by chance."""
     def above(c: float) -> float:
         return float((1.0 - c) * np.log(cells) + gammaln(1.0 + c) - np.log(min(rate, 1.0)))
-    return 1.0 if above(1.0) <= 0.0 else float(brentq(above, 1.0, 0.5 * cells))
+    furthest = 0.5 * cells
+    if above(1.0) <= 0.0:
+        return 1.0
+    return furthest if above(furthest) > 0.0 else float(brentq(above, 1.0, furthest))
 
 
 def _shaken_most(lines: Sequence[Lines], k: int, kind: Kind) -> tuple[str, float]:
