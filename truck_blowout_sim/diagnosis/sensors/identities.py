@@ -21,6 +21,7 @@ from numpy.typing import NDArray
 
 from truck_blowout_sim.diagnosis.sensors.geometry import Geometry
 from truck_blowout_sim.diagnosis.sensors.signals import Signals
+from truck_blowout_sim.diagnosis.sensors.windows import Windows
 from truck_blowout_sim.recordings.gravity import AT_REST_MPS2
 
 FloatArray = NDArray[np.float64]
@@ -60,6 +61,13 @@ class Identity:
     def available(self, signals: Signals) -> bool:
         """Whether the channels it needs were recorded."""
         return all(name in signals for name in self.needs)
+
+    def under(self, windows: Windows, signals: Signals) -> FloatArray:
+        """What it leaves under each bump; NaN where it cannot be asked."""
+        out = windows.mean(self.algebraic(signals))
+        for channel, factor in self.rates:
+            out = out - factor * windows.derivative(signals[channel])
+        return out
 
 
 def body_identities(unit: str) -> tuple[Identity, ...]:

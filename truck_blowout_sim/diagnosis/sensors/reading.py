@@ -60,14 +60,14 @@ class Reading:
                   *axle_identities(signals, geometry)]
         kept = tuple(i for i in asked if i.available(signals))
         windows = make_windows(signals.period_s)
-        left = {i.name: _left(i, signals, windows) for i in kept}
+        left = {i.name: i.under(windows, signals) for i in kept}
         return cls(signals, kept, windows, left, _mounted(signals, windows))
 
     def read_as(self, convention: Convention) -> Reading:
         """The log under another reading."""
         signals = convention.read(self.signals)
         touched = self._touched(convention)
-        left = {i.name: _left(i, signals, self.windows) if i in touched else self.left[i.name]
+        left = {i.name: i.under(self.windows, signals) if i in touched else self.left[i.name]
                 for i in self.identities}  # fmt: skip
         return replace(self, signals=signals, left=left)
 
@@ -103,7 +103,7 @@ class Reading:
         signals, total = convention.read(self.signals), np.zeros(2)
         for i in self._touched(convention):
             before = self.left[i.name]
-            found = _unmounted(before, _left(i, signals, self.windows), self.mounted)
+            found = _unmounted(before, i.under(self.windows, signals), self.mounted)
             if found is not None:
                 old, new = found
                 moved = old - new
@@ -132,16 +132,8 @@ class Reading:
         return sum(self._gain(i, signals) for i in self.identities if "acceleration" in i.name)
 
     def _gain(self, identity: Identity, signals: Signals) -> float:
-        after = _left(identity, signals, self.windows)
+        after = identity.under(self.windows, signals)
         return _gain(self.left[identity.name], after, self.mounted, self.windows)
-
-
-def _left(identity: Identity, signals: Signals, windows: Windows) -> FloatArray:
-    """What the identity leaves under each bump; NaN where it cannot be asked."""
-    out = windows.mean(identity.algebraic(signals))
-    for channel, factor in identity.rates:
-        out = out - factor * windows.derivative(signals[channel])
-    return out
 
 
 def _mounted(signals: Signals, windows: Windows) -> FloatArray:

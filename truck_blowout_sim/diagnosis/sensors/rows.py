@@ -91,7 +91,7 @@ def build_rows(
     weights = np.zeros((*shape, len(names)))
     slope_of = channel_slopes(smooth, columns, signals.period_s)
     for a, identity in enumerate(identities):
-        residual[:, a] = _project(windows, identity.algebraic(signals), signals, identity)
+        residual[:, a] = identity.under(windows, signals)
         gains = channel_gains(smooth, identity)
         for channel, gain in gains.items():
             weights[:, a, names.index(channel)] = gain[centres]
@@ -150,15 +150,6 @@ def whiten(rows: Rows, inflation: FloatArray) -> tuple[FloatArray, FloatArray]:
     if info != 0:
         raise ArithmeticError(f"covariance of the identities is singular at row {info}")
     return solved[:, 0], solved[:, 1:]
-
-
-def _project(
-    windows: Windows, algebraic: FloatArray, signals: Signals, identity: Identity
-) -> FloatArray:
-    out = windows.mean(algebraic)
-    for channel, factor in identity.rates:
-        out = out - factor * windows.derivative(signals[channel])
-    return out
 
 
 def channel_gains(smooth: Signals, identity: Identity) -> dict[str, FloatArray]:
