@@ -150,43 +150,52 @@ def _finding(offset: float, sigma: float) -> SensorFinding:
 
 
 def _run(signals: Signals, is_baseline: bool, recording: Recording) -> _Run | None:
-    n, m = channel_names("tractor"), channel_names("trailer")
-    if _WHEEL not in recording or any(n[key] not in signals for key in ("vx", "vy", "r")):
+    moves = _motion(signals, _SMOOTH_S)
+    if _WHEEL not in recording or moves is None:
+        return None
+    motion, used = moves
+    stride = max(1, round(_STRIDE_S / signals.period_s))
+    chosen = np.flatnonzero(used)[::stride]
+    if chosen.size < _LEAST_SAMPLES:
         return None
     width = _SMOOTH_S / signals.period_s
     wheel = smoothed(recording.at(_WHEEL, signals.time_s), width)
-    vx, vy, r = (smoothed(signals[n[key]], width) for key in ("vx", "vy", "r"))
-    usable = _quiet(signals) & (vx > _SLOWEST_MPS)
-    stride = max(1, round(_STRIDE_S / signals.period_s))
-    chosen = np.flatnonzero(usable)[::stride]
-    if chosen.size < _LEAST_SAMPLES:
+    n, m = channel_names("tractor"), channel_names("trailer")
+    both = m["yaw"] in signals and n["yaw"] in signals
+    bend = (smoothed(signals[m["yaw"]] - signals[n["yaw"]], width) if both
+            else np.zeros_like(signals.time_s))  # fmt: skip
+    stance = np.column_stack([motion[:, 3], bend, smoothed(signals[n["roll"]], width)])[chosen]
+    return _Run(signals.name, is_baseline, wheel[chosen], motion[chosen], np.nan_to_num(stance))
+
+
+def _motion(signals: Signals, smooth_s: float) -> tuple[FloatArray, NDArray[np.bool_]] | None:
+    """Motion that needs a wheel angle, columns as of a run, and the samples that count.
+
+    None where speed, side speed or yaw rate was not recorded.
+    """
+    n = channel_names("tractor")
+    if any(n[key] not in signals for key in ("vx", "vy", "r")):
         return None
+    vx, vy, r = (smoothed(signals[n[key]], smooth_s / signals.period_s)
+                 for key in ("vx", "vy", "r"))  # fmt: skip
+    fast = vx > _SLOWEST_MPS
+    along = np.where(fast, vx, np.nan)
     lateral = np.gradient(vy, signals.period_s) + vx * r
     turning = np.gradient(r, signals.period_s)
-    motion = np.column_stack([r / vx, lateral, turning, vy / vx])[chosen]
-    both = m["yaw"] in signals and n["yaw"] in signals
-    bend = smoothed(signals[m["yaw"]] - signals[n["yaw"]], width) if both else np.zeros_like(vx)
-    stance = np.column_stack([vy / vx, bend, smoothed(signals[n["roll"]], width)])[chosen]
-    return _Run(signals.name, is_baseline, wheel[chosen], motion, np.nan_to_num(stance))
+    motion = np.column_stack([r / along, lateral, turning, vy / along])
+    return motion, _quiet(signals) & fast
 
 
 def late_hand_wheel(
     signals: Sequence[Signals], is_baseline: Sequence[bool], recordings: Sequence[Recording]
 ) -> SensorFinding | None:
     """The finding that the hand wheel reads late; arguments as in :func:`steering_zero`."""
-    n = channel_names("tractor")
     runs = []
     for s, baseline, recording in zip(signals, is_baseline, recordings, strict=True):
-        wheel = read_wheel(s, recording)
-        if baseline or wheel is None or any(n[key] not in s for key in ("vx", "vy", "r")):
+        wheel, moves = read_wheel(s, recording), _motion(s, _SMOOTH_LITTLE_S)
+        if baseline or wheel is None or moves is None:
             continue
-        width = _SMOOTH_LITTLE_S / s.period_s
-        vx, vy, r = (smoothed(s[n[key]], width) for key in ("vx", "vy", "r"))
-        fast = vx > _SLOWEST_MPS
-        along = np.where(fast, vx, np.nan)
-        lateral = np.gradient(vy, s.period_s) + vx * r
-        motion = np.column_stack([r / along, lateral, np.gradient(r, s.period_s), vy / along])
-        runs.append(Steered(smoothed(wheel, width), motion, _quiet(s) & fast, s.period_s))
+        runs.append(Steered(smoothed(wheel, _SMOOTH_LITTLE_S / s.period_s), *moves, s.period_s))
     return late_wheel(runs)
 
 
