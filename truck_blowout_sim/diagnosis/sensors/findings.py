@@ -11,6 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from truck_blowout_sim.diagnosis.result.quantiles import NINETY
 from truck_blowout_sim.diagnosis.sensors.distortions import Distortion
 
 FloatArray = NDArray[np.float64]
@@ -23,6 +24,12 @@ class Amount:
     value: float
     unit: str
     ci90: tuple[float, float]
+
+    @classmethod
+    def about(cls, value: float, unit: str, sigma: float) -> Amount:
+        """A value with its standard error."""
+        half = NINETY * sigma
+        return cls(value, unit, (value - half, value + half))
 
 
 @dataclass(frozen=True)

@@ -15,7 +15,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from truck_blowout_sim.diagnosis.fit.threads import one_blas_thread
-from truck_blowout_sim.diagnosis.result.quantiles import NINETY
 from truck_blowout_sim.diagnosis.sensors.case import Case, make_case, undone
 from truck_blowout_sim.diagnosis.sensors.conventions import FoundConvention, find_conventions
 from truck_blowout_sim.diagnosis.sensors.findings import Amount, GateResult, SensorFinding
@@ -141,7 +140,7 @@ def _finding(found: Found, gravity: float, *, knows_roll: bool) -> SensorFinding
         names = tuple(dict.fromkeys([*names, "gravity_convention"]))
     shown = determined(found.amounts, sigmas)
     parameters = {
-        name: Amount(value, unit, (value - NINETY * sigma, value + NINETY * sigma))
+        name: Amount.about(value, unit, sigma)
         for k, ((name, unit), value, sigma) in enumerate(
             zip(distortion.parameters, found.amounts, sigmas.tolist(), strict=True)
         )
@@ -188,7 +187,7 @@ def _mounting(case: Case, result: SearchResult) -> Mapping[str, Amount]:
             value = float(result.usual[k])
             label = f"{item.distortion.name} of {item.distortion.instrument} ({name})"
             sigma = min(usual, float(result.usual_sigma[k]))
-            out[label] = Amount(value, unit, (value - NINETY * sigma, value + NINETY * sigma))
+            out[label] = Amount.about(value, unit, sigma)
             k += 1
     return out
 

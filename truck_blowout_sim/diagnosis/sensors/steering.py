@@ -23,7 +23,6 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.stats import norm
 
-from truck_blowout_sim.diagnosis.result.quantiles import NINETY
 from truck_blowout_sim.diagnosis.sensors.distortions import Bias
 from truck_blowout_sim.diagnosis.sensors.findings import Amount, SensorFinding, SteeringZero
 from truck_blowout_sim.diagnosis.sensors.identities import channel_names
@@ -130,13 +129,12 @@ def _judge(
 def _finding(offset: float, sigma: float) -> SensorFinding:
     distortion = Bias("steering_angle_offset", "", "hand wheel", (_WHEEL,), "offset", "rad")
     aliases = ("steering_angle_offset", "axle_misalignment")
-    half = NINETY * sigma
     return SensorFinding(
         name="steering_angle_offset",
         body="tractor",
         instrument="hand wheel",
         channels=(_WHEEL,),
-        parameters={"offset": Amount(offset, "rad", (offset - half, offset + half))},
+        parameters={"offset": Amount.about(offset, "rad", sigma)},
         delta_chi2=(offset / sigma) ** 2,
         p_value=float(2.0 * norm.sf(abs(offset) / sigma)),
         aliases=aliases,

@@ -19,7 +19,6 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.stats import norm
 
-from truck_blowout_sim.diagnosis.result.quantiles import NINETY
 from truck_blowout_sim.diagnosis.sensors.distortions import Delay
 from truck_blowout_sim.diagnosis.sensors.findings import Amount, SensorFinding
 from truck_blowout_sim.diagnosis.sensors.words import equation, sentence
@@ -118,10 +117,9 @@ def _unexplained(moment: FloatArray) -> float:
 
 def _finding(delay_s: float, sigma_s: float, beyond_s: float) -> SensorFinding:
     distortion = Delay("channel_delay", "", "hand wheel", (_WHEEL,))
-    half = NINETY * sigma_s
     return SensorFinding(
         name="channel_delay", body="tractor", instrument="hand wheel", channels=(_WHEEL,),
-        parameters={"delay": Amount(delay_s, "s", (delay_s - half, delay_s + half))},
+        parameters={"delay": Amount.about(delay_s, "s", sigma_s)},
         delta_chi2=(beyond_s / sigma_s) ** 2, p_value=float(norm.sf(beyond_s / sigma_s)),
         aliases=("channel_delay",),
         alternatives=("channel_delay of all other instruments together, early by as much",),
