@@ -30,8 +30,8 @@ from truck_blowout_sim.diagnosis.sensors.geometry import Geometry
 from truck_blowout_sim.diagnosis.sensors.gravity import look_alikes
 from truck_blowout_sim.diagnosis.sensors.hubs import axle_pairs
 from truck_blowout_sim.diagnosis.sensors.identities import channel_names
-from truck_blowout_sim.diagnosis.sensors.reading import WHEEL, Reading
-from truck_blowout_sim.diagnosis.sensors.signals import Signals, read_wheel
+from truck_blowout_sim.diagnosis.sensors.reading import Reading
+from truck_blowout_sim.diagnosis.sensors.signals import WHEEL, Signals, read_wheel
 from truck_blowout_sim.recordings import Recording
 from truck_blowout_sim.recordings.channels import UNITS, hub_of
 from truck_blowout_sim.recordings.gravity import ACCELERATIONS

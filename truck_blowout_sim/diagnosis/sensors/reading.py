@@ -23,14 +23,13 @@ from truck_blowout_sim.diagnosis.sensors.identities import (
     channel_names,
     hitch_identities,
 )
-from truck_blowout_sim.diagnosis.sensors.signals import Signals, smoothed
+from truck_blowout_sim.diagnosis.sensors.signals import WHEEL, Signals, smoothed
 from truck_blowout_sim.diagnosis.sensors.windows import Windows, make_windows
 from truck_blowout_sim.recordings.channels import UNITS
 from truck_blowout_sim.recordings.gravity import AT_REST_MPS2
 
 FloatArray = NDArray[np.float64]
 
-WHEEL = "steering_wheel_angle_rad"
 _TINY = 1e-12  # of a residual's variance: that of a computed log may vanish
 _LONGEST_S = 2.0  # of the correlation of a residual
 _DRIVES_MPS = 5.0  # no truck reverses faster

@@ -23,6 +23,7 @@ from truck_blowout_sim.recordings.gravity import gravity_is_removed
 
 FloatArray = NDArray[np.float64]
 
+WHEEL = "steering_wheel_angle_rad"
 _SMOOTH_S = 0.08
 _MAX_GAP_FACTOR = 2.5
 _ASKED = ("tractor_", "trailer_", "hub_speed_", "brake_pressure_", "articulation_")
@@ -171,10 +172,9 @@ def read_signals(recording: Recording) -> Signals:
 
 def read_wheel(signals: Signals, recording: Recording) -> FloatArray | None:
     """The hand-wheel angle on the grid of the signals; None where it was not recorded."""
-    wheel = "steering_wheel_angle_rad"
-    if wheel not in recording or len(recording[wheel]) < 2:
+    if WHEEL not in recording or len(recording[WHEEL]) < 2:
         return None
-    return np.asarray(recording.at(wheel, signals.time_s), dtype=np.float64)
+    return np.asarray(recording.at(WHEEL, signals.time_s), dtype=np.float64)
 
 
 def _unwrapped(angle: FloatArray) -> FloatArray:

@@ -26,14 +26,13 @@ from scipy.stats import norm
 from truck_blowout_sim.diagnosis.sensors.distortions import Bias
 from truck_blowout_sim.diagnosis.sensors.findings import Amount, SensorFinding, SteeringZero
 from truck_blowout_sim.diagnosis.sensors.identities import channel_names
-from truck_blowout_sim.diagnosis.sensors.signals import Signals, read_wheel, smoothed
+from truck_blowout_sim.diagnosis.sensors.signals import WHEEL, Signals, read_wheel, smoothed
 from truck_blowout_sim.diagnosis.sensors.wheel_delay import Steered, late_wheel
 from truck_blowout_sim.diagnosis.sensors.words import equation, next_test, sentence
 from truck_blowout_sim.recordings import Recording
 
 FloatArray = NDArray[np.float64]
 
-_WHEEL = "steering_wheel_angle_rad"
 _SMOOTH_S = 0.2
 _SMOOTH_LITTLE_S = 0.1
 _STRIDE_S = 0.25
@@ -127,13 +126,13 @@ def _judge(
 
 
 def _finding(offset: float, sigma: float) -> SensorFinding:
-    distortion = Bias("steering_angle_offset", "", "hand wheel", (_WHEEL,), "offset", "rad")
+    distortion = Bias("steering_angle_offset", "", "hand wheel", (WHEEL,), "offset", "rad")
     aliases = ("steering_angle_offset", "axle_misalignment")
     return SensorFinding(
         name="steering_angle_offset",
         body="tractor",
         instrument="hand wheel",
-        channels=(_WHEEL,),
+        channels=(WHEEL,),
         parameters={"offset": Amount.about(offset, "rad", sigma)},
         delta_chi2=(offset / sigma) ** 2,
         p_value=float(2.0 * norm.sf(abs(offset) / sigma)),
@@ -149,7 +148,7 @@ def _finding(offset: float, sigma: float) -> SensorFinding:
 
 def _run(signals: Signals, is_baseline: bool, recording: Recording) -> _Run | None:
     moves = _motion(signals, _SMOOTH_S)
-    if _WHEEL not in recording or moves is None:
+    if WHEEL not in recording or moves is None:
         return None
     motion, used = moves
     stride = max(1, round(_STRIDE_S / signals.period_s))
@@ -157,7 +156,7 @@ def _run(signals: Signals, is_baseline: bool, recording: Recording) -> _Run | No
     if chosen.size < _LEAST_SAMPLES:
         return None
     width = _SMOOTH_S / signals.period_s
-    wheel = smoothed(recording.at(_WHEEL, signals.time_s), width)
+    wheel = smoothed(recording.at(WHEEL, signals.time_s), width)
     n, m = channel_names("tractor"), channel_names("trailer")
     both = m["yaw"] in signals and n["yaw"] in signals
     bend = (smoothed(signals[m["yaw"]] - signals[n["yaw"]], width) if both

@@ -21,11 +21,11 @@ from scipy.stats import norm
 
 from truck_blowout_sim.diagnosis.sensors.distortions import Delay
 from truck_blowout_sim.diagnosis.sensors.findings import Amount, SensorFinding
+from truck_blowout_sim.diagnosis.sensors.signals import WHEEL
 from truck_blowout_sim.diagnosis.sensors.words import equation, sentence
 
 FloatArray = NDArray[np.float64]
 
-_WHEEL = "steering_wheel_angle_rad"
 _FARTHEST_S, _SPACING_S = 0.6, 0.02
 _BLOCK_S = 10.0
 _LEAST_BLOCKS = 4
@@ -116,9 +116,9 @@ def _unexplained(moment: FloatArray) -> float:
 
 
 def _finding(delay_s: float, sigma_s: float, beyond_s: float) -> SensorFinding:
-    distortion = Delay("channel_delay", "", "hand wheel", (_WHEEL,))
+    distortion = Delay("channel_delay", "", "hand wheel", (WHEEL,))
     return SensorFinding(
-        name="channel_delay", body="tractor", instrument="hand wheel", channels=(_WHEEL,),
+        name="channel_delay", body="tractor", instrument="hand wheel", channels=(WHEEL,),
         parameters={"delay": Amount.about(delay_s, "s", sigma_s)},
         delta_chi2=(beyond_s / sigma_s) ** 2, p_value=float(norm.sf(beyond_s / sigma_s)),
         aliases=("channel_delay",),
