@@ -8,7 +8,7 @@ import trial_faults as faults
 from trial_drive import make_run
 
 from truck_blowout_sim.diagnosis.sensors.case import Case, Hypothesis, make_case
-from truck_blowout_sim.diagnosis.sensors.reversal import doubtful
+from truck_blowout_sim.diagnosis.sensors.reversal import made_by_noise
 from truck_blowout_sim.diagnosis.sensors.solve import noise_inflation, refine
 from truck_blowout_sim.diagnosis.sensors.system import assemble
 from truck_blowout_sim.recordings import Recording, Series
@@ -38,7 +38,7 @@ def test_noise_of_the_gyro_looks_like_a_gain_and_is_doubtful() -> None:
     """Least squares finds noise over noise and signal: 0.5² / (1 + 0.5²) = 20 %."""
     case, gain, amount, inflation = asked([noisy(make_run(k, 14.0), 0.5, k) for k in range(2)])
     assert amount[0] == pytest.approx(0.2, abs=0.12)
-    assert doubtful(case, [gain], [amount], inflation) == [True]
+    assert made_by_noise(case, [gain], [amount], inflation) == [True]
 
 
 @pytest.mark.parametrize("error", [0.1, -0.1])
@@ -48,7 +48,7 @@ def test_a_true_gain_of_a_quiet_gyro_is_not_doubtful(error: float) -> None:
             for r in runs]
     case, gain, amount, inflation = asked(runs)
     assert amount[0] == pytest.approx(error, rel=0.05)
-    assert doubtful(case, [gain], [amount], inflation) == [False]
+    assert made_by_noise(case, [gain], [amount], inflation) == [False]
 
 
 def test_a_gain_that_noise_would_rather_hide_is_not_doubtful() -> None:
@@ -57,4 +57,4 @@ def test_a_gain_that_noise_would_rather_hide_is_not_doubtful() -> None:
     runs = [r.with_channels({GYRO: Series(r[GYRO].time_s, 0.6 * r[GYRO].value)}) for r in runs]
     case, gain, amount, inflation = asked(runs)
     assert amount[0] < -0.2
-    assert doubtful(case, [gain], [amount], inflation) == [False]
+    assert made_by_noise(case, [gain], [amount], inflation) == [False]

@@ -72,7 +72,7 @@ class Identity:
 
 def body_identities(unit: str) -> tuple[Identity, ...]:
     """Relations between the instruments of one unit (``tractor`` or ``trailer``)."""
-    n = _names(unit)
+    n = channel_names(unit)
     tilt = (n["roll"], n["pitch"])
     return (
         Identity(
@@ -115,7 +115,7 @@ def hitch_identities(geometry: Geometry) -> tuple[Identity, ...]:
     """The hitch moves with one velocity, whichever unit it is computed from."""
     if not geometry.knows_hitch:
         return ()
-    a, b = _names("tractor"), _names("trailer")
+    a, b = channel_names("tractor"), channel_names("trailer")
     needs = tuple(n[key] for n in (a, b) for key in ("vx", "vy", "r", "yaw"))
     uses = tuple(n[key] for n in (a, b) for key in ("p", "q"))
 
@@ -141,7 +141,7 @@ def hitch_identities(geometry: Geometry) -> tuple[Identity, ...]:
 
 def articulation_identities() -> tuple[Identity, ...]:
     """The articulation angle against the headings, or against the yaw rates, of both units."""
-    a, b = _names("tractor"), _names("trailer")
+    a, b = channel_names("tractor"), channel_names("trailer")
     return (
         Identity(
             "articulation against headings", "rad", "articulation = yaw_trailer - yaw_tractor",
@@ -169,7 +169,7 @@ def with_kinematic_accelerations(smooth: Signals) -> Signals:
     """
     moved = {}
     for unit in ("tractor", "trailer"):
-        n = _names(unit)
+        n = channel_names(unit)
         if not all(n[key] in smooth for key in ("vx", "vy", "r")):
             continue
         still = smooth.with_values({n[key]: np.zeros_like(smooth.time_s) for key in ("ax", "ay")})
@@ -180,7 +180,7 @@ def with_kinematic_accelerations(smooth: Signals) -> Signals:
     return smooth.with_values(moved)
 
 
-def _names(unit: str) -> dict[str, str]:
+def channel_names(unit: str) -> dict[str, str]:
     """Names of a unit's channels, and its own."""
     return {
         "unit": unit, "x": f"{unit}_x_m", "y": f"{unit}_y_m", "yaw": f"{unit}_yaw_rad",
@@ -189,9 +189,6 @@ def _names(unit: str) -> dict[str, str]:
         "p": f"{unit}_roll_rate_radps", "q": f"{unit}_pitch_rate_radps",
         "ax": f"{unit}_ax_mps2", "ay": f"{unit}_ay_mps2", "az": f"{unit}_az_mps2",
     }  # fmt: skip
-
-
-channel_names = _names
 
 
 def _vertical(s: Signals, n: dict[str, str]) -> FloatArray:

@@ -68,7 +68,7 @@ _WEAK = 0.05
 _TINY = 1e-300
 
 
-def doubtful(
+def made_by_noise(
     case: Case, chosen: Sequence[Hypothesis], amounts: Sequence[Sequence[float]],
     inflation: Mapping[str, float],
 ) -> list[bool]:  # fmt: skip

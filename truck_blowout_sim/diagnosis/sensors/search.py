@@ -29,7 +29,7 @@ from truck_blowout_sim.diagnosis.sensors.judgement import (
     family_p,
     handicap,
 )
-from truck_blowout_sim.diagnosis.sensors.reversal import doubtful as made_by_noise
+from truck_blowout_sim.diagnosis.sensors.reversal import made_by_noise
 from truck_blowout_sim.diagnosis.sensors.solve import (
     Estimate,
     in_full,
