@@ -290,15 +290,15 @@ def _summary(
     inflation = noise_inflation(after)
     normal = normal_equations(after, inflation)
     final = solve(case, normal, chosen)
-    final = replace(final, covariance=in_full(chosen, estimate.amounts, final))
+    final = replace(final, amounts=estimate.amounts,
+                    covariance=in_full(chosen, estimate.amounts, final))  # fmt: skip
     found = []
     for k, hypothesis in enumerate(chosen):
-        covariance = part(chosen, final, k)[1]
-        amounts = np.array(estimate.amounts[k])
-        gain = float(amounts @ np.linalg.solve(covariance, amounts))
+        amounts, covariance = part(chosen, final, k)
+        gain = _gain(chosen, final, k)
         p_value = family_p(gain, amounts.size, len(case.hypotheses))
         found.append(
-            Found(hypothesis, estimate.amounts[k], covariance, gain, p_value,
+            Found(hypothesis, final.amounts[k], covariance, gain, p_value,
                   rivals.get(hypothesis, ()))
         )  # fmt: skip
     order = sorted(found, key=lambda f: -f.delta_chi2)

@@ -75,11 +75,7 @@ def solve(case: Case, normal: Normal, hypotheses: Sequence[Hypothesis]) -> Estim
     solution = cho_solve(factor, right)
     inverse = cho_solve(factor, np.eye(index.size))
     usual, first = case.prior_precision.size, unknowns.first_fault
-    amounts, at = [], first
-    for hypothesis in hypotheses:
-        size = len(hypothesis.distortion.parameters)
-        amounts.append(tuple(float(v) for v in solution[at : at + size]))
-        at += size
+    amounts = [tuple(float(v) for v in solution[own]) for own in slices_of(hypotheses, first)]
     return Estimate(
         chi2=normal.energy - float(right @ solution),
         amounts=tuple(amounts),

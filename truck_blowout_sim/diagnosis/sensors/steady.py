@@ -279,12 +279,9 @@ def color_of(series: Sequence[FloatArray]) -> Color:
 
 def _columns_of(case: Case, chosen: Sequence[Hypothesis], every: Unknowns) -> list[int]:
     """Unknowns of a solution with the chosen faults alone, among those with all candidates."""
-    start, at = {}, every.first_fault
-    for hypothesis in case.hypotheses:
-        start[hypothesis] = at
-        at += len(hypothesis.distortion.parameters)
-    own = [range(start[h], start[h] + len(h.distortion.parameters)) for h in chosen]
-    return [*range(every.first_fault), *(k for one in own for k in one)]
+    first, columns = every.first_fault, range(every.column.size)
+    own = dict(zip(case.hypotheses, slices_of(case.hypotheses, first), strict=True))
+    return [*columns[:first], *(k for one in chosen for k in columns[own[one]])]
 
 
 def _rows(system: System, unknowns: Unknowns, inflation: Mapping[str, float]) -> _Rows:
