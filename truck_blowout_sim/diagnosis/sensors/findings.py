@@ -45,7 +45,6 @@ class SensorFinding:
         delta_chi2: rise of the weighted sum of squares without it.
         p_value: chance of such a rise anywhere among the candidates if nothing were wrong.
         aliases: names that these recordings cannot tell apart, best first, its own first.
-        alternatives: the same with instrument, for a person to read.
         in_baseline: whether the baseline recordings have it too.
         sentence: for a person.
         equation: measured against true.
@@ -61,7 +60,6 @@ class SensorFinding:
     delta_chi2: float
     p_value: float
     aliases: tuple[str, ...]
-    alternatives: tuple[str, ...]
     in_baseline: bool
     sentence: str
     equation: str

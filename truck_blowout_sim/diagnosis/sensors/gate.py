@@ -118,7 +118,6 @@ def _convention(found: FoundConvention) -> SensorFinding:
         delta_chi2=2.0 * found.log_ratio,
         p_value=min(1.0, found.tests * float(np.exp(-found.log_ratio))),
         aliases=names,
-        alternatives=tuple(f"{r.name} of {r.instrument}" for r in found.rivals),
         in_baseline=found.everywhere,
         sentence=sentence(kind, (), ()),
         equation=equation(kind.name),
@@ -156,7 +155,6 @@ def _finding(found: Found, gravity: float, *, knows_roll: bool) -> SensorFinding
         delta_chi2=found.delta_chi2,
         p_value=found.p_value,
         aliases=names,
-        alternatives=_alternatives(found),
         in_baseline=found.hypothesis.everywhere,
         sentence=sentence(distortion, found.amounts, sigmas.tolist(), kept),
         equation=equation(distortion.name),
@@ -167,16 +165,6 @@ def _finding(found: Found, gravity: float, *, knows_roll: bool) -> SensorFinding
 
 def _has_roll(case: Case, unit: str) -> bool:
     return any(f"{unit}_roll_rad" in signals for signals in case.signals)
-
-
-def _alternatives(found: Found) -> tuple[str, ...]:
-    own = found.hypothesis.distortion
-    said = [
-        f"{h.distortion.name} of {h.distortion.instrument} (worse by {extra:.1f} in chi2)"
-        for h, extra in found.rivals
-        if h.distortion != own
-    ]
-    return tuple(dict.fromkeys(said))
 
 
 def _mounting(case: Case, result: SearchResult) -> Mapping[str, Amount]:

@@ -137,7 +137,6 @@ def _finding(offset: float, sigma: float) -> SensorFinding:
         delta_chi2=(offset / sigma) ** 2,
         p_value=float(2.0 * norm.sf(abs(offset) / sigma)),
         aliases=aliases,
-        alternatives=("axle_misalignment of the steer axle (same straight-line signature)",),
         in_baseline=False,
         sentence=sentence(distortion, (offset,), (sigma,)),
         equation=equation("steering_angle_offset"),

@@ -122,6 +122,5 @@ def _finding(delay_s: float, sigma_s: float, beyond_s: float) -> SensorFinding:
         parameters={"delay": Amount.about(delay_s, "s", sigma_s)},
         delta_chi2=(beyond_s / sigma_s) ** 2, p_value=float(norm.sf(beyond_s / sigma_s)),
         aliases=("channel_delay",),
-        alternatives=("channel_delay of all other instruments together, early by as much",),
         in_baseline=False, sentence=sentence(distortion, (delay_s,), (sigma_s,)),
         equation=equation("channel_delay"), next_test=_NEXT, distortion=distortion)  # fmt: skip
