@@ -3,11 +3,12 @@
 Every instrument has small errors; their usual size is the prior here, so that a mounting error
 never becomes a fault. A fault is the same distortion without that prior.
 
-References: mounting errors of the test instruments (gyro 0.006 deg/s, accelerometer 0.006 m/s2,
-angles 0.05 deg on the tractor, twice that on the trailer); gain, timing and position tolerances
-of a good installation (0.1-0.5 %, 3 ms, 2 cm) are engineering judgement. Noise and zero of a gyro
-go with its grade: data sheets of automotive gyros give a zero that drifts with temperature by the
-rms noise or more, so noise beyond that of the test instruments is added to the normal zero.
+References: sizes are judgements on a good test instrument that was zeroed at rest: what is left of
+its zero (gyro 0.006 deg/s, accelerometer 0.006 m/s2) and of its mounting (0.05 deg), each twice on
+the trailer; gain, timing and position of a good installation (0.1-0.5 %, 3 ms, 2 to 3 cm). Noise
+and zero of a gyro go with its grade: data sheets of automotive gyros give a zero that drifts with
+temperature by the rms noise or more, so noise beyond that of a good instrument is added to the
+normal zero.
 Validated with: test/diagnosis/test_sensors_gate.py.
 """
 
@@ -48,6 +49,7 @@ _POSITION_M, _HITCH_M = 0.02, 0.03
 # Bodies that twist move like instruments half a metre higher or lower.
 _HEIGHT_M = 0.5
 _HUB_DELAY_S = 0.02  # wheels follow the road with the tire's own lag
+_ARTICULATION_DELAY_S = 0.02  # judgement: the potentiometer has a filter and an input of its own
 _ROLL_LEAK = 0.02
 _LEVEL = 1.0  # logs seldom say whether a velocity is along level axes or the body's
 _RADIUS_KNOWN, _RADIUS_UNKNOWN = 0.0015, 0.05
@@ -88,7 +90,7 @@ def imperfections(
         Imperfection(Bias("angle_bias", "", "articulation", bend, "bias", "rad"),
                      (_ARTICULATION_ZERO_RAD,)),
         Imperfection(Scale("articulation_scale", "", "articulation", bend), (_ARTICULATION_SCALE,)),
-        Imperfection(Delay("channel_delay", "", "articulation", bend), (_HUB_DELAY_S,)),
+        Imperfection(Delay("channel_delay", "", "articulation", bend), (_ARTICULATION_DELAY_S,)),
     ]  # fmt: skip
     hubs = tuple(sorted(c for c in present if c.startswith("hub_speed_")))
     found.append(Imperfection(Delay("channel_delay", "", "hub speeds", hubs), (_HUB_DELAY_S,)))

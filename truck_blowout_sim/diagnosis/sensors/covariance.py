@@ -25,8 +25,8 @@ Covariances = dict[
 
 # Satellite positions wander by 1.5 to 2 cm over 8 s; as a velocity error this is white with
 # density 2 sigma²/tau over the bumps used here.
-_WANDER_M = {"tractor": 0.015, "trailer": 0.02}
-_WANDER_S = 8.0
+WANDER_M = {"tractor": 0.015, "trailer": 0.02}
+WANDER_S = 8.0
 
 
 def noise_blocks(
@@ -55,8 +55,8 @@ def noise_blocks(
             i = names.index(channel)
             differentiated[a, i] = -factor * sigma[i]
             if channel.endswith(("_x_m", "_y_m", "_distance_reckoned_m")):
-                wander_m = _WANDER_M[channel.split("_")[0]]
-                extra[a] = 2.0 * wander_m**2 / (_WANDER_S * windows.period_s)
+                wander_m = WANDER_M[channel.split("_")[0]]
+                extra[a] = 2.0 * wander_m**2 / (WANDER_S * windows.period_s)
     moved = np.where(valid[:, :, None], differentiated[None], 0.0)
     h, d = windows.weight, windows.slope
     blocks = []

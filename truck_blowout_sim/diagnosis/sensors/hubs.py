@@ -5,7 +5,7 @@ drive are asked, and all hubs of a unit are averaged: a speed sensor's gain move
 tire's radius moves one. Once a tire of the unit is blown, its load is on the others, whose radii
 shrink: from then on nothing is asked.
 
-Known limits: without a baseline the rolling radius is unknown to about a percent, so the mean
+Known limits: without a baseline the rolling radius is unknown to 5 %, so the mean
 level says nothing about a gain; only changes against the baseline do.
 Validated with: test/diagnosis/test_sensors_identities.py.
 """
@@ -28,6 +28,7 @@ BoolArray = NDArray[np.bool_]
 _BRAKE_FREE_PA = 8000.0
 _BRAKE_RELEASE_S = 2.0
 _COASTING_MPS2 = 0.6
+_SLOWING_S = 0.3  # judgement: leaves 3 mm/s² of a good speed's noise, and is short against braking
 _SLOWEST_MPS = 4.0
 _HARD_TURN_MPS2 = 2.0
 _TURN_S = 0.5
@@ -60,7 +61,7 @@ def free_rolling(signals: Signals, unit: str) -> BoolArray:
         tail = round(_BRAKE_RELEASE_S / signals.period_s)
         lingering = np.convolve(braked, np.ones(tail + 1), mode="full")[: braked.size] > 0
         return np.asarray(free & ~lingering)
-    slowing = np.gradient(smoothed(speed, 0.3 / signals.period_s), signals.period_s)
+    slowing = np.gradient(smoothed(speed, _SLOWING_S / signals.period_s), signals.period_s)
     return np.asarray(free & (np.abs(slowing) < _COASTING_MPS2))
 
 

@@ -26,6 +26,14 @@ from truck_blowout_sim.recordings.gravity import AT_REST_MPS2
 
 FloatArray = NDArray[np.float64]
 ARTICULATION = "articulation_rad"
+# 1 sigma by which relations may be off under a bump, beside noise of their channels. Judgement:
+# accelerations and velocities leave out heave, 5 cm/s at a roll rate of 2 deg/s or a tilt of 1 deg.
+_ACCELERATION_MPS2, _VELOCITY_MPS = 0.002, 0.001
+# Euler's equations are exact; judgement: a seventh of what a good gyro's noise leaves under a bump.
+_TURN_RADPS = 1e-5
+_HITCH_MPS = 0.002  # judgement: kingpin and frames give a little
+# judgement: the angle half of what noise of good headings leaves under a bump, the rate alike
+_BEND_RAD, _BEND_RADPS = 1e-4, 1e-4
 Algebraic = Callable[[Signals], FloatArray]
 
 
@@ -79,35 +87,35 @@ def body_identities(unit: str) -> tuple[Identity, ...]:
             f"{unit} lateral acceleration", "m/s2",
             "ay = dvy/dt + vx r - w p + g sin(roll) cos(pitch)",
             (n["ay"], n["vx"], n["vy"], n["r"]), (*tilt, n["p"]),
-            lambda s: _lateral(s, n), ((n["vy"], 1.0),), 0.002),
+            lambda s: _lateral(s, n), ((n["vy"], 1.0),), _ACCELERATION_MPS2),
         Identity(
             f"{unit} longitudinal acceleration", "m/s2",
             "ax = dvx/dt - vy r + w q - g sin(pitch)",
             (n["ax"], n["vx"], n["vy"], n["r"]), (*tilt, n["q"]),
-            lambda s: _longitudinal(s, n), ((n["vx"], 1.0),), 0.002),
+            lambda s: _longitudinal(s, n), ((n["vx"], 1.0),), _ACCELERATION_MPS2),
         Identity(
             f"{unit} heading rate", "rad/s",
             "dyaw/dt = (q sin(roll) + r cos(roll)) / cos(pitch)",
             (n["yaw"], n["r"]), (*tilt, n["q"]),
-            lambda s: _heading_rate(s, n), ((n["yaw"], 1.0),), 1e-5),
+            lambda s: _heading_rate(s, n), ((n["yaw"], 1.0),), _TURN_RADPS),
         Identity(
             f"{unit} roll rate", "rad/s",
             "droll/dt = p + (q sin(roll) + r cos(roll)) tan(pitch)",
             (n["roll"], n["p"]), (n["pitch"], n["q"], n["r"]),
-            lambda s: _roll_rate(s, n), ((n["roll"], 1.0),), 1e-5),
+            lambda s: _roll_rate(s, n), ((n["roll"], 1.0),), _TURN_RADPS),
         Identity(
             f"{unit} pitch rate", "rad/s", "dpitch/dt = q cos(roll) - r sin(roll)",
             (n["pitch"], n["q"]), (n["roll"], n["r"]),
             lambda s: s[n["q"]] * np.cos(s[n["roll"]]) - s[n["r"]] * np.sin(s[n["roll"]]),
-            ((n["pitch"], 1.0),), 1e-5),
+            ((n["pitch"], 1.0),), _TURN_RADPS),
         Identity(
             f"{unit} velocity along x", "m/s", "dx/dt = (velocity turned into the map) x",
             (n["x"], n["vx"], n["vy"], n["yaw"]), tilt,
-            lambda s: _map_velocity(s, n)[0], ((n["x"], 1.0),), 0.001),
+            lambda s: _map_velocity(s, n)[0], ((n["x"], 1.0),), _VELOCITY_MPS),
         Identity(
             f"{unit} velocity along y", "m/s", "dy/dt = (velocity turned into the map) y",
             (n["y"], n["vx"], n["vy"], n["yaw"]), tilt,
-            lambda s: _map_velocity(s, n)[1], ((n["y"], 1.0),), 0.001),
+            lambda s: _map_velocity(s, n)[1], ((n["y"], 1.0),), _VELOCITY_MPS),
     )  # fmt: skip
 
 
@@ -132,10 +140,10 @@ def hitch_identities(geometry: Geometry) -> tuple[Identity, ...]:
     return (
         Identity(
             "hitch velocity forward", "m/s", "v_tractor + w x l = v_trailer + w x l (forward)",
-            needs, uses, lambda s: difference(s, 0), (), 0.002),
+            needs, uses, lambda s: difference(s, 0), (), _HITCH_MPS),
         Identity(
             "hitch velocity sideways", "m/s", "v_tractor + w x l = v_trailer + w x l (sideways)",
-            needs, uses, lambda s: difference(s, 1), (), 0.002),
+            needs, uses, lambda s: difference(s, 1), (), _HITCH_MPS),
     )  # fmt: skip
 
 
@@ -147,13 +155,13 @@ def articulation_identities() -> tuple[Identity, ...]:
             "articulation against headings", "rad", "articulation = yaw_trailer - yaw_tractor",
             (ARTICULATION, a["yaw"], b["yaw"]), (),
             lambda s: np.asarray(_wrapped(s[ARTICULATION] - s[b["yaw"]] + s[a["yaw"]])),
-            (), 1e-4),
+            (), _BEND_RAD),
         Identity(
             "articulation rate", "rad/s", "d(articulation)/dt = r_trailer - r_tractor",
             (ARTICULATION, a["r"], b["r"]), (a["roll"], a["pitch"], a["q"], b["roll"], b["pitch"],
                                              b["q"]),
             lambda s: np.asarray(_heading_rate(s, b) - _heading_rate(s, a)),
-            ((ARTICULATION, 1.0),), 1e-4),
+            ((ARTICULATION, 1.0),), _BEND_RADPS),
     )  # fmt: skip
 
 

@@ -30,12 +30,25 @@ FloatArray = NDArray[np.float64]
 
 _DIFFERENCE_GAIN = np.sqrt(70.0)  # binom(8, 4)
 _STRETCH_S = 0.5
+_SHORTEST = 12  # samples of a stretch: their fourth differences tell its sigma to a third
 _LOCAL_CUBIC = 31  # samples of the local cubic whose residual shows coloured noise
 FEWEST_SAMPLES = 40
 _FEWEST_READINGS = 5  # of a slow gauge: fewer are hardly a course of time
 _COMPUTED = 0.02  # of a good instrument's noise: no instrument is that good
 _REPEATS = 0.5  # share of samples that differ from the one before, below which most repeat it
 _LEAST_STEPS = 3  # fewer may be one jump there and back
+_ROUNDED = 1e-12  # of the largest value: by so much doubles differ that stand for one number
+_FEWEST_STEPS = 5  # judgement: fewer that do not repeat show no common step
+_LEAST_PERCENT = 1  # percentile taken for the smallest step: the very smallest may be a remainder
+_NEAR = 20.0  # steps: farther multiples magnify the error of the step itself
+_OFF = 0.03  # of a step: what the last printed digit makes; of continuous values 94 % are farther
+_MOST_PERCENT = 95  # of the steps must be as near: one in twenty may be an outlier
+_FEWEST_NEAR = 20  # steps, of which one may be that
+_FEWEST_STRETCHES = 6  # judgement: three on either side of the middle
+_LOW_PERCENT, _HIGH_PERCENT = 10, 90  # judgement: levels without the rarest
+_VARIED = 0.25  # judgement: of the highest squared level, below which the level hardly varies
+_MARKED = 2.0  # times the variance; judgement: a few stretches scatter by themselves
+_MOST_ALIKE = 0.98  # neighbors: noise that lasts for 99 samples; a cubic over 31 shows none slower
 _CLEAR_COLOUR = 1.5  # times the white sigma, before colour is believed
 _MOST_KNOWN = 2000  # channels whose noise is remembered: that of every run is asked for repeatedly
 
@@ -184,7 +197,7 @@ def series_noise(series: Series) -> Noise:
 def _noise_of(value: FloatArray, period_s: float) -> Noise:
     """What the samples themselves show."""
     quantum = _quantum(value)
-    levels, local = _local_sigmas(value, max(12, round(_STRETCH_S / period_s)))
+    levels, local = _local_sigmas(value, max(_SHORTEST, round(_STRETCH_S / period_s)))
     # A quantised channel at rest shows no difference at all; its error is still the rounding.
     local = np.maximum(local, quantum / np.sqrt(12.0))
     # a computed series may show none at all; a millionth of its spread keeps the weights finite
@@ -214,15 +227,16 @@ def _quantum(value: FloatArray) -> float:
     Continuous noise does not repeat: where most samples do, the smallest step is the quantum.
     """
     steps = np.abs(np.diff(value))
-    every, steps = steps.size, steps[steps > 1e-12 * max(1.0, float(np.abs(value).max()))]
+    every, steps = steps.size, steps[steps > _ROUNDED * max(1.0, float(np.abs(value).max()))]
     if _LEAST_STEPS <= steps.size < _REPEATS * every:
         return float(steps.min())
-    if steps.size < 5:
+    if steps.size < _FEWEST_STEPS:
         return 0.0
-    step = float(np.percentile(steps, 1))
-    near = steps[steps < 20.0 * step]
+    step = float(np.percentile(steps, _LEAST_PERCENT))
+    near = steps[steps < _NEAR * step]
     off = np.abs(near / step - np.round(near / step))
-    return step if near.size > 20 and float(np.percentile(off, 95)) < 0.03 else 0.0
+    most = float(np.percentile(off, _MOST_PERCENT)) if near.size > _FEWEST_NEAR else np.inf
+    return step if most < _OFF else 0.0
 
 
 def _local_sigmas(value: FloatArray, length: int) -> tuple[FloatArray, FloatArray]:
@@ -243,16 +257,15 @@ def _means(value: FloatArray, count: int) -> FloatArray:
 def _level_dependence(levels: FloatArray, local: FloatArray, sigma: float) -> tuple[float, float]:
     """Split local² = floor² + (relative * level)² where the level varies enough to show it."""
     square = levels**2
-    spread = float(np.percentile(square, 90) - np.percentile(square, 10))
-    if levels.size < 6 or spread <= 0.25 * float(np.percentile(square, 90)):
+    lowest, highest = np.percentile(square, _LOW_PERCENT), np.percentile(square, _HIGH_PERCENT)
+    if levels.size < _FEWEST_STRETCHES or highest - lowest <= _VARIED * highest:
         return sigma, 0.0
     high = square > np.median(square)
     if not high.any():  # at its highest level most of the time, like a brake held on
         return sigma, 0.0
     low_var, high_var = float(np.median(local[~high] ** 2)), float(np.median(local[high] ** 2))
     low_sq, high_sq = float(np.median(square[~high])), float(np.median(square[high]))
-    # Only a marked growth counts: a few stretches scatter by themselves.
-    if high_sq <= low_sq or high_var < 2.0 * low_var:
+    if high_sq <= low_sq or high_var < _MARKED * low_var:
         return sigma, 0.0
     slope = (high_var - low_var) / (high_sq - low_sq)
     return float(np.sqrt(max(low_var - slope * low_sq, 0.0))), float(np.sqrt(slope))
@@ -270,7 +283,7 @@ def _colour(value: FloatArray, sigma: float, period_s: float) -> tuple[float, fl
     if seen < _CLEAR_COLOUR**2 * _kept(0.0) * sigma**2:
         return sigma, period_s
     lagged = [float(np.mean(pieces[k][1:] * pieces[k][:-1])) / float(power[k]) for k in quiet]
-    first = float(np.clip(np.mean(lagged), 0.0, 0.98))
+    first = float(np.clip(np.mean(lagged), 0.0, _MOST_ALIKE))
     return float(np.sqrt(seen / _kept(first))), period_s * (1.0 + first) / (1.0 - first)
 
 

@@ -32,6 +32,12 @@ FloatArray = NDArray[np.float64]
 
 _TINY = 1e-12  # of a residual's variance: that of a computed log may vanish
 _LONGEST_S = 2.0  # of the correlation of a residual
+_OVERLAP_S = 0.5  # judgement: bumps of 0.4 s share samples, so at most two a second count
+_FEWEST = 10  # bumps, a second of them; judgement
+_STEER_SMOOTH_S = 0.2  # judgement: drops noise, keeps what a truck follows; as for the wheel's zero
+_STEER_LEAST_S = 3.0  # judgement: some times what a truck takes to answer its hand wheel
+_STEER_EVERY_S = 0.1  # as far apart as bumps are
+_MOST_ALIKE = 0.99  # judgement: noise of both instruments bounds what a correlation can promise
 _DRIVES_MPS = 5.0  # no truck reverses faster
 _BACKWARD = 20.0  # log odds against one that does, over a whole recording
 _UPRIGHT = 20.0  # the same against a vertical accelerometer that is half a gravity off
@@ -162,7 +168,7 @@ def _unmounted(before: FloatArray, after: FloatArray, mounted: FloatArray
                ) -> tuple[FloatArray, FloatArray] | None:
     """Both where they are known, without what errors of mounting add; None if that is too short."""
     both = np.isfinite(before) & np.isfinite(after) & np.isfinite(mounted).all(axis=1)
-    if both.sum() < 10:
+    if both.sum() < _FEWEST:
         return None
     basis, _ = np.linalg.qr(mounted[both])
     old, new = (v[both] - basis @ (basis.T @ v[both]) for v in (before, after))
@@ -178,8 +184,7 @@ def _independent(values: FloatArray, spacing_s: float) -> float:
     lags = min(max(round(_LONGEST_S / spacing_s), 1), values.size - 1)
     weights = 1.0 - np.arange(1, lags + 1) / (lags + 1.0)
     shared = np.array([float(moved[k:] @ moved[:-k]) for k in range(1, lags + 1)]) / power
-    # overlapping bumps share half a second: never more than two independent ones in a second
-    longest = max(1.0 + 2.0 * float(weights @ shared), 0.5 / spacing_s)
+    longest = max(1.0 + 2.0 * float(weights @ shared), _OVERLAP_S / spacing_s)
     return float(values.size / longest)
 
 
@@ -188,19 +193,18 @@ def _steered(signals: Signals) -> float:
     rate = channel_names("tractor")["r"]
     if WHEEL not in signals or rate not in signals:
         return 0.0
-    width = 0.2 / signals.period_s
+    width = _STEER_SMOOTH_S / signals.period_s
     wheel, turning = smoothed(signals[WHEEL], width), smoothed(signals[rate], width)
     first = min(signals.blown_since_s.values(), default=np.inf)
     used = np.isfinite(wheel) & np.isfinite(turning) & (signals.time_s < first)
-    if used.sum() * signals.period_s < 3.0:
+    if used.sum() * signals.period_s < _STEER_LEAST_S:
         return 0.0
     a, b = wheel[used] - wheel[used].mean(), turning[used] - turning[used].mean()
     size = float(np.sqrt((a @ a) * (b @ b)))
     alike = float(a @ b) / size if size > 0.0 else 0.0
-    every = max(1, round(0.1 / signals.period_s))
+    every = max(1, round(_STEER_EVERY_S / signals.period_s))
     count = _independent(b[::every], every * signals.period_s)
-    # noise of both instruments bounds what a correlation can promise
-    return -0.5 * count * float(np.log1p(-min(alike, 0.99) ** 2)) if alike > 0.0 else 0.0
+    return -0.5 * count * float(np.log1p(-min(alike, _MOST_ALIKE) ** 2)) if alike > 0.0 else 0.0
 
 
 def _forward(signals: Signals) -> float:

@@ -26,6 +26,8 @@ FloatArray = NDArray[np.float64]
 WHEEL = "steering_wheel_angle_rad"
 _SMOOTH_S = 0.08
 _MAX_GAP_FACTOR = 2.5
+# The grid's interval is rounded to a nanosecond: half of that adds up to this in 2000 samples.
+_ROUNDING_S = 1e-6
 _ASKED = ("tractor_", "trailer_", "hub_speed_", "brake_pressure_", "articulation_")
 _LASTING_SAMPLES = 100
 _WIENER_BINS = 9
@@ -155,10 +157,10 @@ def read_signals(recording: Recording) -> Signals:
     for name, series in recording.channels.items():
         if len(series) < 2 or not name.startswith(_ASKED):
             continue
-        # Half a nanosecond of rounding must not turn the last sample into a missing one.
+        # Rounding must not turn the first or the last sample into a missing one.
         inside = np.clip(time_s, time_s[0], None)
-        inside = np.where(np.abs(inside - series.time_s[-1]) < 1e-6, series.time_s[-1], inside)
-        inside = np.where(np.abs(inside - series.time_s[0]) < 1e-6, series.time_s[0], inside)
+        for end in (series.time_s[-1], series.time_s[0]):
+            inside = np.where(np.abs(inside - end) < _ROUNDING_S, end, inside)
         found = series.at(inside, max_gap_s=_MAX_GAP_FACTOR * max(series.period_s, period_s))
         values[name] = _unwrapped(found) if name.endswith("_yaw_rad") else found
     return Signals(

@@ -18,6 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import solve_triangular
 
+from truck_blowout_sim.diagnosis.sensors.covariance import WANDER_M, WANDER_S
 from truck_blowout_sim.diagnosis.sensors.distortions import Distortion
 from truck_blowout_sim.diagnosis.sensors.geometry import Geometry
 from truck_blowout_sim.diagnosis.sensors.identities import Identity, channel_names
@@ -28,8 +29,8 @@ from truck_blowout_sim.diagnosis.sensors.towed import bend_change
 FloatArray = NDArray[np.float64]
 
 _BLOCK_S = 4.0
-# Wander of one satellite position each, added in squares, and its time constant.
-_WANDER_M, _WANDER_S = float(np.hypot(0.015, 0.02)), 8.0
+_BOTH_WANDER_M = float(np.hypot(WANDER_M["tractor"], WANDER_M["trailer"]))
+_FEWEST = 100  # samples; judgement: a second of a common log
 _WHITE_M = 0.006
 
 
@@ -147,7 +148,7 @@ def _block_rows(
 ) -> SlowRows | None:  # fmt: skip
     value = identity.algebraic(signals)
     known = np.isfinite(value)
-    if known.sum() < 100:
+    if known.sum() < _FEWEST:
         return None
     slopes = np.zeros((value.size, moves.columns))
     for channel, gain in channel_gains(moves.smooth, identity).items():
@@ -170,5 +171,5 @@ def _block_rows(
 
 def _wander(time_s: FloatArray, length_s: FloatArray) -> FloatArray:
     apart = np.abs(time_s[:, None] - time_s[None, :])
-    cov = _WANDER_M**2 * np.exp(-apart / _WANDER_S)
+    cov = _BOTH_WANDER_M**2 * np.exp(-apart / WANDER_S)
     return np.asarray(cov + np.diag(_WHITE_M**2 / np.maximum(length_s, 1e-3)))

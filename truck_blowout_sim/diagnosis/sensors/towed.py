@@ -24,6 +24,7 @@ FloatArray = NDArray[np.float64]
 
 ROLL, BEND = "trailer_roll_reckoned", "bend_reckoned"
 _END_S = 0.5
+_SLOWEST_MPS = 3.0  # judgement: keeps the curvature of a truck that stands finite
 # Reckoned roll is good to about 0.2 deg over a run: 0.03 m/s2, slow, so worth more per bump.
 _FORCE_SIGMA_MPS2 = 0.08
 _TRAILER_LENGTH_M = 11.0
@@ -79,7 +80,7 @@ def bend_change(signals: Signals, geometry: Geometry) -> tuple[float, float]:
         return 0.0, _UNKNOWN_BEND_RAD
     second = max(1, round(1.0 / signals.period_s))
     start, end = (
-        _mean(signals[n["r"]][part]) / max(_mean(signals[n["vx"]][part]), 3.0)
+        _mean(signals[n["r"]][part]) / max(_mean(signals[n["vx"]][part]), _SLOWEST_MPS)
         for part in (slice(None, second), slice(-second, None))
     )
     half = geometry.trailer_behind_kingpin_m
