@@ -33,6 +33,7 @@ from truck_blowout_sim.vehicle import Packed
 Floats = NDArray[np.float64]
 _BEST_INSTRUMENT = 0.1  # smallest noise believed, in units of the model's floor
 _COARSE_ENOUGH = 0.4  # rms sigmas that the coarse step may have to be corrected by; 0.1 is usual
+_BRAKES = slice(2, None)  # columns of a drive's inputs
 _LOST = 1e4  # sigmas assigned to a simulation that broke down
 EDGE_S = 0.5  # so close to either end of a run no event is tried
 
@@ -86,9 +87,14 @@ class Run:
         return bool(self.recording.blowouts)
 
     @property
+    def braked(self) -> NDArray[np.bool_]:
+        """[steps, circuits] whether a brake is applied."""
+        return np.asarray(self.drive.inputs[:, _BRAKES] > BRAKES_ON_PA)
+
+    @property
     def has_brakes(self) -> bool:
         """Whether any brake was applied."""
-        return bool((self.drive.inputs[:, 2:] > BRAKES_ON_PA).any())
+        return bool(self.braked.any())
 
     def episodes(self, first: int, least_s: float) -> list[slice]:
         """Rows, counted from ``first``, of equal parts of the run that last so long at least.

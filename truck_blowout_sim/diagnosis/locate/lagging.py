@@ -23,7 +23,6 @@ from numpy.typing import NDArray
 
 from truck_blowout_sim.diagnosis.case.runs import Run
 from truck_blowout_sim.diagnosis.case.study import Study
-from truck_blowout_sim.diagnosis.case.trust import BRAKES_ON_PA
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.fit.one_channel import (
     ChannelChange,
@@ -35,7 +34,6 @@ from truck_blowout_sim.diagnosis.fit.scatter import Scatter
 from truck_blowout_sim.diagnosis.result.quantiles import NINETY
 from truck_blowout_sim.vehicle import Vehicle
 
-_BRAKES = slice(2, None)  # columns of a drive's inputs
 # 1 sigma of a rolling radius from truck to truck, half of it from day to day: 3 % of load or
 # pressure move a deflection of 25 mm by 0.8 mm, the radius of 0.5 m by a third of that
 _RADIUS = 0.001
@@ -109,5 +107,5 @@ def _free(run: Run) -> NDArray[np.bool_]:
     """Bins in which no brake is applied."""
     rows = np.clip(((run.edges_s - run.drive.initial.time_s) / run.drive.step_s).astype(np.int64),
                    0, run.drive.inputs.shape[0] - 1)
-    pressed = np.asarray((run.drive.inputs[:, _BRAKES] > BRAKES_ON_PA).any(axis=1))
+    pressed = np.asarray(run.braked.any(axis=1))
     return ~np.asarray(pressed[rows[:-1]] | pressed[rows[1:]])

@@ -62,8 +62,8 @@ def _can_show(study: Study, effect: Effect, place: Place) -> bool:
     if effect.applies == "brakes":
         circuit = place.axle if place.hub is None else (
             study.packed.vehicle.spec.axles[place.axle or ""].circuit)
-        column = 2 + CIRCUITS.index(circuit or "steer")
-        return any((run.drive.inputs[:, column] > 2e4).any() for run in runs)
+        column = CIRCUITS.index(circuit or "steer")
+        return any(run.braked[:, column].any() for run in runs)
     return True
 
 
