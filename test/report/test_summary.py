@@ -30,6 +30,23 @@ def test_what_got_worse_is_said_beside_what_got_better(diagnosis: Diagnosis) -> 
     )
 
 
+@pytest.mark.parametrize(("before", "after"), [(30.0, 28.8), (1.0, 1.45), (30.0, 30.0)])
+def test_what_hardly_changed_is_said_with_both_limits(diagnosis: Diagnosis, before: float,
+                                                      after: float) -> None:
+    """An error of 30 that falls by 1.2 changed by more than the noise, and by less than 5 %."""
+    fit = Fit({"tractor_vx_mps": before}, {"tractor_vx_mps": after})
+    said = summarize(replace(diagnosis, holdout=fit)).changed
+    assert said == ("On unseen runs no channel's error changed by more than both 50% of its noise "
+                    "and 5% of itself.")
+
+
+@pytest.mark.parametrize(("before", "after"), [(30.0, 28.4), (1.0, 1.6)])
+def test_a_change_beyond_both_limits_is_told(diagnosis: Diagnosis, before: float,
+                                             after: float) -> None:
+    fit = Fit({"tractor_vx_mps": before}, {"tractor_vx_mps": after})
+    assert f"({before:g} to {after:g})" in summarize(replace(diagnosis, holdout=fit)).changed
+
+
 def test_chance_look_alikes_and_amount_are_said(diagnosis: Diagnosis) -> None:
     said = summarize(diagnosis).sure
     assert said.startswith("A truck with nothing missing gives as strong evidence in 1 of 10,000")

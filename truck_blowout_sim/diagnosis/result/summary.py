@@ -15,8 +15,8 @@ from truck_blowout_sim.diagnosis.result.diagnosis import Diagnosis
 from truck_blowout_sim.diagnosis.result.parts import Effect, Fit, Parameter
 
 Label = Callable[[str], str]
-_NOTABLE = 1.0  # times the noise: a change below it nobody sees
-_SHARE = 0.05
+# An error that changes by less than either is not worth a reader's time; judgement.
+_NOISES, _SHARE = 0.5, 0.05  # of the channel's noise, of the error before
 _MOST = 3
 _COMMON = 0.1  # a chance that no one would act on
 _SHOWN = {"rad/s": (180.0 / math.pi, " deg/s"), "rad": (180.0 / math.pi, " deg"),
@@ -131,18 +131,19 @@ def _changed(diagnosis: Diagnosis, label: Label) -> str:
              "No unseen run was given (--holdout); on the fitted runs")  # fmt: skip
     better, worse = _moved(fit, better=True), _moved(fit, better=False)
     if not better and not worse:
-        return f"{where} no channel's error changed by as much as its noise."
+        return (f"{where} no channel's error changed by more than both "
+                f"{_NOISES:.0%} of its noise and {_SHARE:.0%} of itself.")
     return (f"{where} the error, in units of each channel's noise, fell for "
             f"{_spelled(better, fit, label)}; it rose for {_spelled(worse, fit, label)}.")
 
 
 def _moved(fit: Fit, *, better: bool) -> list[str]:
-    """Channels whose error fell (or rose) by more than a glance shows, the largest change first."""
+    """Channels whose error fell (or rose) by more than both limits, the largest change first."""
     sign = 1.0 if better else -1.0
     change = {name: sign * (before - fit.after[name])
               for name, before in fit.before.items() if name in fit.after}  # fmt: skip
     notable = [name for name, size in change.items()
-               if size > max(_NOTABLE * 0.5, _SHARE * fit.before[name])]  # fmt: skip
+               if size > max(_NOISES, _SHARE * fit.before[name])]  # fmt: skip
     return sorted(notable, key=lambda name: -change[name])
 
 
