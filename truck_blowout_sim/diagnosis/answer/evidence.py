@@ -22,7 +22,7 @@ from truck_blowout_sim.diagnosis.result.quantiles import NINETY
 
 Floats = NDArray[np.float64]
 Left = Sequence[tuple[Run, Floats]]  # run and its whitened residual [n, m]
-_MAP_BINS = 5
+_CELL_S = 0.5
 _MOST_OVERLAYS = 8
 
 
@@ -65,22 +65,25 @@ def pooled(left: Left) -> Mapping[str, float]:
 
 
 def maps(study: Study, found: Found) -> tuple[ChannelTimeMap, ...]:
-    """Channel-by-time maps of every training and holdout run, half a second a cell."""
-    result = []
+    """Channel-by-time maps of every training and holdout run, half a second a cell.
+
+    As nearly as whole bins allow.
+    """
+    result, bins = [], max(round(_CELL_S / study.settings.bin_s), 1)
     for role in ("train", "holdout"):
         pairs = zip(left_before(study, found, role), left_after(study, found, role), strict=True)
         for (run, before), (_, after) in pairs:
-            n = before.shape[0] // _MAP_BINS
+            n = before.shape[0] // bins
             result.append(ChannelTimeMap(
-                run.recording.name, run.role, run.edges_s[:n * _MAP_BINS + 1:_MAP_BINS],
-                run.channels, _cells(run, before, n), _cells(run, after, n)))
+                run.recording.name, run.role, run.edges_s[:n * bins + 1:bins],
+                run.channels, _cells(run, before, n, bins), _cells(run, after, n, bins)))
     return tuple(result)
 
 
-def _cells(run: Run, left: Floats, n: int) -> Floats:
-    """Mean residual of each cell in sigma of the mean, [m, n]."""
-    z = np.where(np.isfinite(run.measured), left, np.nan)[:n * _MAP_BINS]
-    cube = z.reshape(n, _MAP_BINS, z.shape[1])
+def _cells(run: Run, left: Floats, n: int, bins: int) -> Floats:
+    """Mean residual of each of n cells in sigma of the mean, [m, n]."""
+    z = np.where(np.isfinite(run.measured), left, np.nan)[:n * bins]
+    cube = z.reshape(n, bins, z.shape[1])
     count = np.isfinite(cube).sum(axis=1)
     with np.errstate(invalid="ignore", divide="ignore"):
         return np.asarray((np.nansum(cube, axis=1) / np.sqrt(count)).T)
