@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 from types import SimpleNamespace
 from typing import cast
@@ -107,6 +108,30 @@ def test_chance_is_stated_about_right_where_nothing_is_missing(spread: float) ->
     for stated in (0.02, 0.1, 0.5):
         assert np.mean(np.array(found) < stated) < 2.0 * stated + 0.01
     assert 0.3 < np.median(found) < 0.7
+
+
+def written_out(hypotheses: Sequence[Shown]) -> np.ndarray:
+    """Shares of the weights, one hypothesis after the other."""
+    prior = np.full(SCATTERS.size, 1.0 / SCATTERS.size)
+    weights, idle = prior, -np.log(max(len(hypotheses), 1))
+    for _ in range(50):
+        total = prior
+        for one in hypotheses:
+            without, best = one.likelihoods
+            either = np.logaddexp(without, best - 2.0 + idle)
+            share = weights * np.exp(either - either.max())
+            total = total + share / share.sum()
+        weights = total / total.sum()
+    return weights
+
+
+@pytest.mark.parametrize("hypotheses", [0, 1, 2, 9, 150])
+def test_all_hypotheses_at_once_weigh_as_one_after_the_other(hypotheses: int) -> None:
+    """To the last bit: a verdict may hang on a support that is just enough."""
+    rng = np.random.default_rng(hypotheses)
+    cases = [shown(rng.normal(0.0, size, 5), strays=(stray,)) for size, stray in zip(
+        rng.choice([0.1, 1.0, 5.0], hypotheses), rng.choice([0.0, 0.3], hypotheses), strict=True)]
+    np.testing.assert_array_equal(Scatter.of(cases).weights, written_out(cases))
 
 
 def test_chance_asks_for_more_where_more_is_tried() -> None:

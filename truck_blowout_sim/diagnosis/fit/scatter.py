@@ -58,15 +58,15 @@ class Scatter:
     def of(hypotheses: Sequence[Shown]) -> Scatter:
         """Weights that a case's hypotheses share, most of them taken to be idle."""
         prior = np.full(SCATTERS.size, 1.0 / SCATTERS.size)
-        weights, idle = prior, -np.log(max(len(hypotheses), 1))
-        pairs = [one.likelihoods for one in hypotheses]
+        both = np.array([one.likelihoods for one in hypotheses]).reshape(-1, 2, SCATTERS.size)
+        # as likely to act as one in all, its amount worth two parameters (Akaike 1974)
+        idle = -np.log(max(len(hypotheses), 1))
+        either = np.logaddexp(both[:, 0], both[:, 1] - 2.0 + idle)
+        likely, weights = np.exp(either - either.max(axis=1, keepdims=True)), prior
         for _ in range(_ROUNDS):
-            total = _PRIOR_WORTH * prior
-            for without, best in pairs:
-                # as likely to act as one in all, its amount worth two parameters (Akaike 1974)
-                either = np.logaddexp(without, best - 2.0 + idle)
-                share = weights * np.exp(either - either.max())
-                total = total + share / share.sum()
+            shares = weights * likely
+            total = np.concatenate([[_PRIOR_WORTH * prior],
+                                    shares / shares.sum(axis=1, keepdims=True)]).sum(axis=0)
             weights = total / total.sum()
         return Scatter(weights)
 

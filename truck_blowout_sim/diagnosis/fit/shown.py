@@ -142,7 +142,7 @@ class Question:
         projector: of the nuisances; ``parts``: the effect's column in each run that shows it.
         solved: [m, n] what the nuisances do in these parts, see :meth:`Projector.solve`.
         information, gradient: as :class:`Shown`, every run with its full weight.
-        strays, bounds: as :class:`Shown`.
+        trained, alike, likeness, strays, bounds: as :class:`Shown`.
     """
 
     projector: Projector
@@ -150,6 +150,9 @@ class Question:
     solved: Floats
     information: Floats
     gradient: Floats
+    trained: Floats
+    alike: Floats
+    likeness: Floats
     strays: tuple[float, ...]
     bounds: tuple[float, float]
 
@@ -165,14 +168,15 @@ class Question:
         solved = projector.solve(reach)
         return Question(projector, kept, solved,
                         np.diag([p.strength for p in kept]) - reach.T @ solved,
-                        np.array([float(p.column @ removed[p.rows]) for p in kept]), strays, bounds)
+                        np.array([float(p.column @ removed[p.rows]) for p in kept]),
+                        np.array([float(part.trained) for part in kept]), _alike(kept),
+                        _likeness(kept), strays, bounds)
 
     def shown(self, left: Floats | None) -> Shown:
         """The answers, of runs weighed by what is ``left`` of them."""
         weight = np.array([1.0 if left is None else p.weight(left) for p in self.parts])
         return Shown(self.information * np.sqrt(np.outer(weight, weight)), self.gradient * weight,
-                     np.array([float(part.trained) for part in self.parts]), _alike(self.parts),
-                     _likeness(self.parts), self.strays, self.bounds)
+                     self.trained, self.alike, self.likeness, self.strays, self.bounds)
 
     def beside(self, change: Floats, reach: Floats) -> Question:
         """The same question where something else changes the runs.
