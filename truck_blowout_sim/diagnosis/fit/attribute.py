@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from truck_blowout_sim.diagnosis.case.driven import driven
 from truck_blowout_sim.diagnosis.case.study import Progress, Study, row_ranges
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
-from truck_blowout_sim.diagnosis.fit.linear import score
+from truck_blowout_sim.diagnosis.fit.linear import Projector, Score, score
 from truck_blowout_sim.diagnosis.fit.models import models_at, with_effects
 from truck_blowout_sim.diagnosis.fit.scatter import Scatter, independent
 from truck_blowout_sim.diagnosis.fit.shown import Question, parts_of
@@ -85,57 +85,97 @@ def rank_steady(study: Study, candidates: Sequence[Hypothesis],
     its evidence is what it buys against a truck whose nuisance may move.
     """
     columns = _columns(study, candidates, named, progress)
-    residual, rows = study.residual(), row_ranges(study)
-    usual = study.projector(named)
-    free, episode_s = usual.chi2(residual), study.settings.episode_s
-    manner = driven(study)
-    ranked, shown, questions, trained = [], [], [], np.zeros(residual.size)
-    for i in study.train:
-        trained[rows[i]] = 1.0
-    cleaned: dict[str, Floats] = {}  # by the number that is held
     far = _far_columns(study, candidates, named, progress)
-    acting = [column * trained for column in columns]
-    cleaned_of = _cleaned(study, candidates, named, acting)
-    for candidate, column, acts, clean in zip(candidates, columns, acting, cleaned_of,
-                                              strict=True):
-        amount, at = candidate.effect.amount, candidate.amount
-        projector = study.projector([*named, candidate])
-        held = study.meaning(candidate)
-        removed = cleaned[held] if held in cleaned else projector.remove(residual)
-        cleaned[held] = removed
-        low, high = amount.low - at, amount.high - at
-        found = max((score(projector, removed, acts, low, high, clean),
-                     *(score(projector, removed, one, low, high)
-                       for one in far.get(candidate.form, ()))), key=lambda s: s.delta)
-        fall = max(found.delta - (float(residual @ removed) - free), 0.0)
-        ranked.append(Ranked(candidate.at(at + found.amount), fall, found.sigma, evidence=fall,
-                             promise=found.delta))
-        question = Question.of(projector, removed, [
-            part for i, at_i in enumerate(rows) for part in parts_of(
-                study.runs[i], at_i.start, column[at_i], i in study.train, episode_s, manner[i])],
-            candidate.effect.strays(study.packed, study.grip_used), (low, high))
+    acting = _in_training(study, columns)
+    left, manner = _left(study, candidates, named), driven(study)
+    cleaned = _cleaned(study, candidates, left, acting)
+    ranked, shown, questions = [], [], []
+    for candidate, column, acts, clean in zip(candidates, columns, acting, cleaned, strict=True):
+        own, bounds = left[study.meaning(candidate)], _bounds(candidate)
+        best = _clearest(own, acts, clean, far.get(candidate.form, ()), bounds)
+        fall = max(best.delta - own.cost, 0.0)
+        ranked.append(Ranked(candidate.at(candidate.amount + best.amount), fall, best.sigma,
+                             evidence=fall, promise=best.delta))
+        question = _question(study, candidate, own, column, bounds, manner)
         questions.append((candidate, question))
-        shown.append(question.shown(removed - found.amount * clean) if question else None)
+        shown.append(question.shown(own.residual - best.amount * clean) if question else None)
     scatter = Scatter.of([one for one in shown if one])
     ranked = [replace(r, support=scatter.support(one)) if one else r
               for r, one in zip(ranked, shown, strict=True)]
-    asked = np.stack(acting, axis=1) if columns else np.zeros((0, 0))
+    asked = independent(np.stack(acting, axis=1), study.projector(named)) if acting else 0.0
     return Ranking(tuple(sorted(ranked, key=lambda r: (-r.promise, r.hypothesis.key))), scatter,
-                   independent(asked, usual) if columns else 0.0,
-                   tuple((which, one) for which, one in questions if one))
+                   asked, tuple((which, one) for which, one in questions if one))
 
 
-def _cleaned(study: Study, candidates: Sequence[Hypothesis], named: Sequence[Hypothesis],
+def _in_training(study: Study, columns: Sequence[Floats]) -> list[Floats]:
+    """The columns where a candidate may act: zero in baseline runs."""
+    rows = row_ranges(study)
+    trained = np.zeros(study.columns.shape[0])
+    for i in study.train:
+        trained[rows[i]] = 1.0
+    return [column * trained for column in columns]
+
+
+@dataclass(frozen=True, eq=False)
+class _Left:
+    """What the nuisances leave of the residual where one of their numbers is held.
+
+    ``cost``: by how much more its squares sum up than with that number free.
+    """
+
+    projector: Projector
+    residual: Floats
+    cost: float
+
+
+def _left(study: Study, candidates: Sequence[Hypothesis], named: Sequence[Hypothesis]
+          ) -> dict[str, _Left]:
+    """By the number that a candidate holds."""
+    residual, found = study.residual(), dict[str, _Left]()
+    free = study.projector(named).chi2(residual)
+    for candidate in candidates:
+        held = study.meaning(candidate)
+        if held not in found:
+            projector = study.projector([*named, candidate])
+            removed = projector.remove(residual)
+            found[held] = _Left(projector, removed, float(residual @ removed) - free)
+    return found
+
+
+def _cleaned(study: Study, candidates: Sequence[Hypothesis], left: Mapping[str, _Left],
              columns: Sequence[Floats]) -> list[Floats]:
     """What the nuisances leave of each candidate's column, all that hold one number at once."""
     found, groups = dict[int, Floats](), dict[str, list[int]]()
     for k, candidate in enumerate(candidates):
         groups.setdefault(study.meaning(candidate), []).append(k)
-    for which in groups.values():
-        projector = study.projector([*named, candidates[which[0]]])
-        clean = projector.remove(np.stack([columns[k] for k in which], axis=1))
+    for held, which in groups.items():
+        clean = left[held].projector.remove(np.stack([columns[k] for k in which], axis=1))
         found |= {k: np.ascontiguousarray(clean[:, j]) for j, k in enumerate(which)}
     return [found[k] for k in range(len(columns))]
+
+
+def _bounds(candidate: Hypothesis) -> tuple[float, float]:
+    """Between which the amount lies, from where it is now."""
+    amount = candidate.effect.amount
+    return amount.low - candidate.amount, amount.high - candidate.amount
+
+
+def _clearest(left: _Left, acts: Floats, clean: Floats, far: Sequence[Floats],
+              bounds: tuple[float, float]) -> Score:
+    """Of a small amount, or a large one of the grid, whichever explains most."""
+    small = score(left.projector, left.residual, acts, *bounds, clean)
+    return max((small, *(score(left.projector, left.residual, one, *bounds) for one in far)),
+               key=lambda s: s.delta)
+
+
+def _question(study: Study, candidate: Hypothesis, left: _Left, column: Floats,
+              bounds: tuple[float, float], manner: Sequence[Floats]) -> Question | None:
+    """What is asked of all runs for the candidate's amount; ``manner``: see :func:`driven`."""
+    parts = [part for i, rows in enumerate(row_ranges(study)) for part in parts_of(
+        study.runs[i], rows.start, column[rows], i in study.train, study.settings.episode_s,
+        manner[i])]
+    return Question.of(left.projector, left.residual, parts,
+                       candidate.effect.strays(study.packed, study.grip_used), bounds)
 
 
 def _far_columns(study: Study, candidates: Sequence[Hypothesis], named: Sequence[Hypothesis],
