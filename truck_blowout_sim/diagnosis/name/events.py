@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -78,43 +78,65 @@ def rank_events(study: Study, beside: Beside, chi2: float, chance: Chance,
                 steady: Sequence[Ranked], places: Sequence[tuple[Effect, Place]],
                 progress: Progress | None) -> list[Ranked]:
     """Tires that lost pressure by themselves, and everything scanned over time."""
-    named = beside.named
-    excess = chi2 - study.level * study.columns.shape[0]
-    found = [supported(study, _failed(study, named, chi2, tire, times), beside, chance)
-             for tire, times in failed_tires(study, study.train).items()]
+    failed = [supported(study, _failed(study, beside.named, chi2, tire, times), beside, chance)
+              for tire, times in failed_tires(study, study.train).items()]
     scanned = sorted(_scanned(study, beside, places, chance.asked, progress),
                      key=lambda r: (r.support < chance.asked, -r.delta))
-    large = _large([*steady, *scanned], chance)
-    worth = max(chance.asked, _HALF * max((r.delta for r in steady if r.refitted), default=0.0))
-    keys: set[tuple[str, str]] = set()
-    for one in scanned:
-        cost = _TIMED_COST * len(one.hypothesis.times) + _TIMED_SHARE * one.delta
-        # what acts only near a limit shows little to a linear scan: looked at where much is open
-        curved = bool(one.hypothesis.effect.amount.grid) and large and (
-            max((r.delta for r in found if not at_bound(r.hypothesis)), default=0.0)
-            < (1.0 - study.settings.law_leaves) * excess)
-        most = max((r.delta for r in found), default=0.0)
-        among = (one.hypothesis.key in keys or len(keys) < study.refits[1]
-                 or one.delta - cost > most)
-        worth = max(worth, _HALF * most)
-        promising = among and (one.delta - cost > worth or one.support > chance.asked)
-        starts = [one] if promising else []
-        if curved:
-            starts = simulated_starts(study, one, chi2, named)[:study.refits[1]]
-        if any(each.hypothesis.times for each in starts):
-            keys.add(one.hypothesis.key)
-            seen = one
-            one = max((fitted_event(study, each, chi2, named) for each in starts),
-                      key=lambda r: r.delta)
-            one = (replace(one, support=seen.support, unseen=seen.unseen)
-                   if one.hypothesis.effect.adds_up else supported(study, one, beside, chance))
-            cost = _TIMED_COST * len(one.hypothesis.times) + _TIMED_SHARE * max(one.delta, 0.0)
-        found.append(replace(one, delta=one.delta - cost, evidence=one.evidence - cost))
+    found = _fitted(study, scanned, failed, beside, chi2, chance, steady)
     rivals = [r for r in (*steady, *found) if r.refitted and not at_bound(r.hypothesis)]
     least = study.settings.law_leaves * max((r.delta for r in rivals), default=0.0)
     stands = any(r.support >= chance.asked for r in rivals if not r.hypothesis.effect.timed)
     # what acts all the time shows in unseen runs, too, and a long event imitates it
     return _confirmed(study, found, beside, chance, least, trusted=not stands)
+
+
+def _fitted(study: Study, scanned: Sequence[Ranked], failed: Sequence[Ranked], beside: Beside,
+            chi2: float, chance: Chance, steady: Sequence[Ranked]) -> list[Ranked]:
+    """All events, those that are worth it fitted, what their free instants cost paid."""
+    large = _large([*steady, *scanned], chance)
+    worth = max(chance.asked, _HALF * max((r.delta for r in steady if r.refitted), default=0.0))
+    found, keys = list(failed), set[tuple[str, str]]()
+    for one in scanned:
+        starts = [one] if _promising(study, one, found, keys, worth, chance) else []
+        # what acts only near a limit shows little to a linear scan: looked at where much is open
+        if one.hypothesis.effect.amount.grid and large and _much_open(study, found, chi2):
+            starts = simulated_starts(study, one, chi2, beside.named)[:study.refits[1]]
+        if any(each.hypothesis.times for each in starts):
+            keys.add(one.hypothesis.key)
+            one = _best_fitted(study, one, starts, beside, chi2, chance)
+        cost = _cost(one)
+        found.append(replace(one, delta=one.delta - cost, evidence=one.evidence - cost))
+    return found
+
+
+def _cost(one: Ranked) -> float:
+    """What the free instants of an event cost, and its free shape."""
+    return _TIMED_COST * len(one.hypothesis.times) + _TIMED_SHARE * max(one.delta, 0.0)
+
+
+def _promising(study: Study, one: Ranked, found: Sequence[Ranked],
+               keys: Collection[tuple[str, str]], worth: float, chance: Chance) -> bool:
+    """Whether a scanned event is worth a fit beside what was found, ``keys`` of it fitted."""
+    most, left = max((r.delta for r in found), default=0.0), one.delta - _cost(one)
+    among = one.hypothesis.key in keys or len(keys) < study.refits[1] or left > most
+    return among and (left > max(worth, _HALF * most) or one.support > chance.asked)
+
+
+def _much_open(study: Study, found: Sequence[Ranked], chi2: float) -> bool:
+    """Whether all that was found leaves more than an inexact form of its law may."""
+    excess = chi2 - study.level * study.columns.shape[0]
+    explained = max((r.delta for r in found if not at_bound(r.hypothesis)), default=0.0)
+    return explained < (1.0 - study.settings.law_leaves) * excess
+
+
+def _best_fitted(study: Study, scanned: Ranked, starts: Sequence[Ranked], beside: Beside,
+                 chi2: float, chance: Chance) -> Ranked:
+    """The event from the start that explains most; what adds up keeps its support of the scan."""
+    best = max((fitted_event(study, each, chi2, beside.named) for each in starts),
+               key=lambda r: r.delta)
+    if best.hypothesis.effect.adds_up:
+        return replace(best, support=scanned.support, unseen=scanned.unseen)
+    return supported(study, best, beside, chance)
 
 
 def fitted_event(study: Study, one: Ranked, chi2: float, named: Sequence[Hypothesis] = ()
