@@ -12,7 +12,7 @@ from truck_blowout_sim.diagnosis.case.driven import driven
 from truck_blowout_sim.diagnosis.case.study import Progress, Study, row_ranges
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.fit.linear import Projector, Score, score
-from truck_blowout_sim.diagnosis.fit.models import models_at, with_effects
+from truck_blowout_sim.diagnosis.fit.models import jobs_with, models_at
 from truck_blowout_sim.diagnosis.fit.scatter import Scatter, independent
 from truck_blowout_sim.diagnosis.fit.shown import Question, parts_of
 from truck_blowout_sim.vehicle import Packed
@@ -65,16 +65,14 @@ class Ranking:
 
 def _jobs(study: Study, hypothesis: Hypothesis, named: Sequence[Hypothesis]
           ) -> list[tuple[int, Packed]]:
-    """Runs and trucks to simulate for a finite difference: what is named acts in training only.
+    """Runs and trucks to simulate for a finite difference, on top of what is named.
 
     Baseline runs look alike in every round and are simulated in the first.
     """
     amount = hypothesis.amount + hypothesis.effect.amount.step
-    runs = study.train if hypothesis.form in study.quiet else range(len(study.runs))
-    return [(i, hypothesis.apply(
-        with_effects(study.packed, named if i in study.train else (),
-                     study.runs[i].recording.name), study.runs[i].recording.name, amount))
-            for i in runs]
+    return [(i, hypothesis.apply(truck, run.recording.name, amount))
+            for i, (run, truck) in enumerate(jobs_with(study, study.packed, named))
+            if run.role == "train" or hypothesis.form not in study.quiet]
 
 
 def rank_steady(study: Study, candidates: Sequence[Hypothesis],

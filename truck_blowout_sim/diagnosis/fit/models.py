@@ -7,6 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from truck_blowout_sim.diagnosis.case.simulations import Job
 from truck_blowout_sim.diagnosis.case.study import Progress, Study
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.vehicle import Packed
@@ -19,6 +20,12 @@ def with_effects(packed: Packed, effects: Sequence[Hypothesis], run: str) -> Pac
     for effect in effects:
         packed = effect.apply(packed, run)
     return packed
+
+
+def jobs_with(study: Study, truck: Packed, named: Sequence[Hypothesis]) -> list[Job]:
+    """A truck over all fitted runs: what is named acts in training only."""
+    return [(run, with_effects(truck, named if run.role == "train" else (), run.recording.name))
+            for run in study.runs]
 
 
 def models_at(study: Study, hypotheses: Sequence[Hypothesis], named: Sequence[Hypothesis],

@@ -16,7 +16,7 @@ from truck_blowout_sim.diagnosis.effects.base import Amount
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.fit.attribute import Ranked
 from truck_blowout_sim.diagnosis.fit.linear import Projector, score
-from truck_blowout_sim.diagnosis.fit.models import models_at, with_effects
+from truck_blowout_sim.diagnosis.fit.models import jobs_with, models_at
 
 Floats = NDArray[np.float64]
 _ROUNDS = 6
@@ -93,9 +93,8 @@ def _beyond_sheet(study: Study, hypothesis: Hypothesis, named: Sequence[Hypothes
     trucks = [study.packed.unchecked(nuisance.values(study.packed, nuisance.between(here, a)))
               for a in amounts.tolist()]
     runs = range(len(study.runs))
-    results = iter(study.simulate([(study.runs[i], with_effects(
-        truck, named if i in study.train else (), study.runs[i].recording.name))
-        for truck in trucks for i in runs]))
+    results = iter(study.simulate([job for truck in trucks
+                                   for job in jobs_with(study, truck, named)]))
     projector = study.projector([*named, hypothesis])
     # the runs were shifted by what the columns say of the reference: its own number comes twice
     sums = np.array([

@@ -29,7 +29,7 @@ from scipy.stats import gamma
 
 from truck_blowout_sim.diagnosis.case.study import Study
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
-from truck_blowout_sim.diagnosis.fit.models import with_effects
+from truck_blowout_sim.diagnosis.fit.models import jobs_with
 from truck_blowout_sim.diagnosis.locate.beat import HARMONICS, Beat, Kind
 from truck_blowout_sim.diagnosis.locate.lines import (
     PACES_HZ,
@@ -59,9 +59,7 @@ def find_beat(study: Study, named: Sequence[Hypothesis] = ()) -> Beat | None:
     """
     per_m, rate = turns_per_m(study.packed), study.settings.alarms_by_sign
     turning, steady, swinging = [], [], []
-    for run in study.runs:
-        truck = with_effects(study.packed, named if run.role == "train" else (),
-                             run.recording.name)
+    for run, truck in jobs_with(study, study.packed, named):
         signals = measured_less_model(run, truck)
         about = (run.role == "baseline", run.drive.initial.speed_mps)
         turning.append(_of(turn_lines(signals, run.recording, per_m), *about))

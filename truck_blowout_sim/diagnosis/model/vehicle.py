@@ -24,7 +24,7 @@ from truck_blowout_sim.comparison import rms_errors
 from truck_blowout_sim.diagnosis.case.study import FURTHEST, Study
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.fit.linear import Projector
-from truck_blowout_sim.diagnosis.fit.models import with_effects
+from truck_blowout_sim.diagnosis.fit.models import jobs_with
 from truck_blowout_sim.diagnosis.result import Fit
 from truck_blowout_sim.diagnosis.sensors import Noise, channel_noise, slow_noise, told_noise
 from truck_blowout_sim.recordings import Recording
@@ -108,7 +108,7 @@ def _asked_for(study: Study, models: Sequence[Floats], named: Sequence[Hypothesi
     least = _left(study, instruments, models, here)
     for share in _SHARES:
         there = here + share * way
-        driven = _driven(study, _moved(study, there), named)
+        driven = study.simulate(jobs_with(study, _moved(study, there), named))
         if _left(study, instruments, driven, there) < least:
             here = there
             break
@@ -122,12 +122,6 @@ def _moved(study: Study, amounts: Floats) -> Packed:
         here = study.amounts.get(number.name, 0.0)
         truck = truck.unchecked(number.values(truck, number.between(here, there)))
     return truck
-
-
-def _driven(study: Study, truck: Packed, named: Sequence[Hypothesis]) -> list[Floats]:
-    """Bin means of a truck over all fitted runs, what is named in force in training."""
-    return study.simulate([(run, with_effects(truck, named if run.role == "train" else (),
-                                              run.recording.name)) for run in study.runs])
 
 
 def _left(study: Study, instruments: Projector, models: Sequence[Floats], amounts: Floats
