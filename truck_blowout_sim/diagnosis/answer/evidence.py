@@ -43,9 +43,7 @@ def left_after(study: Study, found: Found, role: str) -> Left:
     if role == "holdout":
         return [(p.run, p.left) for p in found.after]
     named = [r.hypothesis for r in found.named]
-    projector = study.projector(named)
-    residual = study.residual()
-    clean = residual - projector.explained(projector.amounts(residual))
+    clean = study.projector(named).remove(study.residual())
     rows = row_ranges(study)
     return [(study.runs[i], clean[rows[i]].reshape(study.runs[i].measured.shape))
             for i in study.train]

@@ -20,7 +20,7 @@ Validated with: test/diagnosis/test_restlessness.py (noise of known colour; no f
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import replace
 
 import numpy as np
@@ -29,7 +29,6 @@ from numpy.typing import NDArray
 from truck_blowout_sim.diagnosis.case.emptying import began_to_empty_s
 from truck_blowout_sim.diagnosis.case.runs import Run
 from truck_blowout_sim.diagnosis.case.study import Study, row_ranges
-from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.fit.color import Color, autocovariance
 from truck_blowout_sim.diagnosis.fit.linear import Projector
 
@@ -52,12 +51,6 @@ def colors(study: Study) -> Mapping[str, Color]:
             for name, one in _autocovariances(study).items()}
 
 
-def left_by_fit(study: Study, named: Sequence[Hypothesis] = ()) -> Floats:
-    """[rows] whitened residual that the nuisances, at their best amounts, leave."""
-    residual, projector = study.residual(), study.projector(named)
-    return np.asarray(residual - projector.explained(projector.amounts(residual)))
-
-
 def _left_of_telling(study: Study) -> Floats:
     """[rows] what is left in the runs that tell, zero elsewhere.
 
@@ -65,7 +58,7 @@ def _left_of_telling(study: Study) -> Floats:
     of its channels, away from them, and so excuse itself.
     """
     if not study.baseline:
-        return left_by_fit(study)
+        return study.projector().remove(study.residual())
     residual, ranges = study.residual(), row_ranges(study)
     rows = np.concatenate([np.arange(ranges[i].start, ranges[i].stop) for i in study.baseline])
     left = np.zeros_like(residual)

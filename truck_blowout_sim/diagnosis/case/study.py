@@ -142,6 +142,15 @@ class Study:
         kept: list[int] = self.projector(hypotheses).kept.tolist()
         return kept
 
+    def amounts_of_kind(self, hypotheses: Sequence[Hypothesis], residual: Floats) -> Floats:
+        """Amounts that a residual asks of the nuisances that :meth:`projector` keeps.
+
+        None is farther from where it is expected than trucks of one kind stray.
+        """
+        usual = np.array([self.expected(self.names[k]) for k in self.kept(hypotheses)])
+        return self.projector(hypotheses).amounts_within(residual, usual - FURTHEST,
+                                                         usual + FURTHEST)
+
     def forget(self) -> None:
         """Drop what was made of columns that are no longer these."""
         self._projectors.clear()

@@ -23,7 +23,6 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import cho_factor, cho_solve
 
-from truck_blowout_sim.diagnosis.case.restlessness import left_by_fit
 from truck_blowout_sim.diagnosis.case.study import Study, row_ranges
 from truck_blowout_sim.diagnosis.case.trust import comparable_rows
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
@@ -70,7 +69,7 @@ def mean_squares(study: Study, named: Sequence[Hypothesis] = (),
 
 
 def _in_guessed_widths(study: Study, named: Sequence[Hypothesis]) -> tuple[float, ...]:
-    left = left_by_fit(study, named)
+    left = study.projector(named).remove(study.residual())
     parts = [(run, run.color.colored(left[rows].reshape(run.measured.shape)))
              for run, rows in zip(study.runs, row_ranges(study), strict=True)]
     return tuple(max(float(np.mean(np.square(z[np.isfinite(run.measured)]))), _LEAST)

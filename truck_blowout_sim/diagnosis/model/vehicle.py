@@ -21,7 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from truck_blowout_sim.comparison import rms_errors
-from truck_blowout_sim.diagnosis.case.study import FURTHEST, Study
+from truck_blowout_sim.diagnosis.case.study import Study
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.fit.linear import Projector
 from truck_blowout_sim.diagnosis.fit.models import jobs_with
@@ -97,11 +97,8 @@ def _asked_for(study: Study, models: Sequence[Floats], named: Sequence[Hypothesi
     All the way that the linear columns ask for, or half of it, or none: as simulation has it.
     """
     sheet = [number.name for number in study.settings.nuisances]
-    projector, residual = study.projector(named), study.residual(dict(enumerate(models)))
-    names = [study.names[k] for k in projector.kept.tolist()]
-    usual = np.array([study.expected(name) for name in names])
-    asked = dict(zip(names, projector.amounts_within(
-        residual, usual - FURTHEST, usual + FURTHEST).tolist(), strict=True))
+    wanted = study.amounts_of_kind(named, study.residual(dict(enumerate(models))))
+    asked = dict(zip((study.names[k] for k in study.kept(named)), wanted.tolist(), strict=True))
     here = np.array([study.amounts.get(name, 0.0) for name in sheet])
     way = np.array([asked.get(name, at) for name, at in zip(sheet, here, strict=True)]) - here
     instruments = Projector.of(study.columns, range(len(sheet), study.columns.shape[1]))

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from scipy.linalg import cholesky
 
 from truck_blowout_sim.diagnosis.case.runs import Run
-from truck_blowout_sim.diagnosis.case.study import FURTHEST, Study
+from truck_blowout_sim.diagnosis.case.study import Study
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.fit.instants import bins_between, delayed, grid_of
 from truck_blowout_sim.diagnosis.fit.linear import Projector
@@ -49,8 +49,7 @@ def predict(study: Study, residual: Floats, named: Sequence[Hypothesis]
     need more is a missing effect, not a property of the truck.
     """
     projector, kept = study.projector(named), study.kept(named)
-    usual = np.array([study.expected(study.names[k]) for k in kept])
-    amounts = projector.amounts_within(residual, usual - FURTHEST, usual + FURTHEST)
+    amounts = study.amounts_of_kind(named, residual)
     spread = cholesky(projector.covariance() + 1e-12 * np.eye(amounts.size), lower=True)
     found = []
     for run, every, null in zip(study.holdout, study.holdout_columns, study.holdout_models,
