@@ -49,7 +49,6 @@ Floats = NDArray[np.float64]
 Progress = Callable[[str, float], None]
 
 _STEP_S = 0.002  # bins of 0.1 s hardly depend on it, but where friction sticks and slips
-_PLACE = "world."
 # of the settings' steps: a coast-down of a minute tells a drag to a hundredth of the steps that a
 # diagnosis takes, over which speed is no straight line
 _FINER = 0.1
@@ -193,7 +192,7 @@ def calibrate(
               for r in runs), (), packed, rules, workers or os.cpu_count() or 1)  # fmt: skip
     settle(study, progress=progress)
     amounts, spread, told = _posterior(study)
-    place = np.array([_of_the_place(n) for n in rules.nuisances])
+    place = np.array([n.of_the_place for n in rules.nuisances])
     truck = apply_amounts(packed, rules.nuisances, np.where(place, 0.0, amounts))
     tell("runs before and after", 0.5)
     sheet = _errors(packed, runs, unseen, impose_speed)
@@ -227,8 +226,7 @@ def write_calibrated_vehicle(
         InputError: the file cannot be written.
     """
     given = pack(load_vehicle(base) if isinstance(base, str) else base)
-    values = {name: float(calibration.packed.params[i]) for name, i in given.index.items()
-              if calibration.packed.params[i] != given.params[i]}  # fmt: skip
+    values = calibration.packed.differing(given)
     said: dict[str, list[str]] = {}
     for number in calibration.told:
         for name in number.values:
@@ -299,7 +297,7 @@ def _numbers(
             name=number.name, kind=number.kind, change=amount * number.sigma,
             ci90=(low * number.sigma, high * number.sigma), prior_sigma=number.sigma,
             source=number.source, values=dict(number.values(packed, amount * number.sigma)),
-            told=bool(told[k]) and share > 0.0, of_the_place=_of_the_place(number),
+            told=bool(told[k]) and share > 0.0, of_the_place=number.of_the_place,
             at_prior_end=abs(amount) >= FURTHEST))  # fmt: skip
     return tuple(sorted(found, key=lambda n: -abs(n.change) / n.prior_sigma))
 
@@ -316,15 +314,11 @@ def _notes(study: Study, amounts: Floats, share: float, lockup: Lockup | None) -
                      "point: further on, these runs are predicted worse")
     sheet = zip(study.settings.nuisances, amounts, strict=True)
     ends = [n.name.replace("_", " ") for n, amount in sheet
-            if abs(amount) >= FURTHEST and not _of_the_place(n)]
+            if abs(amount) >= FURTHEST and not n.of_the_place]
     if ends:
         notes.append(f"{', '.join(ends)}: these runs ask for more than trucks of one kind differ; "
                      "the sheet is of another vehicle, or physics is missing (diagnose)")
     return (*notes, *parting_notes(study.runs))
-
-
-def _of_the_place(number: Nuisance) -> bool:
-    return all(name.startswith(_PLACE) for name, _ in number.targets)
 
 
 def _errors(

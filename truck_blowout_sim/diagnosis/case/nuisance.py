@@ -10,6 +10,7 @@ from truck_blowout_sim.vehicle import Packed
 # by the end of a packed name
 _UNITS = {"_rad": "rad", "_m": "m", "_n": "N", "_pa": "Pa", "_kg": "kg", "_s": "s",
           "_prad2": "1/rad^2"}
+_PLACE = "world."  # packed names begin so
 _LEAST_SCALE = 0.1  # a number of the sheet never shrinks below this share
 
 
@@ -44,6 +45,11 @@ class Nuisance:
         if self.kind == "scale":
             return "1"
         return unit_of(self.targets[0][0]) or "1"
+
+    @property
+    def of_the_place(self) -> bool:
+        """Whether it belongs to the road of a test and not to the vehicle."""
+        return all(name.startswith(_PLACE) for name, _ in self.targets)
 
     def between(self, here: float, there: float) -> float:
         """Amount that takes a truck from one number of prior sigmas to another."""

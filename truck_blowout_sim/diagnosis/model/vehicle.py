@@ -31,7 +31,6 @@ from truck_blowout_sim.recordings import Recording
 from truck_blowout_sim.vehicle import Packed
 
 Floats = NDArray[np.float64]
-_PLACE = "world."
 _NO_CHANGE = 1e-9
 _SHARES = (1.0, 0.5)  # of the way that linear columns ask for, the first that helps
 
@@ -65,8 +64,7 @@ def diagnosed_truck(
         law: parameters of a force without name, if one is to be added.
     """
     amounts = _asked_for(study, models, named)
-    place = {number.name for number in study.settings.nuisances
-             if all(name.startswith(_PLACE) for name, _ in number.targets)}
+    place = {number.name for number in study.settings.nuisances if number.of_the_place}
     truck = _moved(study, np.array([0.0 if name in place else amount
                                     for name, amount in amounts.items()]))
     sources: dict[str, str] = {}
@@ -83,10 +81,8 @@ def diagnosed_truck(
         before = truck
         truck = effect.apply(truck, next(iter(effect.times), ""))
         words = f"diagnosed: {effect.effect.name} {effect.place}".strip()
-        sources |= {name: words for name, i in truck.index.items()
-                    if truck.params[i] != before.params[i]}  # fmt: skip
-    values = {name: float(truck.params[i]) for name, i in given.index.items()
-              if truck.params[i] != given.params[i]}  # fmt: skip
+        sources |= dict.fromkeys(truck.differing(before), words)
+    values = truck.differing(given)
     return DiagnosedTruck(truck, values, {name: sources.get(name, "calibrated") for name in values})
 
 

@@ -120,6 +120,11 @@ class Packed:
         return {name: nearest_allowed(self.block(name), name.rpartition(".")[2], value)
                 for name, value in values.items()}
 
+    def differing(self, other: Packed) -> dict[str, float]:
+        """Named parameters that are not those of another packing of the vehicle."""
+        return {name: float(self.params[i]) for name, i in other.index.items()
+                if self.params[i] != other.params[i]}
+
     def tire_states(self, field: int) -> NDArray[np.int64]:
         """Position in the state vector of one field of `TIRE_S`, for every tire."""
         tires = np.arange(self.topology[layout.TOPOLOGY.n_tires])
