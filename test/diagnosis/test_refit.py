@@ -8,10 +8,16 @@ from dataclasses import replace
 import pytest
 
 from truck_blowout_sim.diagnosis.case.study import Study
-from truck_blowout_sim.diagnosis.effects import LIBRARY
+from truck_blowout_sim.diagnosis.effects import LIBRARY, Effect
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.fit.attribute import Ranked, rank_steady
-from truck_blowout_sim.diagnosis.fit.refit import chi2_of, chi2_with_each, refit
+from truck_blowout_sim.diagnosis.fit.refit import (
+    chi2_of,
+    chi2_with_each,
+    difference_step,
+    least_step,
+    refit,
+)
 from truck_blowout_sim.vehicle import Packed
 
 Studies = Callable[..., Study]
@@ -127,3 +133,14 @@ def test_models_of_one_run_are_weighed_together_as_they_are_one_by_one(
     together = chi2_with_each(study, projector, {}, i, trials)
     assert together == pytest.approx([chi2_of(study, projector, {i: t}) for t in trials], rel=1e-9)
     assert together[0] < together[1:].min()
+
+
+@pytest.mark.parametrize("effect", [pytest.param(effect, id=effect.name) for effect in LIBRARY])
+def test_a_finite_difference_is_never_nothing_and_stays_inside_the_bounds(effect: Effect) -> None:
+    amount = effect.amount
+    middle = 0.5 * (amount.low + amount.high)
+    for value in (amount.low, *amount.grid, middle, amount.high):
+        assert least_step(amount, value) > 0.0
+        step = difference_step(amount, value)
+        assert abs(step) >= least_step(amount, value)
+        assert amount.low <= value + step <= amount.high
