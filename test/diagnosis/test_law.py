@@ -99,7 +99,7 @@ def test_a_law_is_tried_on_runs_that_were_never_fitted(study_of: Studies, truck:
     """A side force in proportion to yaw rate times speed, in training and in the unseen run."""
     key = "unit.trailer.probe_fy_vr_kg"
     study = study_of({key: 4000.0}, holdout={key: 4000.0}, baseline=True)
-    law = Law("fy_n", "trailer", (("v r", 4000.0),), "F_y = 4000 v r", 0.9, {key: 4000.0})
+    law = Law("trailer", (("v r", 4000.0),), "F_y = 4000 v r", 0.9, {key: 4000.0})
     right, wrong = (checked(study, replace(law, values={key: k})) for k in (4000.0, -4000.0))
     assert right.unseen is not None
     assert right.unseen[1] < 0.5 * right.unseen[0]

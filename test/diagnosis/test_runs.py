@@ -8,7 +8,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from truck_blowout_sim.diagnosis.case.runs import Run, prepare_run, rms_sigma
+from truck_blowout_sim.diagnosis.case.runs import Run, prepare_run
+from truck_blowout_sim.diagnosis.case.widths import swings
 from truck_blowout_sim.diagnosis.effects import LIBRARY
 from truck_blowout_sim.diagnosis.fit.instants import grid_of
 from truck_blowout_sim.diagnosis.settings import Settings
@@ -61,7 +62,7 @@ def test_the_true_truck_leaves_noise_and_no_more(run: Run, truck: Packed) -> Non
     plain = (run.measured - model) / run.noise
     assert 0.7 < float(np.sqrt(np.nanmean(plain**2))) < 1.5
     assert float(np.mean(run.residual(model) ** 2)) < 1.0
-    assert set(rms_sigma(run, model)) == set(run.channels)
+    assert np.isfinite(plain).any(axis=0).all()
 
 
 def test_the_estimated_noise_is_the_one_that_was_added(run: Run) -> None:
@@ -78,7 +79,8 @@ def test_weights_grow_with_the_distance_from_rest_and_never_below_the_noise(
     k = run.channels.index("tractor_ay_mps2")
     rule = few.rule("tractor_ay_mps2")
     assert rule is not None
-    model = np.sqrt((rule.floor**2 + (rule.relative * run.swing[:, k]) ** 2)
+    swing = swings(run.measured, few)[:, k]
+    model = np.sqrt((rule.floor**2 + (rule.relative * swing) ** 2)
                     * few.correlation_s / few.bin_s)
     np.testing.assert_allclose(run.sigma[:, k], np.hypot(run.noise[:, k], model), rtol=1e-9)
 

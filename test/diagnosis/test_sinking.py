@@ -8,7 +8,6 @@ from dataclasses import replace
 import numpy as np
 
 from truck_blowout_sim.diagnosis.case.study import Study
-from truck_blowout_sim.diagnosis.effects import secondary_blowout
 from truck_blowout_sim.diagnosis.locate.sinking import sinking_hubs
 
 HUB = "trailer_2_right"
@@ -29,8 +28,7 @@ def turned(study: Study, share: float, from_s: float, roles: Sequence[str] = ("t
 
 
 def hubs(study: Study) -> set[str]:
-    return set(sinking_hubs(study, (), secondary_blowout.EFFECT, ASKED,
-                            study.packed.vehicle.hubs))
+    return set(sinking_hubs(study, (), ASKED, study.packed.vehicle.hubs))
 
 
 def test_a_hub_that_turns_faster_is_found_and_no_other(study_of: Studies) -> None:

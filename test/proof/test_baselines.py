@@ -133,7 +133,7 @@ def test_a_residual_that_lasts_counts_in_full(monkeypatch: pytest.MonkeyPatch) -
     left[7, 1] = np.nan
     drive = cast("Drive", None)
     run = Run(Recording("run", {}), "holdout", drive, NAMES, (0, 1), BIN_S * np.arange(41.0), left,
-              np.full(left.shape, 0.05), np.full(left.shape, 0.01), left, drive,
+              np.full(left.shape, 0.05), np.full(left.shape, 0.01), drive,
               np.zeros(left.shape), lasting)
     whitened = run.residual(np.zeros(left.shape)).reshape(left.shape)
     assert np.nanmean(np.square(whitened[1:, 0])) < 0.2 * np.nanmean(np.square(left[:, 0] / 0.05))

@@ -36,7 +36,6 @@ _HEADS: tuple[Mapping[str, object], ...] = (
     {"key": "amount", "words": "amount", "number": False},
     {"key": "gain", "words": "evidence Δχ²", "number": True},
     {"key": "p", "words": "p", "number": True},
-    {"key": "holdout", "words": "on unseen runs", "number": True},
 )
 
 

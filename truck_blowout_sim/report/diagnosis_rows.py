@@ -41,7 +41,7 @@ def effect_row(effect: Effect, aliases: AliasSet, effects: Sequence[Effect]) -> 
         "kind": effect.kind,
         "sentence": effect.sentence,
         "equation": effect.equation,
-        "parameters": [(plain(name), amount_text(name, p), p.note)
+        "parameters": [(plain(name), amount_text(name, p))
                        for name, p in effect.parameters.items()],
         "onset": _onset(onset, effect.onset_ci90_s),
         "aliases": ", ".join(others),
@@ -58,13 +58,12 @@ def candidate_row(candidate: Candidate) -> Row:
         outcome, style = ("fits as well", "")
     if candidate.reason:
         outcome += ":"
-    holdout, p_value = candidate.holdout_gain, candidate.p_value
+    p_value = candidate.p_value
     return {
         "name": candidate.name,
         "where": str(candidate.where) or _ABSENT,
         "gain": f"{candidate.delta_chi2:,.0f}",
         "p": "" if p_value is None else f"{p_value:.2g}",
-        "holdout": "" if holdout is None else f"{holdout:,.0f}",
         "amount": candidate.amount,
         "outcome": outcome,
         "style": style,

@@ -7,7 +7,6 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.stats import chi2
 
 from truck_blowout_sim.diagnosis.answer import evidence, words
@@ -59,7 +58,6 @@ from truck_blowout_sim.diagnosis.sensors import GateResult
 from truck_blowout_sim.simulation.flat import flat_notes
 from truck_blowout_sim.simulation.silences import silences
 
-Floats = NDArray[np.float64]
 Key = tuple[str, str]  # of a hypothesis: name and place
 
 

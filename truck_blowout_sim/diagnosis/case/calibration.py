@@ -32,11 +32,12 @@ from truck_blowout_sim.vehicle import Packed
 
 Floats = NDArray[np.float64]
 _KNOWN = 0.6  # prior sigmas to which baseline runs must hold a number to count as known
+_ROUNDS = 2
 _STEPS = (1.0, 0.5, 0.25)  # of the way, the first that helps
 _SHARES = (1.0, 0.5)  # of what baseline runs ask for
 
 
-def calibrate(study: Study, rounds: int = 2, progress: Progress | None = None) -> None:
+def calibrate(study: Study, progress: Progress | None = None) -> None:
     """Move the reference to the sheet numbers that the baseline runs ask for.
 
     Only the point moves at which the model is linear: every run is corrected so that amounts and
@@ -58,7 +59,7 @@ def calibrate(study: Study, rounds: int = 2, progress: Progress | None = None) -
         study.level = resting_level(study)
         return
     rows, n_sheet = row_ranges(study), len(study.settings.nuisances)
-    kept = _moved(study, _asked_for(study, rounds), progress)
+    kept = _moved(study, _asked_for(study), progress)
     study.known = _known(study)
     study.runs = tuple(run.shifted(study.columns[part, :n_sheet] @ kept)
                        for run, part in zip(study.runs, rows, strict=True))
@@ -93,7 +94,7 @@ def _weigh_all(study: Study) -> None:
         for runs, models in ((study.runs, study.models), (study.holdout, study.holdout_models)))
 
 
-def _asked_for(study: Study, rounds: int) -> Floats:
+def _asked_for(study: Study) -> Floats:
     """Amounts of the sheet's numbers that lower what baseline runs leave and priors say, together.
 
     Gauss-Newton with the sensitivities of the sheet, each step shortened until it helps.
@@ -111,7 +112,7 @@ def _asked_for(study: Study, rounds: int) -> Floats:
 
     kept: Floats = np.zeros(n_sheet)
     least, residual = left_by([study.models[i] for i in study.baseline], kept)
-    for _ in range(rounds):
+    for _ in range(_ROUNDS):
         wanted = np.clip(projector.amounts(residual + columns[:, :n_sheet] @ kept)[:n_sheet],
                          -FURTHEST, FURTHEST)
         for share in _STEPS:

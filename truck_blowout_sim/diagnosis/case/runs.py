@@ -49,7 +49,6 @@ class Run:
         edges_s: bin edges, n + 1.
         measured, sigma: [n, m] bin means and their standard errors; NaN where not measured.
         noise: standard error from the instrument alone.
-        swing: [n, m] size of each signal's motion.
         correction: [n, m] what the fine step changes in the reference truck's bin means; added to
             those of every truck, which are simulated on the coarse step.
         color: of the residual in units of ``sigma``; what is whitened has it taken out.
@@ -67,7 +66,6 @@ class Run:
     measured: Floats
     sigma: Floats
     noise: Floats
-    swing: Floats
     fine: Drive
     correction: Floats
     color: Color
@@ -166,7 +164,7 @@ class Run:
         swing = np.minimum(swings(model, settings), swings(self.measured, settings))
         sigma = widths(self.channels, self.noise, swing, settings,
                        rms_around(self.correction, settings))
-        return replace(self, swing=swing, sigma=np.where(np.isfinite(self.sigma), sigma, np.nan))
+        return replace(self, sigma=np.where(np.isfinite(self.sigma), sigma, np.nan))
 
     def counted(self, model: Floats, units: Sequence[str], least_s: float) -> tuple[Run, Floats]:
         """This run and a model [n, m] without what follows where a unit slides apart from it.
@@ -181,7 +179,7 @@ class Run:
             bins = max(int(np.searchsorted(self.edges_s, last.at_s)),
                        _fewest_bins(float(self.edges_s[1] - self.edges_s[0])))
         cut = {name: getattr(self, name)[:bins]
-               for name in ("measured", "sigma", "noise", "swing", "correction")}
+               for name in ("measured", "sigma", "noise", "correction")}
         middles = 0.5 * (self.edges_s[1:bins + 1] + self.edges_s[:bins])
         for one in partings[:-1] if np.isinf(last.until_s) else partings:
             during = (middles > one.at_s) & (middles < one.until_s)
@@ -237,11 +235,11 @@ def prepare_run(recording: Recording, role: Role, packed: Packed, settings: Sett
                          expected="a speed, a rate, an angle or an acceleration of the vehicle")
     parts = [_channel_bins(recording, n, noise[n], edges, settings) for n in channels]
     measured, plain = (np.stack([p[k] for p in parts], axis=1) for k in range(2))
-    swing = swings(measured, settings)
+    sigma = widths(channels, plain, swings(measured, settings), settings)
     # a bin without samples must not count as one in which nothing changed
-    sigma = np.where(np.isfinite(measured), widths(channels, plain, swing, settings), np.nan)
+    sigma = np.where(np.isfinite(measured), sigma, np.nan)
     return Run(recording, role, drive, channels, tuple(names.index(n) for n in channels), edges,
-               measured, sigma, plain, swing, fine, np.zeros(measured.shape),
+               measured, sigma, plain, fine, np.zeros(measured.shape),
                Color.white(len(channels)), leaning=leaning_of(recording, channels, names))
 
 
@@ -274,8 +272,7 @@ def _channel_bins(recording: Recording, name: str, noise: Noise, edges: Floats,
     series, rule = recording[name], settings.rule(name)
     assert rule is not None
     mean, counts = bin_means(series.time_s, series.value, edges)
-    level = np.abs(np.nan_to_num(mean))
-    single = np.hypot(noise.floor, noise.relative * level)
+    single = noise.at(np.nan_to_num(mean))
     independent = np.clip(noise.effective_rate_hz * settings.bin_s, 1.0, np.maximum(counts, 1.0))
     plain = np.maximum(single / np.sqrt(independent), noise.quantum / 6.0)
     # a gauge that reads nothing, or a computed series, seems noiseless: none is that good
@@ -290,13 +287,6 @@ def bin_means(time_s: Floats, values: Floats, edges_s: Floats) -> tuple[Floats, 
     sums = np.bincount(place[inside], values[inside], minlength=edges_s.size - 1)
     with np.errstate(invalid="ignore", divide="ignore"):
         return np.where(counts > 0, sums / counts, np.nan), counts
-
-
-def rms_sigma(run: Run, model: Floats) -> Mapping[str, float]:
-    """Rms residual of each channel over its noise (instrument alone), NaN-free."""
-    z = (run.measured - model) / run.noise
-    return {name: float(np.sqrt(np.nanmean(z[:, k] ** 2))) for k, name in enumerate(run.channels)
-            if np.isfinite(z[:, k]).any()}
 
 
 def parting_notes(runs: Iterable[Run]) -> list[str]:

@@ -31,7 +31,6 @@ from truck_blowout_sim.diagnosis.result.parts import Place
 
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
-Times = Mapping[str, tuple[float, float]]
 _REFINE_S = (0.5, 0.25, 0.12)
 _SWEEPS = 6  # at most, until no run's instant moves
 _SHOWN = 4.0  # of the sum of squares, two standard errors: below it a run has no event

@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 
 from truck_blowout_sim.diagnosis.case.runs import Run
 from truck_blowout_sim.diagnosis.case.study import Study
-from truck_blowout_sim.diagnosis.effects import Effect
+from truck_blowout_sim.diagnosis.effects import secondary_blowout
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.fit.instants import grid_of
 from truck_blowout_sim.diagnosis.fit.one_channel import score_channel
@@ -29,7 +29,7 @@ from truck_blowout_sim.diagnosis.fit.one_channel import score_channel
 Floats = NDArray[np.float64]
 
 
-def sinking_hubs(study: Study, named: Sequence[Hypothesis], event: Effect, asked: float,
+def sinking_hubs(study: Study, named: Sequence[Hypothesis], asked: float,
                  hubs: Collection[str]) -> frozenset[str]:
     """Which of some hubs turn faster from an instant on, in the training runs together.
 
@@ -37,7 +37,6 @@ def sinking_hubs(study: Study, named: Sequence[Hypothesis], event: Effect, asked
 
     Args:
         study: the case; ``named``: what is in force.
-        event: effect at whose instants to look.
         asked: fall of the sum of squares that chance may reach.
         hubs: that are in question.
     """
@@ -56,7 +55,7 @@ def sinking_hubs(study: Study, named: Sequence[Hypothesis], event: Effect, asked
     def evidence(hub: str) -> float:
         total = 0.0
         for which in study.train:
-            instants = grid_of(study.runs[which], event).tolist()
+            instants = grid_of(study.runs[which], secondary_blowout.EFFECT).tolist()
             best = max((rise(hub, which, at_s) for at_s in instants), default=0.0)
             total += max(best - 2.0 * float(np.log(max(len(instants), 1))), 0.0)
         return total

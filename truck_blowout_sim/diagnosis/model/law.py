@@ -45,7 +45,7 @@ class Law:
     """A force as a short sum of physical variables.
 
     Attributes:
-        component: fx_n, fy_n or mz_nm; ``body`` it acts on.
+        body: it acts on.
         terms: variable in symbols and the factor that multiplies it, the most telling first.
         equation: for a person.
         explained: share of the weighted history that left-out windows confirm.
@@ -53,7 +53,6 @@ class Law:
         unseen: sum of squares of the holdout without and with it, if that was asked.
     """
 
-    component: str
     body: str
     terms: tuple[tuple[str, float], ...]
     equation: str
@@ -78,13 +77,13 @@ def plainest_law(wrenches: Wrenches, run: Run) -> Law:
     variables = _variables(run, history.body, history.time_s, acting)
     if not variables:
         none = ((CONSTANT, 0.0),)
-        return Law(component, history.body, none, _equation(component, history.body, none), 0.0, {})
+        return Law(history.body, none, _equation(component, history.body, none), 0.0, {})
     names, left = _selected({n: x / sigma for n, x in variables.items()}, value / sigma)
     design = np.stack([variables[n] / sigma for n in names], axis=1)
     factors = np.linalg.lstsq(design, value / sigma, rcond=None)[0]
     terms = tuple(zip(names, factors.tolist(), strict=True))
     total = float(np.sum((value / sigma) ** 2))
-    return Law(component, history.body, terms, _equation(component, history.body, terms),
+    return Law(history.body, terms, _equation(component, history.body, terms),
                max(1.0 - left / total, 0.0) if total > 0 else 0.0,
                _probe_values(component, history.body, terms, wrenches, acting))
 

@@ -52,7 +52,7 @@ def event_places(study: Study, named: Sequence[Hypothesis], steady: Sequence[Ran
     lost, places = secondary_blowout.EFFECT, _possible(study, named)
     hubs = {place.hub for effect, place in places if effect.name == lost.name and place.hub}
     if not _large(steady, chance):
-        hubs &= sinking_hubs(study, named, lost, chance.asked, hubs)
+        hubs &= sinking_hubs(study, named, chance.asked, hubs)
 
     def worth(effect: Effect, place: Place) -> bool:
         if effect.name == lost.name:

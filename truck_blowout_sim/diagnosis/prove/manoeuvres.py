@@ -68,8 +68,7 @@ def _prepared(study: Study, words: str, drive: Drive, blowouts: tuple[Blowout, .
     edges: Floats = start_s + rules.skip_s + rules.bin_s * np.arange(n + 1, dtype=np.float64)
     none = np.zeros((n, len(like.channels)))
     run = Run(Recording(words, {}, blowouts), "holdout", drive, like.channels, like.columns, edges,
-              none, none, none, none, drive, none, like.color,
-              leaning=like.leaning)
+              none, none, none, drive, none, like.color, leaning=like.leaning)
     base = run.bins_of(out)
     noise = np.broadcast_to(np.nanmedian(like.noise, axis=0), base.shape)
     return replace(run, measured=base, noise=noise).weighed(base, rules)

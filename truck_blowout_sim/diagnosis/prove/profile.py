@@ -18,7 +18,6 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from truck_blowout_sim.diagnosis.case.study import Study, row_ranges
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
@@ -28,7 +27,6 @@ from truck_blowout_sim.diagnosis.fit.models import models_at
 from truck_blowout_sim.diagnosis.fit.refit import chi2_of
 from truck_blowout_sim.diagnosis.result.quantiles import NINETY
 
-Floats = NDArray[np.float64]
 _RISE = NINETY**2
 _DOUBLINGS, _ROUNDS = 5, 4
 _CLOSE = 0.02  # of the rise sought

@@ -31,7 +31,6 @@ class Candidate:
         name, where: what and where.
         delta_chi2: fall of the weighted sum of squares in training that it buys.
         p_value: chance of such a fall if nothing were missing, ``None`` if not calibrated.
-        holdout_gain: fall of the same sum on runs never fitted, ``None`` without any.
         accepted: whether it became an effect.
         aliased: whether it fits as well as one that did.
         reason: why it was kept or dropped, in words; ``rule`` that decided, with the ``value`` that
@@ -43,7 +42,6 @@ class Candidate:
     where: Place
     delta_chi2: float
     p_value: float | None = None
-    holdout_gain: float | None = None
     accepted: bool = False
     aliased: bool = False
     reason: str = ""

@@ -41,13 +41,11 @@ class Parameter:
         value: estimate, in ``unit``.
         unit: SI unit, ``1`` for a pure number.
         ci90: lower and upper bound.
-        note: what a person must know of the interval (one-sided, flat, at its bound).
     """
 
     value: float
     unit: str
     ci90: Interval
-    note: str = ""
 
 
 @dataclass(frozen=True)
