@@ -32,13 +32,13 @@ from benchmarks.page import Page, Table, start
 from benchmarks.proved import figures_of, two_a_world
 from proving_ground.generate import builder
 from proving_ground.visibility import spec_of
+from truck_blowout_sim.diagnosis.algebra.linear import Projector
 from truck_blowout_sim.diagnosis.case.antilock import as_braked
 from truck_blowout_sim.diagnosis.case.calibration import calibrate
 from truck_blowout_sim.diagnosis.case.driven import driven
 from truck_blowout_sim.diagnosis.case.recorded import Recorded
 from truck_blowout_sim.diagnosis.case.runs import Run, bin_means
 from truck_blowout_sim.diagnosis.case.study import Study, row_ranges
-from truck_blowout_sim.diagnosis.fit.linear import Projector
 from truck_blowout_sim.diagnosis.fit.shown import Shown, parts_of
 from truck_blowout_sim.diagnosis.name.candidates import known_names
 from truck_blowout_sim.diagnosis.name.shortlist import shortlist

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from scipy.linalg import toeplitz
 from scipy.signal import lfilter
 
-from truck_blowout_sim.diagnosis.fit.color import Color, autocovariance
+from truck_blowout_sim.diagnosis.algebra.color import Color, autocovariance
 
 LAGS = 6
 

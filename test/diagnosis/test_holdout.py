@@ -7,10 +7,10 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
+from truck_blowout_sim.diagnosis.algebra.linear import Projector
 from truck_blowout_sim.diagnosis.case.study import Study
 from truck_blowout_sim.diagnosis.effects import LIBRARY
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
-from truck_blowout_sim.diagnosis.fit.linear import Projector
 from truck_blowout_sim.diagnosis.fit.models import with_effects
 from truck_blowout_sim.diagnosis.name.judging import predicts_better
 from truck_blowout_sim.diagnosis.prove.holdout import Prediction, _Carried, _place

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from scipy.optimize import minimize_scalar
 from scipy.stats import binomtest, kstest, multivariate_normal
 
-from truck_blowout_sim.diagnosis.fit.linear import Projector, joint_score, score
+from truck_blowout_sim.diagnosis.algebra.linear import Projector, joint_score, score
 
 Floats = NDArray[np.float64]
 

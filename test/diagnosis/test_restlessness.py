@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from scipy.signal import lfilter
 
+from truck_blowout_sim.diagnosis.algebra.color import autocovariance
 from truck_blowout_sim.diagnosis.case.calibration import calibrate
 from truck_blowout_sim.diagnosis.case.restlessness import (
     colors,
@@ -18,7 +19,6 @@ from truck_blowout_sim.diagnosis.case.restlessness import (
 )
 from truck_blowout_sim.diagnosis.case.runs import prepare_run
 from truck_blowout_sim.diagnosis.case.study import Study
-from truck_blowout_sim.diagnosis.fit.color import autocovariance
 from truck_blowout_sim.diagnosis.settings import Settings
 from truck_blowout_sim.recordings import Recording, Series
 from truck_blowout_sim.vehicle import Packed

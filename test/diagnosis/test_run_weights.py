@@ -7,7 +7,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from truck_blowout_sim.diagnosis.fit.linear import Projector
+from truck_blowout_sim.diagnosis.algebra.linear import Projector
 from truck_blowout_sim.diagnosis.fit.run_weights import run_weights, weighed
 
 BINS, CHANNELS = 200, 3

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from scipy.signal import lfilter
 from trial_drive import make_run
 
-from truck_blowout_sim.diagnosis.fit.independent import independent_among
+from truck_blowout_sim.diagnosis.algebra.independent import independent_among
 from truck_blowout_sim.diagnosis.sensors import sensor_gate
 from truck_blowout_sim.diagnosis.sensors.case import make_case
 from truck_blowout_sim.diagnosis.sensors.solve import noise_inflation

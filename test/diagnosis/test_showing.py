@@ -13,7 +13,6 @@ from truck_blowout_sim.diagnosis.fit.scatter import Chance, Scatter
 from truck_blowout_sim.diagnosis.fit.shown import SCATTERS, Question, Shown
 from truck_blowout_sim.diagnosis.fit.width_error import degrees_of, most_supported
 from truck_blowout_sim.diagnosis.name import candidates
-from truck_blowout_sim.diagnosis.name.judging import Found
 from truck_blowout_sim.diagnosis.name.search import search
 from truck_blowout_sim.diagnosis.prove.showing import smallest, would_show
 
@@ -63,7 +62,7 @@ def test_twice_the_amount_is_named_and_less_than_half_of_it_is_not(
 ) -> None:
     monkeypatch.setattr(candidates, "LIBRARY", (axle_misalignment.EFFECT,))
     study = study_of(baseline=True, holdout={})
-    (one,) = would_show(study, search(study, most=1))
+    (one,) = would_show(study, search(study, most=1).chance)
     assert one.name == "axle_misalignment"
     assert one.below is not None
     assert one.above is not None
@@ -74,4 +73,4 @@ def test_twice_the_amount_is_named_and_less_than_half_of_it_is_not(
 
 
 def test_without_a_search_nothing_is_said(study_of: Callable[..., Study]) -> None:
-    assert would_show(study_of(), Found()) == ()
+    assert would_show(study_of(), None) == ()

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from truck_blowout_sim.diagnosis.algebra.color import Color
 from truck_blowout_sim.diagnosis.case.runs import Run
-from truck_blowout_sim.diagnosis.fit.color import Color
 from truck_blowout_sim.proof.baselines import compare
 from truck_blowout_sim.proof.baselines.compare import mean_square, stretch
 from truck_blowout_sim.proof.baselines.features import INPUTS, Stretch, motion_columns

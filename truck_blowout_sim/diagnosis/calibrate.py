@@ -22,17 +22,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from truck_blowout_sim.comparison import rms_errors
+from truck_blowout_sim.diagnosis.algebra.linear import Projector
+from truck_blowout_sim.diagnosis.algebra.quantiles import NINETY
+from truck_blowout_sim.diagnosis.algebra.threads import one_blas_thread
 from truck_blowout_sim.diagnosis.case.antilock import MODE, Lockup, as_braked
 from truck_blowout_sim.diagnosis.case.calibration import apply_amounts
 from truck_blowout_sim.diagnosis.case.calibration import calibrate as settle
 from truck_blowout_sim.diagnosis.case.names import names_apart
-from truck_blowout_sim.diagnosis.case.nuisance import Nuisance, unit_of
 from truck_blowout_sim.diagnosis.case.runs import parting_notes, prepare_run
 from truck_blowout_sim.diagnosis.case.study import FURTHEST, Study
 from truck_blowout_sim.diagnosis.case.usable import check_each_once, determined
-from truck_blowout_sim.diagnosis.fit.linear import Projector
-from truck_blowout_sim.diagnosis.fit.threads import one_blas_thread
-from truck_blowout_sim.diagnosis.result.quantiles import NINETY
+from truck_blowout_sim.diagnosis.nuisance import Nuisance, unit_of
 from truck_blowout_sim.diagnosis.sensors import (
     SensorFinding,
     correct,

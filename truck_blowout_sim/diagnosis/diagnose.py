@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from truck_blowout_sim.diagnosis.algebra.threads import one_blas_thread
 from truck_blowout_sim.diagnosis.answer.outcome import (
     Material,
     answer,
@@ -28,7 +29,6 @@ from truck_blowout_sim.diagnosis.case.usable import check_each_once, determined
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.effort import USUAL, Effort
 from truck_blowout_sim.diagnosis.fit.scatter import Scatter
-from truck_blowout_sim.diagnosis.fit.threads import one_blas_thread
 from truck_blowout_sim.diagnosis.locate.comparable import Left
 from truck_blowout_sim.diagnosis.locate.lagging import lagging_wheel
 from truck_blowout_sim.diagnosis.locate.periodic import find_beat
@@ -143,7 +143,7 @@ def _material(study: Study, found: Found, gate: GateResult, vehicle: str,
                         turned_body(study, named, scatter) if sound else None,
                         unrest(study, named) if sound else Unrest())
     if decide(material) in ("consistent", "miscalibrated"):
-        material = replace(material, would_show=would_show(study, found))
+        material = replace(material, would_show=would_show(study, found.chance))
     if unexplained(material):
         told = as_told(material)
         material = replace(material, law=checked(told.study, _law(study, told.unnamed)))

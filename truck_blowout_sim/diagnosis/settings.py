@@ -9,9 +9,9 @@ from dataclasses import dataclass, field, fields
 from pathlib import Path
 from typing import Any
 
-from truck_blowout_sim.diagnosis.case.nuisance import Nuisance
-from truck_blowout_sim.diagnosis.case.roles import ROLES, Part, parts_of
 from truck_blowout_sim.diagnosis.effects import LIBRARY
+from truck_blowout_sim.diagnosis.effects.roles import ROLES, Part, parts_of
+from truck_blowout_sim.diagnosis.nuisance import Nuisance
 from truck_blowout_sim.diagnosis.settings_file import check_keys, number_at, settings_tree
 from truck_blowout_sim.errors import InputError, nearest
 from truck_blowout_sim.recordings import channels_for

@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from truck_blowout_sim.diagnosis.algebra.quantiles import NINETY
 from truck_blowout_sim.diagnosis.case.runs import Run
 from truck_blowout_sim.diagnosis.case.study import Study, row_ranges
 from truck_blowout_sim.diagnosis.name.judging import Found
@@ -18,7 +19,6 @@ from truck_blowout_sim.diagnosis.result import (
     Parameter,
     amount_text,
 )
-from truck_blowout_sim.diagnosis.result.quantiles import NINETY
 
 Floats = NDArray[np.float64]
 Left = Sequence[tuple[Run, Floats]]  # run and its whitened residual [n, m]

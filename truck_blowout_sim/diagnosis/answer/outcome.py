@@ -9,6 +9,7 @@ from functools import cached_property
 import numpy as np
 from scipy.stats import chi2
 
+from truck_blowout_sim.diagnosis.algebra.quantiles import NINETY
 from truck_blowout_sim.diagnosis.answer import evidence, words
 from truck_blowout_sim.diagnosis.answer.further_baseline import further_baseline
 from truck_blowout_sim.diagnosis.answer.told import alias_set, physics_effect, sensor_effects
@@ -53,7 +54,6 @@ from truck_blowout_sim.diagnosis.result import (
     Wrench,
 )
 from truck_blowout_sim.diagnosis.result.evidence import FAR
-from truck_blowout_sim.diagnosis.result.quantiles import NINETY
 from truck_blowout_sim.diagnosis.sensors import GateResult
 from truck_blowout_sim.simulation.flat import flat_notes
 from truck_blowout_sim.simulation.silences import silences

@@ -10,6 +10,7 @@ from collections.abc import Collection, Mapping, Sequence
 
 import numpy as np
 
+from truck_blowout_sim.diagnosis.algebra.quantiles import NINETY
 from truck_blowout_sim.diagnosis.answer import words
 from truck_blowout_sim.diagnosis.answer.limits import limit_sentence
 from truck_blowout_sim.diagnosis.case.study import Study
@@ -19,7 +20,6 @@ from truck_blowout_sim.diagnosis.prove.intervals import Timing
 from truck_blowout_sim.diagnosis.prove.profile import Arms
 from truck_blowout_sim.diagnosis.result import AliasSet, Effect, Parameter, Place
 from truck_blowout_sim.diagnosis.result.parts import Interval
-from truck_blowout_sim.diagnosis.result.quantiles import NINETY
 from truck_blowout_sim.diagnosis.sensors import SensorFinding
 
 _OPEN = (-np.inf, np.inf)

@@ -14,8 +14,8 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from truck_blowout_sim.diagnosis.algebra.linear import Projector
 from truck_blowout_sim.diagnosis.case.memory import check_memory
-from truck_blowout_sim.diagnosis.case.nuisance import Nuisance
 from truck_blowout_sim.diagnosis.case.restlessness import resting_level, whiten
 from truck_blowout_sim.diagnosis.case.runs import Run
 from truck_blowout_sim.diagnosis.case.study import (
@@ -25,7 +25,7 @@ from truck_blowout_sim.diagnosis.case.study import (
     build_columns,
     row_ranges,
 )
-from truck_blowout_sim.diagnosis.fit.linear import Projector
+from truck_blowout_sim.diagnosis.nuisance import Nuisance
 from truck_blowout_sim.simulation.ending import stands
 from truck_blowout_sim.simulation.equilibrium import initial_vector
 from truck_blowout_sim.vehicle import Packed

@@ -26,11 +26,11 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from truck_blowout_sim.diagnosis.algebra.color import Color, autocovariance
+from truck_blowout_sim.diagnosis.algebra.linear import Projector
 from truck_blowout_sim.diagnosis.case.emptying import began_to_empty_s
 from truck_blowout_sim.diagnosis.case.runs import Run
 from truck_blowout_sim.diagnosis.case.study import Study, row_ranges
-from truck_blowout_sim.diagnosis.fit.color import Color, autocovariance
-from truck_blowout_sim.diagnosis.fit.linear import Projector
 
 Floats = NDArray[np.float64]
 _LASTS_S = 1.0  # as far back as a bin is foretold from

@@ -13,11 +13,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from truck_blowout_sim.diagnosis.algebra.color import Color
 from truck_blowout_sim.diagnosis.case.leaning import Leaning, leaning_of
 from truck_blowout_sim.diagnosis.case.sliding import Parting, partings_of
 from truck_blowout_sim.diagnosis.case.trust import BRAKES_ON_PA
 from truck_blowout_sim.diagnosis.case.widths import rms_around, swings, widths
-from truck_blowout_sim.diagnosis.fit.color import Color
 from truck_blowout_sim.diagnosis.result.evidence import Role
 from truck_blowout_sim.diagnosis.sensors import Noise, channel_noise, slow_noise
 from truck_blowout_sim.diagnosis.settings import Settings

@@ -13,6 +13,7 @@ from functools import cached_property, partial
 import numpy as np
 from numpy.typing import NDArray
 
+from truck_blowout_sim.diagnosis.algebra.linear import Projector
 from truck_blowout_sim.diagnosis.case.runs import Run
 from truck_blowout_sim.diagnosis.case.simulations import (
     Abreast,
@@ -26,7 +27,6 @@ from truck_blowout_sim.diagnosis.effects import Effect
 from truck_blowout_sim.diagnosis.effects.base import GripUsed
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.effort import USUAL
-from truck_blowout_sim.diagnosis.fit.linear import Projector
 from truck_blowout_sim.diagnosis.settings import Settings
 from truck_blowout_sim.simulation.course import Course, drive_course
 from truck_blowout_sim.vehicle import Packed

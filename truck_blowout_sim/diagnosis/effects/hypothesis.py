@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
-from truck_blowout_sim.diagnosis.case.roles import role_of
 from truck_blowout_sim.diagnosis.effects import Effect
+from truck_blowout_sim.diagnosis.effects.roles import role_of
 from truck_blowout_sim.diagnosis.result.parts import Place
 from truck_blowout_sim.vehicle import Packed, Vehicle
 

@@ -8,10 +8,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from truck_blowout_sim.diagnosis.algebra.linear import Projector, Score, score
 from truck_blowout_sim.diagnosis.case.driven import driven
 from truck_blowout_sim.diagnosis.case.study import Progress, Study, row_ranges
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
-from truck_blowout_sim.diagnosis.fit.linear import Projector, Score, score
 from truck_blowout_sim.diagnosis.fit.models import jobs_with, models_at
 from truck_blowout_sim.diagnosis.fit.scatter import Scatter, independent
 from truck_blowout_sim.diagnosis.fit.shown import Question, parts_of

@@ -13,11 +13,11 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.stats import chi2
 
+from truck_blowout_sim.diagnosis.algebra.linear import Projector, Score, score
 from truck_blowout_sim.diagnosis.case.driven import driven
 from truck_blowout_sim.diagnosis.case.runs import Run
 from truck_blowout_sim.diagnosis.case.study import Study, row_ranges
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
-from truck_blowout_sim.diagnosis.fit.linear import Projector, Score, score
 from truck_blowout_sim.diagnosis.fit.run_weights import run_weights, weighed
 from truck_blowout_sim.diagnosis.fit.scatter import Scatter
 from truck_blowout_sim.diagnosis.fit.shown import Shown, parts_of

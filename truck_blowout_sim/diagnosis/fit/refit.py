@@ -11,11 +11,11 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from truck_blowout_sim.diagnosis.algebra.linear import Projector, score
 from truck_blowout_sim.diagnosis.case.study import Study, row_ranges
 from truck_blowout_sim.diagnosis.effects.base import Amount
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.fit.attribute import Ranked
-from truck_blowout_sim.diagnosis.fit.linear import Projector, score
 from truck_blowout_sim.diagnosis.fit.models import jobs_with, models_at
 
 Floats = NDArray[np.float64]

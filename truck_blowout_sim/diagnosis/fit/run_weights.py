@@ -15,9 +15,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from truck_blowout_sim.diagnosis.algebra.linear import Projector
 from truck_blowout_sim.diagnosis.case.runs import Run
 from truck_blowout_sim.diagnosis.case.study import Study, rows_of
-from truck_blowout_sim.diagnosis.fit.linear import Projector
 
 Floats = NDArray[np.float64]
 _ROUNDS = 30

@@ -34,9 +34,9 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.stats import chi2
 
+from truck_blowout_sim.diagnosis.algebra.independent import independent_among
+from truck_blowout_sim.diagnosis.algebra.linear import Projector
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
-from truck_blowout_sim.diagnosis.fit.independent import independent_among
-from truck_blowout_sim.diagnosis.fit.linear import Projector
 from truck_blowout_sim.diagnosis.fit.shown import SCATTERS, Question, Shown
 
 Floats = NDArray[np.float64]

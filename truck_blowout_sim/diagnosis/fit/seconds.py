@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import block_diag
 
+from truck_blowout_sim.diagnosis.algebra.linear import Projector
 from truck_blowout_sim.diagnosis.case.runs import Run
 from truck_blowout_sim.diagnosis.case.study import Study, rows_of
 from truck_blowout_sim.diagnosis.effects import Effect
@@ -21,7 +22,6 @@ from truck_blowout_sim.diagnosis.fit.instants import (
     grid_of,
     spacing_s,
 )
-from truck_blowout_sim.diagnosis.fit.linear import Projector
 from truck_blowout_sim.diagnosis.fit.run_weights import run_weights, weighed
 from truck_blowout_sim.diagnosis.fit.stretches import of_stretches, parts_of, stretches
 from truck_blowout_sim.diagnosis.fit.support import Beside

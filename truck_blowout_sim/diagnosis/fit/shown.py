@@ -17,8 +17,8 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from truck_blowout_sim.diagnosis.algebra.linear import Projector
 from truck_blowout_sim.diagnosis.case.runs import Run
-from truck_blowout_sim.diagnosis.fit.linear import Projector
 
 Floats = NDArray[np.float64]
 # tau in standard errors of a training run, from none to more than any model is off

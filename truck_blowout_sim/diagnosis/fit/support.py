@@ -17,6 +17,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from truck_blowout_sim.diagnosis.algebra.linear import Projector
 from truck_blowout_sim.diagnosis.case.driven import driven
 from truck_blowout_sim.diagnosis.case.runs import Run
 from truck_blowout_sim.diagnosis.case.study import Study, row_ranges
@@ -25,7 +26,6 @@ from truck_blowout_sim.diagnosis.effects.base import axles_at
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.fit.attribute import Ranked
 from truck_blowout_sim.diagnosis.fit.begun import log_choices
-from truck_blowout_sim.diagnosis.fit.linear import Projector
 from truck_blowout_sim.diagnosis.fit.models import models_at, with_effects
 from truck_blowout_sim.diagnosis.fit.run_weights import run_weights, weighed
 from truck_blowout_sim.diagnosis.fit.scatter import Chance

@@ -15,13 +15,13 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import cho_solve
 
+from truck_blowout_sim.diagnosis.algebra.linear import Projector, score
 from truck_blowout_sim.diagnosis.case.study import Study, row_ranges
 from truck_blowout_sim.diagnosis.effects import Effect
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.fit.attribute import Ranked
 from truck_blowout_sim.diagnosis.fit.begun import Begun, begun_everywhere
 from truck_blowout_sim.diagnosis.fit.instants import bins_between, grid_of, spacing_s
-from truck_blowout_sim.diagnosis.fit.linear import Projector, score
 from truck_blowout_sim.diagnosis.fit.models import models_at, with_effects
 from truck_blowout_sim.diagnosis.fit.refit import chi2_of, chi2_with_each
 from truck_blowout_sim.diagnosis.fit.seconds import responses, windows_of

@@ -16,10 +16,10 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from truck_blowout_sim.diagnosis.algebra.linear import joint_score
 from truck_blowout_sim.diagnosis.case.study import Study
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.fit.attribute import Ranked
-from truck_blowout_sim.diagnosis.fit.linear import joint_score
 from truck_blowout_sim.diagnosis.fit.models import models_of
 from truck_blowout_sim.diagnosis.fit.refit import chi2_of, difference_step
 

@@ -16,10 +16,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from truck_blowout_sim.diagnosis.algebra.linear import Projector
 from truck_blowout_sim.diagnosis.case.study import Study, row_ranges
 from truck_blowout_sim.diagnosis.case.trust import comparable_rows
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
-from truck_blowout_sim.diagnosis.fit.linear import Projector
 
 Floats = NDArray[np.float64]
 

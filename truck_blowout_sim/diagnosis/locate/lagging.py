@@ -21,6 +21,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from truck_blowout_sim.diagnosis.algebra.quantiles import NINETY
 from truck_blowout_sim.diagnosis.case.runs import Run
 from truck_blowout_sim.diagnosis.case.study import Study
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
@@ -31,7 +32,6 @@ from truck_blowout_sim.diagnosis.fit.one_channel import (
     asked_of,
 )
 from truck_blowout_sim.diagnosis.fit.scatter import Scatter
-from truck_blowout_sim.diagnosis.result.quantiles import NINETY
 from truck_blowout_sim.vehicle import Vehicle
 
 # 1 sigma of a rolling radius from truck to truck, half of it from day to day: 3 % of load or

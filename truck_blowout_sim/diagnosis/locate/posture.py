@@ -20,12 +20,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from truck_blowout_sim.diagnosis.algebra.quantiles import NINETY
 from truck_blowout_sim.diagnosis.case.study import Study
 from truck_blowout_sim.diagnosis.effects import secondary_blowout
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.fit.one_channel import Weighed, ask_channel, asked_of
 from truck_blowout_sim.diagnosis.fit.scatter import Scatter
-from truck_blowout_sim.diagnosis.result.quantiles import NINETY
 
 _ANGLES = {"roll": ("right", "left"), "pitch": ("nose", "tail")}  # lower where it is positive
 

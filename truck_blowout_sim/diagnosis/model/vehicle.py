@@ -21,9 +21,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from truck_blowout_sim.comparison import rms_errors
+from truck_blowout_sim.diagnosis.algebra.linear import Projector
 from truck_blowout_sim.diagnosis.case.study import Study
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
-from truck_blowout_sim.diagnosis.fit.linear import Projector
 from truck_blowout_sim.diagnosis.fit.models import jobs_with
 from truck_blowout_sim.diagnosis.result import Fit
 from truck_blowout_sim.diagnosis.sensors import Noise, channel_noise, slow_noise, told_noise

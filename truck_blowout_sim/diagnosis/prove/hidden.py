@@ -21,12 +21,12 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from truck_blowout_sim.diagnosis.algebra.quantiles import NINETY
 from truck_blowout_sim.diagnosis.case.runs import Run
 from truck_blowout_sim.diagnosis.case.study import Study
 from truck_blowout_sim.diagnosis.case.trust import grip_mps2, lasting
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.fit.attribute import Ranked
-from truck_blowout_sim.diagnosis.result.quantiles import NINETY
 from truck_blowout_sim.physics.tires.gas import pressure_rate_paps
 from truck_blowout_sim.vehicle import Packed
 

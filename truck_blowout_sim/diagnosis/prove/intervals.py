@@ -21,6 +21,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from truck_blowout_sim.diagnosis.algebra.quantiles import NINETY
 from truck_blowout_sim.diagnosis.case.runs import Run
 from truck_blowout_sim.diagnosis.case.study import Study
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
@@ -28,7 +29,6 @@ from truck_blowout_sim.diagnosis.fit.attribute import Ranked
 from truck_blowout_sim.diagnosis.fit.event_fit import event_columns, event_information, runs_with
 from truck_blowout_sim.diagnosis.prove.hidden import earliest_s, leak_shift_s
 from truck_blowout_sim.diagnosis.result.parts import Interval
-from truck_blowout_sim.diagnosis.result.quantiles import NINETY
 
 Floats = NDArray[np.float64]
 _GRID_SIGMA_S = 0.02  # the descent stops where half a unit of the sum of squares is left

@@ -20,11 +20,11 @@ from numpy.typing import NDArray
 from scipy.linalg import cholesky
 
 from truck_blowout_sim.comparison.words import labels_for
+from truck_blowout_sim.diagnosis.algebra.linear import Projector
 from truck_blowout_sim.diagnosis.case.runs import Run
 from truck_blowout_sim.diagnosis.case.study import Study, instrument_columns
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.fit.attribute import Ranked
-from truck_blowout_sim.diagnosis.fit.linear import Projector
 from truck_blowout_sim.diagnosis.fit.models import models_at, with_effects
 from truck_blowout_sim.diagnosis.prove.manoeuvres import manoeuvres
 

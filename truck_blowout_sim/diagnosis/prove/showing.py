@@ -22,27 +22,26 @@ from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.fit.scatter import Chance
 from truck_blowout_sim.diagnosis.fit.shown import Question, Shown
 from truck_blowout_sim.diagnosis.fit.width_error import degrees_of, most_supported
-from truck_blowout_sim.diagnosis.name.judging import Found
 from truck_blowout_sim.diagnosis.result import Showing
 
 _HALVINGS = 8  # of the range of amounts, on a log scale: to 3 percent
 _LEAST = 1e-3  # of that range
 
 
-def would_show(study: Study, found: Found) -> tuple[Showing, ...]:
+def would_show(study: Study, chance: Chance | None) -> tuple[Showing, ...]:
     """Of each steady cause that has a name, the place at which the smallest amount would show.
 
     Empty where no search was made.
     """
-    if found.chance is None:
+    if chance is None:
         return ()
     residual, degrees = study.residual(), degrees_of(len(study.baseline or study.train))
     best: dict[str, tuple[float, Showing]] = {}
-    for hypothesis, question in found.chance.questions:
+    for hypothesis, question in chance.questions:
         if not hypothesis.effect.listed:
             continue
         shown = question.shown(question.projector.remove(residual))
-        ends = smallest(shown, found.chance, question, degrees)
+        ends = smallest(shown, chance, question, degrees)
         size = min((abs(end) for end in ends if end is not None), default=np.inf)
         name = hypothesis.effect.name
         if name not in best or size < best[name][0]:

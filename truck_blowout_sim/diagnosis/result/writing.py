@@ -19,9 +19,9 @@ from dataclasses import asdict
 from typing import TYPE_CHECKING
 
 from truck_blowout_sim.comparison.plain_json import finite_or_none
+from truck_blowout_sim.diagnosis.algebra.quantiles import NINETY
 from truck_blowout_sim.diagnosis.result.evidence import FAR, Calibrated
 from truck_blowout_sim.diagnosis.result.parts import Effect, Fit, Interval, Location, Parameter
-from truck_blowout_sim.diagnosis.result.quantiles import NINETY
 
 if TYPE_CHECKING:
     from truck_blowout_sim.diagnosis.result import Diagnosis

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from truck_blowout_sim.diagnosis.result.quantiles import NINETY
+from truck_blowout_sim.diagnosis.algebra.quantiles import NINETY
 from truck_blowout_sim.diagnosis.sensors.distortions import Distortion
 
 FloatArray = NDArray[np.float64]

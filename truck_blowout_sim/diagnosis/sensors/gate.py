@@ -14,7 +14,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from truck_blowout_sim.diagnosis.fit.threads import one_blas_thread
+from truck_blowout_sim.diagnosis.algebra.threads import one_blas_thread
 from truck_blowout_sim.diagnosis.sensors.case import Case, make_case, undone
 from truck_blowout_sim.diagnosis.sensors.conventions import FoundConvention, find_conventions
 from truck_blowout_sim.diagnosis.sensors.findings import Amount, GateResult, SensorFinding

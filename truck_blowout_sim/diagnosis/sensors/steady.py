@@ -45,8 +45,8 @@ from scipy.optimize import brentq
 from scipy.special import polygamma, psi
 from scipy.stats import f as f_law
 
-from truck_blowout_sim.diagnosis.fit.color import Color, autocovariance
-from truck_blowout_sim.diagnosis.fit.independent import independent_among
+from truck_blowout_sim.diagnosis.algebra.color import Color, autocovariance
+from truck_blowout_sim.diagnosis.algebra.independent import independent_among
 from truck_blowout_sim.diagnosis.sensors.case import Applied, Case, Hypothesis, with_amounts
 from truck_blowout_sim.diagnosis.sensors.solve import Unknowns, gram_of, slices_of, unknowns_of
 from truck_blowout_sim.diagnosis.sensors.system import (

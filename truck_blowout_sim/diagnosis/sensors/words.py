@@ -9,7 +9,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from truck_blowout_sim.diagnosis.result.quantiles import NINETY
+from truck_blowout_sim.diagnosis.algebra.quantiles import NINETY
 from truck_blowout_sim.diagnosis.sensors.distortions import Convention, Distortion
 
 _EQUATIONS = {

@@ -1,0 +1,1 @@
+"""Mathematics that knows no truck: projections, colors of noise, counts, quantiles, threads."""
