@@ -58,6 +58,7 @@ from truck_blowout_sim.diagnosis.sensors import (
 from truck_blowout_sim.diagnosis.settings import load_settings
 from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.recordings import Recording
+from truck_blowout_sim.simulation.plausible import DivergedError
 from truck_blowout_sim.vehicle import Packed, Vehicle, load_vehicle, pack, write_vehicle
 
 Floats = NDArray[np.float64]
@@ -218,9 +219,13 @@ def _with_truck(told: Diagnosis, material: Material, case: Recorded, given: Pack
                        for event in r.blowouts))
     runs = [run.recording for run in material.study.holdout]
     if runs and not any(r.hypothesis.effect.timed for r in as_told(material).found.named):
-        told = replace(told, holdout=driven_fit(
-            runs, before.packed, case.packed.with_values(after.values),
-            impose_speed=case.impose_speed, quanta=case.quanta))
+        try:
+            told = replace(told, holdout=driven_fit(
+                runs, before.packed, case.packed.with_values(after.values),
+                impose_speed=case.impose_speed, quanta=case.quanta))
+        except DivergedError as error:
+            note = f"{error}; the figures of unseen runs are those of the prediction"
+            evidence = replace(evidence, notes=(*evidence.notes, note))
     return replace(told, evidence=evidence), after
 
 

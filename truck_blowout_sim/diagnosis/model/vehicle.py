@@ -24,7 +24,7 @@ from truck_blowout_sim.comparison import rms_errors
 from truck_blowout_sim.diagnosis.algebra.linear import Projector
 from truck_blowout_sim.diagnosis.case.study import Study
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
-from truck_blowout_sim.diagnosis.fit.models import jobs_with
+from truck_blowout_sim.diagnosis.fit.models import jobs_with, with_effects
 from truck_blowout_sim.diagnosis.result import Fit
 from truck_blowout_sim.diagnosis.sensors import Noise, channel_noise, slow_noise, told_noise
 from truck_blowout_sim.recordings import Recording
@@ -91,6 +91,7 @@ def _asked_for(study: Study, models: Sequence[Floats], named: Sequence[Hypothesi
     """Amounts of all numbers of the sheet, in prior sigmas, that explain the fitted runs best.
 
     All the way that the linear columns ask for, or half of it, or none: as simulation has it.
+    Not so far that an unseen run cannot be driven any more.
     """
     sheet = [number.name for number in study.settings.nuisances]
     wanted = study.amounts_of_kind(named, study.residual(dict(enumerate(models))))
@@ -101,11 +102,20 @@ def _asked_for(study: Study, models: Sequence[Floats], named: Sequence[Hypothesi
     least = _left(study, instruments, models, here)
     for share in _SHARES:
         there = here + share * way
-        driven = study.simulate(jobs_with(study, _moved(study, there), named))
-        if _left(study, instruments, driven, there) < least:
+        truck = _moved(study, there)
+        driven = study.simulate(jobs_with(study, truck, named))
+        if _left(study, instruments, driven, there) < least and _drives(study, truck, named):
             here = there
             break
     return dict(zip(sheet, here.tolist(), strict=True))
+
+
+def _drives(study: Study, truck: Packed, named: Sequence[Hypothesis]) -> bool:
+    """Whether a truck stays in the range of the model where the reference does, in unseen runs."""
+    models = study.simulate([(run, with_effects(truck, named, run.recording.name))
+                             for run in study.holdout])
+    return all(bool((np.isfinite(model) | ~np.isfinite(usual)).all())
+               for model, usual in zip(models, study.holdout_models, strict=True))
 
 
 def _moved(study: Study, amounts: Floats) -> Packed:
