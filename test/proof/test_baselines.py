@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from truck_blowout_sim.diagnosis.algebra.color import Color
 from truck_blowout_sim.diagnosis.case.runs import Run
 from truck_blowout_sim.proof.baselines import compare
-from truck_blowout_sim.proof.baselines.compare import mean_square, stretch
+from truck_blowout_sim.proof.baselines.compare import mean_square, stretch, unchanged
 from truck_blowout_sim.proof.baselines.features import INPUTS, Stretch, motion_columns
 from truck_blowout_sim.proof.baselines.gaussian_process import gaussian_process, predict_residual
 from truck_blowout_sim.proof.baselines.sparse_regression import (
@@ -138,3 +138,15 @@ def test_a_residual_that_lasts_counts_in_full(monkeypatch: pytest.MonkeyPatch) -
     whitened = run.residual(np.zeros(left.shape)).reshape(left.shape)
     assert np.nanmean(np.square(whitened[1:, 0])) < 0.2 * np.nanmean(np.square(left[:, 0] / 0.05))
     np.testing.assert_allclose(stretch(run, whitened).left, left, atol=1e-12)
+
+
+def test_a_run_that_is_cut_where_it_slides_is_compared_up_to_there(
+    monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(compare, "inputs_of", lambda run: np.zeros((12, len(INPUTS))))
+    drive, left = cast("Drive", None), np.full((12, 2), 0.3)
+    run = Run(Recording("run", {}), "holdout", drive, NAMES, (0, 1), BIN_S * np.arange(13.0), left,
+              np.full(left.shape, 0.05), np.full(left.shape, 0.01), drive,
+              np.zeros(left.shape), Color.of(np.eye(1, 3).repeat(2, axis=0)))
+    whole = np.vstack([np.full(left.shape, 0.1), np.full((28, 2), 99.0)])
+    np.testing.assert_allclose(unchanged(run, whole).left, 0.2, atol=1e-12)

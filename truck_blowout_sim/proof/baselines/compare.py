@@ -65,8 +65,8 @@ def baseline_errors(train: Sequence[Recording], baseline: Sequence[Recording],
     names = tuple(sorted(set.intersection(*(set(s.names) for s in (*learned, *unseen)))))
     law = fit_law(learned, names)
     errors = {
-        "no_change": mean_square([stretch(run, run.residual(m).reshape(run.measured.shape))
-                                  for run, m in zip(study.holdout, plain, strict=True)], names),
+        "no_change": mean_square([unchanged(run, model) for run, model in zip(
+            study.holdout, plain, strict=True)], names),
         "recalibrated": mean_square(unseen, names),
         "gaussian_process": mean_square(
             [s.less(predict_residual(learned, s, names), names) for s in unseen], names),
@@ -77,6 +77,12 @@ def baseline_errors(train: Sequence[Recording], baseline: Sequence[Recording],
     if len(ours) == len(names) and ours:
         errors["diagnosed"] = float(np.mean(ours))
     return errors
+
+
+def unchanged(run: Run, model: Floats) -> Stretch:
+    """What a model [n, m] of the whole run leaves of it, as far as the run counts."""
+    counted = model[:run.measured.shape[0]]
+    return stretch(run, run.residual(counted).reshape(run.measured.shape))
 
 
 def stretch(run: Run, whitened: Floats) -> Stretch:
