@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
+import numpy as np
 import pytest
+from numpy.typing import NDArray
 
+from truck_blowout_sim.diagnosis.case.simulations import Job
 from truck_blowout_sim.diagnosis.case.study import Study
 from truck_blowout_sim.diagnosis.model import vehicle
 from truck_blowout_sim.diagnosis.model.vehicle import diagnosed_truck
 from truck_blowout_sim.vehicle import Packed
 
+Floats = NDArray[np.float64]
 Studies = Callable[..., Study]
 MASS = "unit.trailer.mass_kg"
 
@@ -37,3 +41,18 @@ def test_where_driving_confirms_nothing_the_reference_stays(
     assert one.packed[MASS] == truck[MASS]
     assert len(asked) == 3  # the reference, all of the way, half of it
     assert asked[1] < asked[0]  # in truth the first step helps
+
+
+def test_no_truck_is_written_that_cannot_be_driven_over_an_unseen_run(
+        study_of: Studies, truck: Packed, monkeypatch: pytest.MonkeyPatch) -> None:
+    study = study_of({MASS: 1.03 * truck[MASS]}, holdout={MASS: 1.03 * truck[MASS]})
+    assert diagnosed_truck(study, truck, study.models, ()).packed[MASS] > truck[MASS]
+    drive = Study.simulate
+
+    def lost(study: Study, jobs: Sequence[Job]) -> list[Floats]:
+        return [np.full_like(model, np.nan)
+                if run.role == "holdout" and changed[MASS] > truck[MASS] else model
+                for model, (run, changed) in zip(drive(study, jobs), jobs, strict=True)]
+
+    monkeypatch.setattr(Study, "simulate", lost)
+    assert diagnosed_truck(study, truck, study.models, ()).packed[MASS] == truck[MASS]
