@@ -24,8 +24,8 @@ _FORMS_DIFFER = 0.2  # of four forms at the limit of grip, as above
 
 EFFECT = Effect(
     name="roll_steer",
-    amount=Amount("extra_roll_steer", "1", step=0.05, low=-1.0, high=1.0, material=0.14,
-                  source="suspensions of one kind: Fancher et al. 1986; 0.07 (1 sigma)",
+    amount=Amount("extra_roll_steer", "1", step=0.05, low=-1.0, high=1.0, material=0.174,
+                  source="steer axles, -0.15 to 0.15: 0.087 (1 sigma)",
                   grid=(0.2, -0.2, 0.6, -0.6)),
     places=each_axle,
     values=lambda packed, place, a: added(packed, f"axle.{place.axle}.roll_steer_extra", a),

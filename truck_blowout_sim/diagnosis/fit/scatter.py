@@ -59,7 +59,7 @@ class Scatter:
         """Weights that a case's hypotheses share, most of them taken to be idle."""
         prior = np.full(SCATTERS.size, 1.0 / SCATTERS.size)
         both = np.array([one.likelihoods for one in hypotheses]).reshape(-1, 2, SCATTERS.size)
-        # as likely to act as one in all, its amount worth two parameters (Akaike 1974)
+        # as likely to act as one in all, its amount worth two parameters (Akaike 1974; judgement)
         idle = -np.log(max(len(hypotheses), 1))
         either = np.logaddexp(both[:, 0], both[:, 1] - 2.0 + idle)
         likely, weights = np.exp(either - either.max(axis=1, keepdims=True)), prior
