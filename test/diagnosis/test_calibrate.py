@@ -79,7 +79,7 @@ def test_the_file_is_the_calibrated_truck_with_a_source_for_each_value(
 def test_a_number_reads_as_a_sentence(found: Calibration) -> None:
     number = next(n for n in found.told if n.name == "trailer_mass")
     assert describe(number).startswith("trailer mass +")
-    assert "prior 2 %: weighing" in describe(number)
+    assert "prior 2 %: judgement: weighing" in describe(number)
 
 
 @pytest.mark.parametrize(("key", "words"), [

@@ -35,4 +35,4 @@ def test_a_cell_of_a_map_lasts_half_a_second_as_nearly_as_bins_allow(
     for one, index in zip(drawn, study.train, strict=True):
         cells = study.runs[index].measured.shape[0] // bins
         assert one.before.shape == one.after.shape == (len(one.channels), cells)
-        assert one.edges_s.tolist() == study.runs[index].edges_s[::bins][:cells + 1].tolist()
+        assert one.time_s.tolist() == study.runs[index].edges_s[::bins][:cells + 1].tolist()
