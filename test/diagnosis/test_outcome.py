@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Callable
 from dataclasses import replace
 from types import SimpleNamespace
@@ -19,9 +20,10 @@ from truck_blowout_sim.diagnosis.answer.outcome import (
     pulled,
 )
 from truck_blowout_sim.diagnosis.answer.told import alias_set, physics_effect, sensor_effects
+from truck_blowout_sim.diagnosis.case.recorded import Recorded
 from truck_blowout_sim.diagnosis.case.runs import Run
 from truck_blowout_sim.diagnosis.case.study import Study
-from truck_blowout_sim.diagnosis.diagnose import _diagnosed
+from truck_blowout_sim.diagnosis.diagnose import _diagnosed, _with_truck
 from truck_blowout_sim.diagnosis.effects import LIBRARY
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.fit.attribute import Ranked
@@ -40,6 +42,7 @@ from truck_blowout_sim.diagnosis.result.evidence import BeatScores, ForceHistory
 from truck_blowout_sim.diagnosis.result.summary import label_of
 from truck_blowout_sim.diagnosis.sensors import GateResult, SensorFinding
 from truck_blowout_sim.simulation.drive import run_drive
+from truck_blowout_sim.simulation.plausible import DivergedError
 from truck_blowout_sim.vehicle import Packed
 
 Studies = Callable[..., Study]
@@ -370,3 +373,18 @@ def test_before_is_the_vehicle_as_given_also_beside_baseline_runs(
     assert given[worst] > 2.0
     assert told.train.before[worst] == pytest.approx(given[worst], rel=0.2)
     assert told.train.after[worst] < 0.7 * given[worst]
+
+
+def test_where_the_vehicle_cannot_be_driven_the_figures_of_the_prediction_stay(
+    study_of: Studies, truck: Packed, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def lost(*given: object, **more: object) -> None:
+        raise DivergedError("unseen: the run left the range of the model")
+
+    monkeypatch.setattr(sys.modules["truck_blowout_sim.diagnosis.diagnose"], "driven_fit", lost)
+    one = material(study_of(holdout={}))
+    case = cast(Recorded, SimpleNamespace(every=(), packed=truck, impose_speed=None, quanta={}))
+    told = answer(material(study_of()))
+    driven, _ = _with_truck(told, one, case, truck)
+    assert driven.holdout == told.holdout
+    assert driven.evidence.notes[-1].startswith("unseen: the run left the range of the model")
