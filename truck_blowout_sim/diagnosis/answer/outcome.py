@@ -109,6 +109,15 @@ class Material:
         return mean_squares(unnamed, unseen=unnamed.holdout_models)[:len(self.squares)]
 
     @property
+    def keeps_more(self) -> bool:
+        """Whether training keeps more than chance lets it.
+
+        Not asked beside a faulty instrument: once corrected, it leaves more of itself than models
+        do.
+        """
+        return not self.gate.findings and keeps_more(self.study, self.squares)
+
+    @property
     def signs(self) -> tuple[words.Sign, ...]:
         """What shows beside a force that has a name."""
         found = self.found
@@ -159,9 +168,8 @@ def cautions(material: Material) -> tuple[str, ...]:
 
 def _more_beside_names(material: Material) -> bool:
     """Whether training keeps more than baseline though a name stands, which explains most of it."""
-    study = material.study
-    return (bool(study.baseline) and not material.gate.findings
-            and decide(material) == "missing_physics" and keeps_more(study, material.squares))
+    return (bool(material.study.baseline) and decide(material) == "missing_physics"
+            and material.keeps_more)
 
 
 def _left_beside_names(material: Material) -> str:
@@ -246,15 +254,12 @@ def unexplained(material: Material) -> bool:
     """Whether training keeps more than baseline, and what was named explains less than half.
 
     Less than half of training, and of training and the unseen runs together: these are asked, too,
-    whether they keep more. Not asked beside a faulty instrument: once corrected, it leaves more of
-    itself than models do. Nor without baseline runs, see `untold`.
+    whether they keep more. Not asked without baseline runs, see `untold`.
     """
-    if material.gate.findings or not material.study.baseline:
+    if not material.study.baseline or not material.keeps_more:
         return False
     study, squares, bought = material.study, material.squares, _bought(material)
     usual = expected_squares(study, squares)
-    if not keeps_more(study, squares):
-        return False
     if bought >= NAMING_SHARE * (excess(study, squares, usual) + bought):
         return False
     left = excess_of_all(study, squares, usual)
@@ -267,9 +272,7 @@ def untold(material: Material) -> bool:
 
     Instruments that drift, or a sheet of another truck, leave as much as missing physics does.
     """
-    study = material.study
-    return (not material.gate.findings and not study.baseline
-            and keeps_more(study, material.squares))
+    return not material.study.baseline and material.keeps_more
 
 
 def _bought(material: Material) -> float:

@@ -28,6 +28,12 @@ def jobs_with(study: Study, truck: Packed, named: Sequence[Hypothesis]) -> list[
             for run in study.runs]
 
 
+def unseen_jobs(study: Study, truck: Packed, placed: Sequence[Sequence[Hypothesis]]) -> list[Job]:
+    """A truck over all unseen runs, with what is placed in each."""
+    return [(run, with_effects(truck, effects, run.recording.name))
+            for run, effects in zip(study.holdout, placed, strict=True)]
+
+
 def models_at(study: Study, hypotheses: Sequence[Hypothesis], named: Sequence[Hypothesis],
               what: str = "", progress: Progress | None = None) -> list[dict[int, Floats]]:
     """Training models under each hypothesis, on top of those already named.

@@ -26,7 +26,7 @@ from truck_blowout_sim.diagnosis.effects.base import axles_at
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.fit.attribute import Ranked
 from truck_blowout_sim.diagnosis.fit.begun import log_choices
-from truck_blowout_sim.diagnosis.fit.models import models_at, with_effects
+from truck_blowout_sim.diagnosis.fit.models import models_at, unseen_jobs
 from truck_blowout_sim.diagnosis.fit.run_weights import run_weights, weighed
 from truck_blowout_sim.diagnosis.fit.scatter import Chance
 from truck_blowout_sim.diagnosis.fit.shown import Part, Shown, parts_of
@@ -219,5 +219,4 @@ def unseen_with(study: Study, placed: Sequence[Sequence[Hypothesis]]) -> tuple[F
 
 def _unseen(study: Study, placed: Sequence[Sequence[Hypothesis]]) -> list[Floats]:
     """Models of the holdout with effects in force."""
-    return study.simulate([(run, with_effects(study.packed, effects, run.recording.name))
-                           for run, effects in zip(study.holdout, placed, strict=True)])
+    return study.simulate(unseen_jobs(study, study.packed, placed))

@@ -24,7 +24,7 @@ from truck_blowout_sim.comparison import rms_errors
 from truck_blowout_sim.diagnosis.algebra.linear import Projector
 from truck_blowout_sim.diagnosis.case.study import Study
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
-from truck_blowout_sim.diagnosis.fit.models import jobs_with, with_effects
+from truck_blowout_sim.diagnosis.fit.models import jobs_with, unseen_jobs
 from truck_blowout_sim.diagnosis.result import Fit
 from truck_blowout_sim.diagnosis.sensors import Noise, channel_noise, slow_noise, told_noise
 from truck_blowout_sim.recordings import Recording
@@ -112,8 +112,7 @@ def _asked_for(study: Study, models: Sequence[Floats], named: Sequence[Hypothesi
 
 def _drives(study: Study, truck: Packed, named: Sequence[Hypothesis]) -> bool:
     """Whether a truck stays in the range of the model where the reference does, in unseen runs."""
-    models = study.simulate([(run, with_effects(truck, named, run.recording.name))
-                             for run in study.holdout])
+    models = study.simulate(unseen_jobs(study, truck, [named] * len(study.holdout)))
     return all(bool((np.isfinite(model) | ~np.isfinite(usual)).all())
                for model, usual in zip(models, study.holdout_models, strict=True))
 
