@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
+from dataclasses import replace
 from unittest.mock import patch
 
 import pytest
@@ -54,6 +56,22 @@ def test_without_baseline_runs_no_level_is_known(study_of: Studies) -> None:
 def test_a_push_that_no_law_makes_stays_without_a_name(study_of: Studies) -> None:
     study = study_of(PUSHED, baseline=True)
     assert quieting.quieting(study, shortlist(study, [], None).ranked) == []
+
+
+@pytest.mark.parametrize(("support", "named"), [(1.9, False), (2.1, True)])
+def test_an_event_must_also_stand_out_of_its_own_force(
+        study_of: Studies, support: float, named: bool) -> None:
+    study = study_of(TURNED, baseline=True)
+    ranked = shortlist(study, [], None).ranked
+    best = max((r for r in ranked if r.refitted), key=lambda r: r.delta)
+    steady = best.hypothesis.effect
+    always = {study.runs[i].recording.name: (0.0, math.inf) for i in study.train}
+    event = replace(best.hypothesis, effect=replace(steady, timed=lambda *_: {}), times=always)
+    assert event.effect.adds_up
+    assert not steady.adds_up
+    weak, as_event = replace(best, support=0.0), replace(best, hypothesis=event, support=support)
+    assert len(quieting.quieting(study, [weak])) == 1
+    assert len(quieting.quieting(study, [as_event])) == named
 
 
 def test_the_search_names_it_and_says_why(study_of: Studies) -> None:

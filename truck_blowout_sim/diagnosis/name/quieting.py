@@ -3,9 +3,11 @@
 Runs are few, so how an amount scatters from one to the next says little, even of a law that leaves
 nothing open. But where training keeps more than baseline runs do, something is missing; what is
 left to ask is what. A law that takes most of that away, in runs it was fitted to and in unseen
-ones, needs no further support.
+ones, needs no further support. But a wind, a slope or a load that moves can choose its instants,
+so it can take away much of anything: it must also stand out of what its force does otherwise.
 
-References: none beyond `judging.py` and `locate/left_over.py`, which has the test.
+References: Kass and Raftery 1995 (from which odds on evidence is positive); else none beyond
+`judging.py` and `locate/left_over.py`, which has the test.
 Known limits: says nothing without baseline runs, nor beside a corrected instrument.
 Validated with: test/diagnosis/test_quieting.py.
 """
@@ -28,6 +30,7 @@ from truck_blowout_sim.diagnosis.locate.left_over import (
 from truck_blowout_sim.diagnosis.name.judging import at_bound, models_with
 
 _TRIED = 3  # the largest; what explains less is no rival of these
+_POSITIVE = 2.0  # support from which on evidence is more than a bare mention (Kass and Raftery)
 
 
 @dataclass(frozen=True)
@@ -56,8 +59,13 @@ def quieting(study: Study, ranked: Sequence[Ranked]) -> list[Quieting]:
         return []
     chance = chance_of_more(study, squares)
     found = [Quieting(one, _taken(study, squares, usual, one), chance)
-             for one in sorted(strong, key=lambda r: -r.delta)[:_TRIED]]
+             for one in sorted(strong, key=lambda r: -r.delta)[:_TRIED] if _stands_out(one)]
     return [one for one in found if one.share >= NAMING_SHARE]
+
+
+def _stands_out(one: Ranked) -> bool:
+    """Not an event that its own force, as it is at other times, makes as well."""
+    return one.support > _POSITIVE or not one.hypothesis.effect.adds_up
 
 
 def _taken(study: Study, before: Sequence[float], usual: float, one: Ranked) -> float:
