@@ -33,9 +33,9 @@ before = [one.value for one in JUDGMENTS]
 vary(1)
 after = [one.value for one in JUDGMENTS]
 assert all(a != b and 0.66 < b / a < 1.51 for a, b in zip(before, after, strict=True))
-left_over, outcome, by_chance, scatter = (import_module(f"{ROOM}.{name}") for name in (
-    "locate.left_over", "answer.outcome", "locate.by_chance", "fit.width_error"))
-assert left_over.NAMING_SHARE == outcome.NAMING_SHARE
+left_over, verdict, by_chance, scatter = (import_module(f"{ROOM}.{name}") for name in (
+    "locate.left_over", "answer.verdict", "locate.by_chance", "fit.width_error"))
+assert left_over.NAMING_SHARE == verdict.NAMING_SHARE
 assert by_chance.RUN_SCATTER == scatter.RUN_SCATTER
 """
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True,

@@ -11,15 +11,12 @@ from typing import cast
 import numpy as np
 import pytest
 
-from truck_blowout_sim.diagnosis.answer.outcome import (
-    Material,
-    answer,
-    cautions,
-    decide,
-    locate,
-    pulled,
-)
+from truck_blowout_sim.diagnosis.answer.cautions import cautions
+from truck_blowout_sim.diagnosis.answer.location import locate
+from truck_blowout_sim.diagnosis.answer.material import Material
+from truck_blowout_sim.diagnosis.answer.outcome import answer
 from truck_blowout_sim.diagnosis.answer.told import alias_set, physics_effect, sensor_effects
+from truck_blowout_sim.diagnosis.answer.verdict import decide
 from truck_blowout_sim.diagnosis.case.recorded import Recorded
 from truck_blowout_sim.diagnosis.case.runs import Run
 from truck_blowout_sim.diagnosis.case.study import Study
@@ -200,7 +197,7 @@ def test_a_sheet_number_far_off_is_a_miscalibration_and_named(
     heavy = study_of({"unit.trailer.mass_kg": 1.14 * truck["unit.trailer.mass_kg"]})
     one = material(heavy)
     assert decide(one) == "miscalibrated"
-    name, amount = pulled(one)[0]
+    name, amount = one.pulled[0]
     assert name == "trailer_mass"
     assert amount == pytest.approx(7.0, rel=0.3)
 

@@ -11,13 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from truck_blowout_sim.diagnosis.algebra.threads import one_blas_thread
-from truck_blowout_sim.diagnosis.answer.outcome import (
-    Material,
-    answer,
-    as_told,
-    decide,
-    unexplained,
-)
+from truck_blowout_sim.diagnosis.answer.material import Material
+from truck_blowout_sim.diagnosis.answer.outcome import answer
+from truck_blowout_sim.diagnosis.answer.verdict import as_told, decide, unexplained
 from truck_blowout_sim.diagnosis.case.antilock import MODE, as_braked
 from truck_blowout_sim.diagnosis.case.calibration import calibrate
 from truck_blowout_sim.diagnosis.case.fingerprints import case_parts

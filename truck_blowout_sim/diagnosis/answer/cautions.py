@@ -1,0 +1,39 @@
+"""Sentences that stand beside a verdict: what it leaves open.
+
+Validated with: test/diagnosis/test_outcome.py.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from truck_blowout_sim.diagnosis.answer import words
+from truck_blowout_sim.diagnosis.answer.material import Material
+from truck_blowout_sim.diagnosis.answer.verdict import decide, untold
+from truck_blowout_sim.diagnosis.locate.left_over import expected_squares
+
+
+def cautions(material: Material) -> tuple[str, ...]:
+    """Sentences beside the verdict, whatever it is."""
+    said = () if material.lockup is None else (material.lockup.sentence,)
+    if untold(material):
+        return (*said, words.left_untold(material.squares))
+    return (*said, _left_beside_names(material)) if _more_beside_names(material) else said
+
+
+def _more_beside_names(material: Material) -> bool:
+    """Whether training keeps more than baseline though a name stands, which explains most of it."""
+    return (bool(material.study.baseline) and decide(material) == "missing_physics"
+            and material.keeps_more)
+
+
+def _left_beside_names(material: Material) -> str:
+    """Which run keeps most, and how much more than baseline runs do."""
+    study, squares = material.study, material.squares
+    asked = [*study.train, *range(len(study.runs), len(squares))]
+    worst = max(asked, key=lambda i: squares[i])
+    run = [*study.runs, *study.holdout][worst]
+    return words.left_beside_names(
+        run.recording.name, float(np.sqrt(squares[worst] / expected_squares(study, squares))))
+
+
