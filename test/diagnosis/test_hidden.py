@@ -13,7 +13,7 @@ from truck_blowout_sim.diagnosis.case.study import Study
 from truck_blowout_sim.diagnosis.case.trust import grip_mps2
 from truck_blowout_sim.diagnosis.effects import friction_change, secondary_blowout
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
-from truck_blowout_sim.diagnosis.fit.attribute import Ranked
+from truck_blowout_sim.diagnosis.fit.ranked import Ranked
 from truck_blowout_sim.diagnosis.prove.hidden import (
     asked_for_mps2,
     earliest_s,

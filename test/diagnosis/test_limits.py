@@ -9,7 +9,7 @@ from truck_blowout_sim.diagnosis.answer.limits import limit_sentence
 from truck_blowout_sim.diagnosis.answer.told import alias_set
 from truck_blowout_sim.diagnosis.effects import LIBRARY
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
-from truck_blowout_sim.diagnosis.fit.attribute import Ranked
+from truck_blowout_sim.diagnosis.fit.ranked import Ranked
 from truck_blowout_sim.diagnosis.prove.next_test import drivable
 from truck_blowout_sim.vehicle import Packed
 

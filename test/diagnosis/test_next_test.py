@@ -14,7 +14,7 @@ from truck_blowout_sim.diagnosis.answer.words import next_test
 from truck_blowout_sim.diagnosis.case.study import Study
 from truck_blowout_sim.diagnosis.effects import LIBRARY
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
-from truck_blowout_sim.diagnosis.fit.attribute import Ranked
+from truck_blowout_sim.diagnosis.fit.ranked import Ranked
 from truck_blowout_sim.diagnosis.name.judging import Found
 from truck_blowout_sim.diagnosis.prove.manoeuvres import manoeuvres
 from truck_blowout_sim.diagnosis.prove.next_test import Separation, best_test, pair_of

@@ -10,7 +10,7 @@ import pytest
 from truck_blowout_sim.diagnosis.case.study import Study
 from truck_blowout_sim.diagnosis.effects import LIBRARY, Effect
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
-from truck_blowout_sim.diagnosis.fit.attribute import Ranked, rank_steady
+from truck_blowout_sim.diagnosis.fit.ranked import Ranked
 from truck_blowout_sim.diagnosis.fit.refit import (
     chi2_of,
     chi2_with_each,
@@ -18,6 +18,7 @@ from truck_blowout_sim.diagnosis.fit.refit import (
     least_step,
     refit,
 )
+from truck_blowout_sim.diagnosis.fit.steady import rank_steady
 from truck_blowout_sim.vehicle import Packed
 
 Studies = Callable[..., Study]

@@ -13,7 +13,7 @@ import pytest
 from truck_blowout_sim.diagnosis.case.study import Progress, Study
 from truck_blowout_sim.diagnosis.effects import LIBRARY
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
-from truck_blowout_sim.diagnosis.fit.attribute import Ranked
+from truck_blowout_sim.diagnosis.fit.ranked import Ranked
 from truck_blowout_sim.diagnosis.fit.scatter import Chance, Scatter
 from truck_blowout_sim.diagnosis.name import candidates
 from truck_blowout_sim.diagnosis.name import search as naming
@@ -55,9 +55,12 @@ def test_a_turned_axle_is_named(study_of: Studies) -> None:
                           if trial.ranked.hypothesis.key == best.hypothesis.key}
 
 
-@pytest.mark.parametrize("sound", [True, False])
-def test_beside_a_corrected_instrument_a_cause_must_be_twenty_times_as_likely(
-    study_of: Studies, monkeypatch: pytest.MonkeyPatch, sound: bool
+@pytest.mark.parametrize(("sound", "episode_s", "baseline", "more"), [
+    (True, 20.0, False, False), (False, 20.0, False, True),  # a run of 7 s is one episode
+    (True, 2.0, False, True), (True, 2.0, True, False)])
+def test_beside_a_correction_or_in_one_long_log_a_cause_must_be_twenty_times_as_likely(
+    study_of: Studies, monkeypatch: pytest.MonkeyPatch, sound: bool, episode_s: float,
+    baseline: bool, more: bool
 ) -> None:
     asked: list[float] = []
 
@@ -68,9 +71,11 @@ def test_beside_a_corrected_instrument_a_cause_must_be_twenty_times_as_likely(
         return this
 
     monkeypatch.setattr("truck_blowout_sim.diagnosis.name.search.shortlist", watched)
-    found = search(study_of(TURNED, holdout=TURNED), most=2, sound=sound)
+    study = study_of(TURNED, holdout=TURNED, baseline=baseline)
+    study = replace(study, settings=replace(study.settings, episode_s=episode_s))
+    found = search(study, most=2, sound=sound)
     assert len(found.named) <= 1
-    assert asked == pytest.approx([0.0 if sound else ODDS] * (1 + len(found.named)))
+    assert asked == pytest.approx([ODDS if more else 0.0] * (1 + len(found.named)))
 
 
 def test_what_does_not_predict_the_holdout_is_refused(study_of: Studies, truck: Packed) -> None:

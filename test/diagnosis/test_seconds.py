@@ -11,10 +11,10 @@ from truck_blowout_sim.diagnosis.case.study import Study
 from truck_blowout_sim.diagnosis.effects import LIBRARY, Effect
 from truck_blowout_sim.diagnosis.effects.base import Timing
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
-from truck_blowout_sim.diagnosis.fit.attribute import Ranked
 from truck_blowout_sim.diagnosis.fit.begun import begun_everywhere
+from truck_blowout_sim.diagnosis.fit.beside import Beside
+from truck_blowout_sim.diagnosis.fit.ranked import Ranked
 from truck_blowout_sim.diagnosis.fit.seconds import _best_event
-from truck_blowout_sim.diagnosis.fit.support import Beside
 from truck_blowout_sim.diagnosis.fit.timed import scan
 from truck_blowout_sim.diagnosis.result.parts import Place
 from truck_blowout_sim.vehicle import Packed

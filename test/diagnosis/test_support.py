@@ -11,10 +11,11 @@ import pytest
 from truck_blowout_sim.diagnosis.case.study import Study
 from truck_blowout_sim.diagnosis.effects import LIBRARY
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
-from truck_blowout_sim.diagnosis.fit.attribute import Ranked
+from truck_blowout_sim.diagnosis.fit.beside import Beside
+from truck_blowout_sim.diagnosis.fit.ranked import Ranked
 from truck_blowout_sim.diagnosis.fit.scatter import Chance, Scatter
 from truck_blowout_sim.diagnosis.fit.shown import SCATTERS
-from truck_blowout_sim.diagnosis.fit.support import Beside, support_of_unseen, supported
+from truck_blowout_sim.diagnosis.fit.support import support_of_unseen, supported
 from truck_blowout_sim.recordings import Blowout
 from truck_blowout_sim.vehicle import Packed
 

@@ -17,7 +17,7 @@ from truck_blowout_sim.diagnosis.answer.unlisted import (
 from truck_blowout_sim.diagnosis.case.study import Study
 from truck_blowout_sim.diagnosis.effects import LIBRARY
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
-from truck_blowout_sim.diagnosis.fit.attribute import Ranked
+from truck_blowout_sim.diagnosis.fit.ranked import Ranked
 from truck_blowout_sim.diagnosis.name import candidates
 from truck_blowout_sim.diagnosis.name.search import search
 from truck_blowout_sim.simulation import InitialState, Inputs, Truck

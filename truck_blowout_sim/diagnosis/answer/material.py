@@ -13,7 +13,7 @@ from truck_blowout_sim.diagnosis.answer import words
 from truck_blowout_sim.diagnosis.answer.unlisted import Unlisted
 from truck_blowout_sim.diagnosis.case.antilock import Lockup
 from truck_blowout_sim.diagnosis.case.study import Study
-from truck_blowout_sim.diagnosis.fit.support import placed_in, unseen_with
+from truck_blowout_sim.diagnosis.fit.beside import placed_in, unseen_with
 from truck_blowout_sim.diagnosis.locate.beat import Beat
 from truck_blowout_sim.diagnosis.locate.lagging import Lag
 from truck_blowout_sim.diagnosis.locate.left_over import keeps_more, mean_squares

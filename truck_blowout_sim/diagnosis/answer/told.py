@@ -15,7 +15,7 @@ from truck_blowout_sim.diagnosis.answer import words
 from truck_blowout_sim.diagnosis.answer.limits import limit_sentence
 from truck_blowout_sim.diagnosis.case.study import Study
 from truck_blowout_sim.diagnosis.effects.base import Amount
-from truck_blowout_sim.diagnosis.fit.attribute import Ranked
+from truck_blowout_sim.diagnosis.fit.ranked import Ranked
 from truck_blowout_sim.diagnosis.prove.intervals import Timing
 from truck_blowout_sim.diagnosis.prove.profile import Arms
 from truck_blowout_sim.diagnosis.result import AliasSet, Effect, Parameter, Place

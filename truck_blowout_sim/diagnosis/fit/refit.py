@@ -15,8 +15,8 @@ from truck_blowout_sim.diagnosis.algebra.linear import Projector, score
 from truck_blowout_sim.diagnosis.case.study import Study, row_ranges
 from truck_blowout_sim.diagnosis.effects.base import Amount
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
-from truck_blowout_sim.diagnosis.fit.attribute import Ranked
 from truck_blowout_sim.diagnosis.fit.models import jobs_with, models_at
+from truck_blowout_sim.diagnosis.fit.ranked import Ranked
 
 Floats = NDArray[np.float64]
 _ROUNDS = 6

@@ -15,6 +15,7 @@ from truck_blowout_sim.diagnosis.case.study import Study, rows_of
 from truck_blowout_sim.diagnosis.effects import Effect
 from truck_blowout_sim.diagnosis.effects.base import Timing
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
+from truck_blowout_sim.diagnosis.fit.beside import Beside
 from truck_blowout_sim.diagnosis.fit.instants import (
     PARTS,
     bins_between,
@@ -24,7 +25,6 @@ from truck_blowout_sim.diagnosis.fit.instants import (
 )
 from truck_blowout_sim.diagnosis.fit.run_weights import run_weights, weighed
 from truck_blowout_sim.diagnosis.fit.stretches import of_stretches, parts_of, stretches
-from truck_blowout_sim.diagnosis.fit.support import Beside
 from truck_blowout_sim.diagnosis.fit.windows import Windows
 from truck_blowout_sim.diagnosis.result.parts import Place
 

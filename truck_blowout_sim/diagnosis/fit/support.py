@@ -11,63 +11,27 @@ Validated with: test/diagnosis/test_support.py.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from truck_blowout_sim.diagnosis.algebra.linear import Projector
-from truck_blowout_sim.diagnosis.case.driven import driven
 from truck_blowout_sim.diagnosis.case.runs import Run
 from truck_blowout_sim.diagnosis.case.study import Study, row_ranges
 from truck_blowout_sim.diagnosis.case.trust import comparable_rows
 from truck_blowout_sim.diagnosis.effects.base import axles_at
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
-from truck_blowout_sim.diagnosis.fit.attribute import Ranked
 from truck_blowout_sim.diagnosis.fit.begun import log_choices
-from truck_blowout_sim.diagnosis.fit.models import models_at, unseen_jobs
+from truck_blowout_sim.diagnosis.fit.beside import Beside, unseen_models
+from truck_blowout_sim.diagnosis.fit.models import models_at
+from truck_blowout_sim.diagnosis.fit.ranked import Ranked
 from truck_blowout_sim.diagnosis.fit.run_weights import run_weights, weighed
 from truck_blowout_sim.diagnosis.fit.scatter import Chance
 from truck_blowout_sim.diagnosis.fit.shown import Part, Shown, parts_of
 from truck_blowout_sim.diagnosis.fit.width_error import degrees_of, most_supported
 
 Floats = NDArray[np.float64]
-
-
-@dataclass(frozen=True, eq=False)
-class Beside:
-    """What is in force already, beside a hypothesis.
-
-    Attributes:
-        named: hypotheses; ``models``: of all runs with them in force.
-        placed: the same for each unseen run, events at their instants there; empty where these are
-            open. ``unseen``: models of these runs.
-        columns: [rows, k] of the nuisances over all runs, unseen too, and ``gram``, their products;
-            empty where no unseen run is asked.
-        driven: what each run asks of the sheet, unseen ones last.
-    """
-
-    named: tuple[Hypothesis, ...]
-    models: tuple[Floats, ...]
-    placed: tuple[tuple[Hypothesis, ...], ...]
-    unseen: tuple[Floats, ...]
-    columns: Floats
-    gram: Floats
-    driven: tuple[Floats, ...]
-
-    @staticmethod
-    def of(study: Study, named: Sequence[Hypothesis], models: Sequence[Floats],
-           placed: Sequence[Sequence[Hypothesis]] = ()) -> Beside:
-        """With the holdout simulated; events are ``placed`` in each run of it, if known."""
-        nothing: Floats = np.zeros((0, 0))
-        manners, every = tuple(driven(study)), placed_in(study, named, placed)
-        unseen = unseen_with(study, every)
-        if not unseen:
-            return Beside(tuple(named), tuple(models), every, (), nothing, nothing, manners)
-        columns = np.concatenate([study.columns, *study.holdout_columns])
-        gram = study.gram_of(range(len(study.runs) + len(study.holdout)))
-        return Beside(tuple(named), tuple(models), every, unseen, columns, gram, manners)
 
 
 @dataclass(frozen=True, eq=False)
@@ -189,9 +153,9 @@ def _with_unseen(study: Study, seen: _Asked, h: Hypothesis, beside: Beside, away
     kept = seen.projector.kept.tolist()
     residuals, changes, parts = [seen.residual], [seen.column], list(seen.parts)
     first = seen.residual.size
-    for run, base, model, manner in zip(
-            study.holdout, beside.unseen, _unseen(study, [(*one, h) for one in beside.placed]),
-            beside.driven[len(study.runs):], strict=True):
+    models = unseen_models(study, [(*one, h) for one in beside.placed])
+    for run, base, model, manner in zip(study.holdout, beside.unseen, models,
+                                        beside.driven[len(study.runs):], strict=True):
         change = run.change(model, base) / away
         parts += parts_of(run, first, change * _telling(study, run, h), True,
                           study.settings.episode_s, manner)
@@ -200,23 +164,3 @@ def _with_unseen(study: Study, seen: _Asked, h: Hypothesis, beside: Beside, away
         first += change.size
     return _Asked(Projector.of(beside.columns, kept, beside.gram), np.concatenate(residuals),
                   np.concatenate(changes), tuple(parts))
-
-
-def placed_in(study: Study, named: Sequence[Hypothesis],
-              placed: Sequence[Sequence[Hypothesis]] = ()) -> tuple[tuple[Hypothesis, ...], ...]:
-    """What is in force in each unseen run; nothing where the instant of an event is open there."""
-    if any(h.effect.timed for h in named):
-        return tuple(tuple(one) for one in placed)
-    return (tuple(named),) * len(study.holdout)
-
-
-def unseen_with(study: Study, placed: Sequence[Sequence[Hypothesis]]) -> tuple[Floats, ...]:
-    """Models of the unseen runs with what :func:`placed_in` gives in force; none for nothing."""
-    if any(placed):
-        return tuple(_unseen(study, placed))
-    return tuple(study.holdout_models) if placed else ()
-
-
-def _unseen(study: Study, placed: Sequence[Sequence[Hypothesis]]) -> list[Floats]:
-    """Models of the holdout with effects in force."""
-    return study.simulate(unseen_jobs(study, study.packed, placed))

@@ -19,14 +19,14 @@ from truck_blowout_sim.diagnosis.algebra.linear import Projector, score
 from truck_blowout_sim.diagnosis.case.study import Study, row_ranges
 from truck_blowout_sim.diagnosis.effects import Effect
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
-from truck_blowout_sim.diagnosis.fit.attribute import Ranked
 from truck_blowout_sim.diagnosis.fit.begun import Begun, begun_everywhere
+from truck_blowout_sim.diagnosis.fit.beside import Beside
 from truck_blowout_sim.diagnosis.fit.instants import bins_between, grid_of, spacing_s
 from truck_blowout_sim.diagnosis.fit.models import models_at, with_effects
+from truck_blowout_sim.diagnosis.fit.ranked import Ranked
 from truck_blowout_sim.diagnosis.fit.refit import chi2_of, chi2_with_each
 from truck_blowout_sim.diagnosis.fit.seconds import responses, windows_of
 from truck_blowout_sim.diagnosis.fit.stretches import of_stretches, parts_of, stretches
-from truck_blowout_sim.diagnosis.fit.support import Beside
 from truck_blowout_sim.diagnosis.result.parts import Place
 
 Floats = NDArray[np.float64]

@@ -19,8 +19,8 @@ from numpy.typing import NDArray
 from truck_blowout_sim.diagnosis.algebra.linear import joint_score
 from truck_blowout_sim.diagnosis.case.study import Study
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
-from truck_blowout_sim.diagnosis.fit.attribute import Ranked
 from truck_blowout_sim.diagnosis.fit.models import models_of
+from truck_blowout_sim.diagnosis.fit.ranked import Ranked
 from truck_blowout_sim.diagnosis.fit.refit import chi2_of, difference_step
 
 Floats = NDArray[np.float64]

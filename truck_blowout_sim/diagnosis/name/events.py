@@ -10,13 +10,14 @@ import numpy as np
 from truck_blowout_sim.diagnosis.case.study import Progress, Study
 from truck_blowout_sim.diagnosis.effects import Effect, secondary_blowout
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
-from truck_blowout_sim.diagnosis.fit.attribute import Ranked
 from truck_blowout_sim.diagnosis.fit.begun import begun_everywhere
+from truck_blowout_sim.diagnosis.fit.beside import Beside
 from truck_blowout_sim.diagnosis.fit.event_fit import fit_event
 from truck_blowout_sim.diagnosis.fit.models import models_at
+from truck_blowout_sim.diagnosis.fit.ranked import Ranked
 from truck_blowout_sim.diagnosis.fit.refit import chi2_of, refit
 from truck_blowout_sim.diagnosis.fit.scatter import Chance
-from truck_blowout_sim.diagnosis.fit.support import Beside, supported
+from truck_blowout_sim.diagnosis.fit.support import supported
 from truck_blowout_sim.diagnosis.fit.timed import (
     at_best_instants,
     refine_times,

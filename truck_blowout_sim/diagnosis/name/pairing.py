@@ -24,9 +24,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from truck_blowout_sim.diagnosis.case.study import Progress, Study
-from truck_blowout_sim.diagnosis.fit.attribute import Ranked
+from truck_blowout_sim.diagnosis.fit.beside import Beside
+from truck_blowout_sim.diagnosis.fit.ranked import Ranked
 from truck_blowout_sim.diagnosis.fit.scatter import Chance
-from truck_blowout_sim.diagnosis.fit.support import Beside, supported
+from truck_blowout_sim.diagnosis.fit.support import supported
 from truck_blowout_sim.diagnosis.fit.together import fit_together
 from truck_blowout_sim.diagnosis.name.judging import (
     ODDS,

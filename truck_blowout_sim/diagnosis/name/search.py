@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from truck_blowout_sim.diagnosis.case.study import Progress, Study
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
-from truck_blowout_sim.diagnosis.fit.attribute import Ranked
+from truck_blowout_sim.diagnosis.fit.ranked import Ranked
 from truck_blowout_sim.diagnosis.fit.scatter import Chance
 from truck_blowout_sim.diagnosis.fit.support import asks_unseen, support_of_unseen
 from truck_blowout_sim.diagnosis.locate.left_over import NAMING_SHARE
@@ -57,8 +57,8 @@ def search(study: Study, progress: Progress | None = None, most: int = _MOST_EFF
     rounds: list[_Tried] = []
     while len(found.named) < most:
         named = [r.hypothesis for r in found.named]
-        further = 0.0 if sound else ODDS  # no correction is exact
-        this = shortlist(study, named, progress, further, [one.named for one in found.after])
+        this = shortlist(study, named, progress, _further(study, sound),
+                         [one.named for one in found.after])
         ranked, found.chance = this.ranked, found.chance or this.chance
         if not rounds:
             found.tried = [Trial(r, Fate("refit", r.promise)) for r in ranked]
@@ -82,6 +82,23 @@ def search(study: Study, progress: Progress | None = None, most: int = _MOST_EFF
     found.rivals = [one.rivals(best, taken, slack(best, left))
                     for best, one in zip(found.named, rounds, strict=True)]
     return found
+
+
+def _further(study: Study, sound: bool) -> float:
+    """Support asked beyond chance: 2 ln 20 beside a corrected instrument, or of one log's parts.
+
+    No correction is exact. The parts of one log share what the model's form lacks as they share
+    what the truck lacks, so where no other run stands beside it they agree on either.
+    """
+    return 0.0 if sound and not _parts_alone(study) else ODDS
+
+
+def _parts_alone(study: Study) -> bool:
+    """Whether all evidence is from parts of one log, with no baseline run beside it."""
+    if study.baseline or len(study.train) != 1:
+        return False
+    log = study.runs[study.train[0]]
+    return len(log.episodes(0, study.settings.episode_s)) > 1
 
 
 @dataclass(frozen=True, eq=False)

@@ -8,10 +8,12 @@ from dataclasses import dataclass, replace
 
 from truck_blowout_sim.diagnosis.case.study import Progress, Study
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
-from truck_blowout_sim.diagnosis.fit.attribute import Ranked, rank_steady
+from truck_blowout_sim.diagnosis.fit.beside import Beside
+from truck_blowout_sim.diagnosis.fit.ranked import Ranked
 from truck_blowout_sim.diagnosis.fit.refit import refit
 from truck_blowout_sim.diagnosis.fit.scatter import Chance
-from truck_blowout_sim.diagnosis.fit.support import Beside, supported
+from truck_blowout_sim.diagnosis.fit.steady import rank_steady
+from truck_blowout_sim.diagnosis.fit.support import supported
 from truck_blowout_sim.diagnosis.name.candidates import steady_candidates
 from truck_blowout_sim.diagnosis.name.events import event_places, rank_events
 from truck_blowout_sim.diagnosis.name.judging import ALIAS_SHARE

@@ -8,7 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
-from truck_blowout_sim.diagnosis.fit.attribute import Ranked
+from truck_blowout_sim.diagnosis.fit.ranked import Ranked
 
 Rule = Literal["accepted", "quiets", "refit", "support", "instant", "bound", "remainder",
                "imitates", "explains", "predicts", "holdout", "withheld"]

@@ -26,7 +26,7 @@ from truck_blowout_sim.diagnosis.case.runs import Run
 from truck_blowout_sim.diagnosis.case.study import Study
 from truck_blowout_sim.diagnosis.case.trust import grip_mps2, lasting
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
-from truck_blowout_sim.diagnosis.fit.attribute import Ranked
+from truck_blowout_sim.diagnosis.fit.ranked import Ranked
 from truck_blowout_sim.physics.tires.gas import pressure_rate_paps
 from truck_blowout_sim.vehicle import Packed
 

@@ -1,4 +1,7 @@
-"""Rank the candidates: one sensitivity a candidate, nuisances projected out."""
+"""Rank the steady candidates: one sensitivity a candidate, nuisances projected out.
+
+Validated with: test/diagnosis/test_refit.py, test/diagnosis/test_shortlist.py.
+"""
 
 from __future__ import annotations
 
@@ -13,37 +16,12 @@ from truck_blowout_sim.diagnosis.case.driven import driven
 from truck_blowout_sim.diagnosis.case.study import Progress, Study, row_ranges
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.fit.models import jobs_with, models_at
+from truck_blowout_sim.diagnosis.fit.ranked import Ranked
 from truck_blowout_sim.diagnosis.fit.scatter import Scatter, independent
 from truck_blowout_sim.diagnosis.fit.shown import Question, parts_of
 from truck_blowout_sim.vehicle import Packed
 
 Floats = NDArray[np.float64]
-
-
-@dataclass(frozen=True)
-class Ranked:
-    """A hypothesis with the evidence for it.
-
-    Attributes:
-        delta: fall of the sum of squares, nuisances refitted.
-        sigma: standard error of the amount.
-        refitted: whether the amount comes from the nonlinear refit.
-        evidence: fall against a truck whose own number of this meaning stays within two prior
-            sigmas; equals ``delta`` where calibration has no such number.
-        promise: linear fall with that number held, by which candidates are ranked before a refit.
-        support: twice the log of the likelihood ratio, the amount allowed to scatter from run to
-            run, less what choosing its instants brings by chance; see `scatter.py`.
-        unseen: share of the support of an event that unseen runs add to what the others say.
-    """
-
-    hypothesis: Hypothesis
-    delta: float
-    sigma: float
-    refitted: bool = False
-    evidence: float = 0.0
-    promise: float = 0.0
-    support: float = 0.0
-    unseen: float = 0.0
 
 
 @dataclass(frozen=True, eq=False)
