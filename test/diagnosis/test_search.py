@@ -17,7 +17,14 @@ from truck_blowout_sim.diagnosis.fit.ranked import Ranked
 from truck_blowout_sim.diagnosis.fit.scatter import Chance, Scatter
 from truck_blowout_sim.diagnosis.name import candidates
 from truck_blowout_sim.diagnosis.name import search as naming
-from truck_blowout_sim.diagnosis.name.judging import ODDS, Found, excess_of, not_taken_back, slack
+from truck_blowout_sim.diagnosis.name.judging import (
+    ODDS,
+    POSITIVE,
+    Found,
+    excess_of,
+    not_taken_back,
+    slack,
+)
 from truck_blowout_sim.diagnosis.name.search import _Believed, _Tried, search
 from truck_blowout_sim.diagnosis.name.shortlist import Round, shortlist
 from truck_blowout_sim.diagnosis.sensors import GateResult
@@ -56,11 +63,11 @@ def test_a_turned_axle_is_named(study_of: Studies) -> None:
 
 
 @pytest.mark.parametrize(("sound", "episode_s", "baseline", "more"), [
-    (True, 20.0, False, False), (False, 20.0, False, True),  # a run of 7 s is one episode
-    (True, 2.0, False, True), (True, 2.0, True, False)])
-def test_beside_a_correction_or_in_one_long_log_a_cause_must_be_twenty_times_as_likely(
+    (True, 20.0, False, 0.0), (False, 20.0, False, ODDS),  # a run of 7 s is one episode
+    (True, 2.0, False, POSITIVE), (False, 2.0, False, ODDS), (True, 2.0, True, 0.0)])
+def test_beside_a_correction_and_in_one_long_log_more_than_chance_is_asked(
     study_of: Studies, monkeypatch: pytest.MonkeyPatch, sound: bool, episode_s: float,
-    baseline: bool, more: bool
+    baseline: bool, more: float
 ) -> None:
     asked: list[float] = []
 
@@ -75,7 +82,7 @@ def test_beside_a_correction_or_in_one_long_log_a_cause_must_be_twenty_times_as_
     study = replace(study, settings=replace(study.settings, episode_s=episode_s))
     found = search(study, most=2, sound=sound)
     assert len(found.named) <= 1
-    assert asked == pytest.approx([ODDS if more else 0.0] * (1 + len(found.named)))
+    assert asked == pytest.approx([more] * (1 + len(found.named)))
 
 
 def test_what_does_not_predict_the_holdout_is_refused(study_of: Studies, truck: Packed) -> None:

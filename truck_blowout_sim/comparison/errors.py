@@ -8,7 +8,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from truck_blowout_sim.comparison.instruments import good_sigma
 from truck_blowout_sim.comparison.iso18571 import Rating, rate
@@ -16,8 +15,6 @@ from truck_blowout_sim.comparison.lag import best_lag_s
 from truck_blowout_sim.comparison.noise import Sigma
 from truck_blowout_sim.comparison.pairing import Pair
 from truck_blowout_sim.comparison.units import DisplayUnit
-
-Floats = NDArray[np.float64]
 
 # Below this multiple of its noise a measured channel has no shape that could be rated.
 _SIGNAL_OVER_NOISE = 6.0

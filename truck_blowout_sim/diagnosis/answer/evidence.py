@@ -104,7 +104,7 @@ def overlays(study: Study, found: Found, about: Sequence[str] = ()) -> tuple[Ove
                 seen = np.isfinite(y)
                 result.append(Overlay(
                     run.recording.name, run.role, name,
-                    (0.5 * (run.edges_s[1:] + run.edges_s[:-1]))[seen], y[seen],
+                    run.middles_s[seen], y[seen],
                     (y - first[:, k])[seen], (y - last[:, k])[seen],
                     float(np.median(run.noise[:, k]))))
     return tuple(result)

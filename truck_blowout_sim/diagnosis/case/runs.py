@@ -75,6 +75,11 @@ class Run:
     partings: tuple[Parting, ...] = ()
 
     @property
+    def middles_s(self) -> Floats:
+        """[n] the middle of each bin."""
+        return np.asarray(0.5 * (self.edges_s[1:] + self.edges_s[:-1]))
+
+    @property
     def length_s(self) -> float:
         """From the first bin's beginning to the last one's end."""
         return float(self.edges_s[-1] - self.edges_s[0])
@@ -180,7 +185,7 @@ class Run:
                        _fewest_bins(float(self.edges_s[1] - self.edges_s[0])))
         cut = {name: getattr(self, name)[:bins]
                for name in ("measured", "sigma", "noise", "correction")}
-        middles = 0.5 * (self.edges_s[1:bins + 1] + self.edges_s[:bins])
+        middles = self.middles_s[:bins]
         for one in partings[:-1] if np.isinf(last.until_s) else partings:
             during = (middles > one.at_s) & (middles < one.until_s)
             cut |= {name: np.where(during[:, None], np.nan, cut[name])

@@ -58,8 +58,7 @@ def grip_used(study: Study) -> GripUsed:
         if names[1] not in run.recording:
             continue
         recorded = run.recording[names[1]]
-        speed = np.interp(0.5 * (run.edges_s[1:] + run.edges_s[:-1]), recorded.time_s,
-                          recorded.value)
+        speed = np.interp(run.middles_s, recorded.time_s, recorded.value)
         for signals in (run.measured, study.models[i]):
             turns, drives = (signals[:, run.channels.index(name)] if name in run.channels else other
                              for name, other in zip(names, (0.0 * speed, speed), strict=True))

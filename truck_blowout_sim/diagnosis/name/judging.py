@@ -2,6 +2,8 @@
 
 Its support must be beyond what chance reaches in the whole search, and it must predict the holdout
 runs better.
+
+References: Kass and Raftery 1995 (from which odds on evidence is positive).
 """
 
 from __future__ import annotations
@@ -24,6 +26,7 @@ from truck_blowout_sim.diagnosis.sensors import GateResult, SensorFinding
 Floats = NDArray[np.float64]
 _LAW = 0.5  # of what is left unexplained: how far inexact laws may change places
 ODDS = 2.0 * np.log(20.0)  # support by which an explanation is 20 times as likely as another
+POSITIVE = 2.0  # support from which on evidence is worth more than a bare mention
 ALIAS_SHARE = 0.6  # of the evidence of the best: what explains less is no alias
 _AT_BOUND = 0.002  # of the range
 _EVENT_WORTH = 0.8

@@ -6,8 +6,7 @@ left to ask is what. A law that takes most of that away, in runs it was fitted t
 ones, needs no further support. But a wind, a slope or a load that moves can choose its instants,
 so it can take away much of anything: it must also stand out of what its force does otherwise.
 
-References: Kass and Raftery 1995 (from which odds on evidence is positive); else none beyond
-`judging.py` and `locate/left_over.py`, which has the test.
+References: none beyond `judging.py` and `locate/left_over.py`, which has the test.
 Known limits: says nothing without baseline runs, nor beside a corrected instrument.
 Validated with: test/diagnosis/test_quieting.py.
 """
@@ -27,10 +26,9 @@ from truck_blowout_sim.diagnosis.locate.left_over import (
     keeps_more,
     mean_squares,
 )
-from truck_blowout_sim.diagnosis.name.judging import at_bound, models_with
+from truck_blowout_sim.diagnosis.name.judging import POSITIVE, at_bound, models_with
 
 _TRIED = 3  # the largest; what explains less is no rival of these
-_POSITIVE = 2.0  # support from which on evidence is more than a bare mention (Kass and Raftery)
 
 
 @dataclass(frozen=True)
@@ -65,7 +63,7 @@ def quieting(study: Study, ranked: Sequence[Ranked]) -> list[Quieting]:
 
 def _stands_out(one: Ranked) -> bool:
     """Not an event that its own force, as it is at other times, makes as well."""
-    return one.support > _POSITIVE or not one.hypothesis.effect.adds_up
+    return one.support > POSITIVE or not one.hypothesis.effect.adds_up
 
 
 def _taken(study: Study, before: Sequence[float], usual: float, one: Ranked) -> float:

@@ -19,6 +19,7 @@ from truck_blowout_sim.diagnosis.fit.support import asks_unseen, support_of_unse
 from truck_blowout_sim.diagnosis.locate.left_over import NAMING_SHARE
 from truck_blowout_sim.diagnosis.name.judging import (
     ODDS,
+    POSITIVE,
     Found,
     can_judge,
     excess_of,
@@ -85,12 +86,14 @@ def search(study: Study, progress: Progress | None = None, most: int = _MOST_EFF
 
 
 def _further(study: Study, sound: bool) -> float:
-    """Support asked beyond chance: 2 ln 20 beside a corrected instrument, or of one log's parts.
+    """Support asked beyond chance: 2 ln 20 beside a corrected instrument, positive in one log.
 
     No correction is exact. The parts of one log share what the model's form lacks as they share
     what the truck lacks, so where no other run stands beside it they agree on either.
     """
-    return 0.0 if sound and not _parts_alone(study) else ODDS
+    if not sound:
+        return ODDS
+    return POSITIVE if _parts_alone(study) else 0.0
 
 
 def _parts_alone(study: Study) -> bool:

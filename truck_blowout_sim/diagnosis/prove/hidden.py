@@ -81,7 +81,7 @@ def rim_pressure_pa(packed: Packed, tire: str) -> float:
 def asked_for_mps2(study: Study, run: Run) -> Floats:
     """[n] side and forward acceleration together that each bin of a recording asks for."""
     unit = study.packed.vehicle.units[0]
-    middles = 0.5 * (run.edges_s[1:] + run.edges_s[:-1])
+    middles = run.middles_s
     rate, speed = (np.interp(middles, run.recording[name].time_s, run.recording[name].value)
                    if name in run.recording else np.zeros(middles.size)
                    for name in (f"{unit}_yaw_rate_radps", f"{unit}_vx_mps"))
