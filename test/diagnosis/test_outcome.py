@@ -203,7 +203,8 @@ def test_a_sheet_number_far_off_is_a_miscalibration_and_named(
 
 
 def test_chance_falls_with_evidence_and_stays_a_probability(calm: Study, truck: Packed) -> None:
-    chance = Chance(Scatter(np.eye(SCATTERS.size)[0]), 20.0, calm.settings.alarms_by_name)
+    rate = calm.settings.alarms_by_name(bool(calm.baseline))
+    chance = Chance(Scatter(np.eye(SCATTERS.size)[0]), 20.0, rate)
 
     def p_value(support: float) -> float:
         one = material(calm, (replace(ranked(truck, "road_bank", 0.03), support=support),))
@@ -213,7 +214,7 @@ def test_chance_falls_with_evidence_and_stays_a_probability(calm: Study, truck: 
 
     chances = [p_value(support) for support in (0.0, 5.0, chance.asked, 60.0)]
     assert chances[0] == pytest.approx(1.0)
-    assert chances[2] == pytest.approx(calm.settings.alarms_by_name)
+    assert chances[2] == pytest.approx(rate)
     assert chances == sorted(chances, reverse=True)
     assert 0.0 < chances[-1] < 1e-9
     assert material(calm).found.p_value == 1.0  # nothing was searched

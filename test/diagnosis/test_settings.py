@@ -259,9 +259,11 @@ def test_every_amount_has_its_unit_and_the_page_shows_it(truck: Packed) -> None:
 
 
 def test_all_tests_together_raise_the_one_stated_rate_of_false_alarms(truck: Packed) -> None:
-    """Names, instruments, two tests of what is left, four signs."""
+    """Names, instruments, two tests of what is left, four signs; the last two beside a baseline."""
     rules = load_settings(truck)
-    parts = (rules.alarms_by_name, rules.alarms_by_instrument, 2.0 * rules.alarms_by_rest,
-             4.0 * rules.alarms_by_sign)
+    alone = rules.alarms_by_name(baseline=False) + rules.alarms_by_instrument
+    assert alone == pytest.approx(rules.false_alarms)
+    parts = (rules.alarms_by_name(baseline=True), rules.alarms_by_instrument,
+             2.0 * rules.alarms_by_rest, 4.0 * rules.alarms_by_sign)
     assert sum(parts) == pytest.approx(rules.false_alarms)
     assert min(parts) > 0.0

@@ -90,9 +90,9 @@ def chance_of_all(material: Material, verdict: Verdict) -> float:
     Each counts by its share of the false alarms (Bonferroni with weights), so what is stated comes
     out below ``false_alarms``. Of a sign beside a force only that it passed is known.
     """
-    settings = material.study.settings
-    every = [material.found.p_value / settings.alarms_by_name]
-    if not material.gate.findings and material.study.baseline:
+    settings, baseline = material.study.settings, bool(material.study.baseline)
+    every = [material.found.p_value / settings.alarms_by_name(baseline)]
+    if not material.gate.findings and baseline:
         every += [material.unrest.chance / settings.alarms_by_rest,
                   chance_of_more(material.study, material.squares) / settings.alarms_by_rest]
     if verdict in ("unknown", "sensor_artefact"):
