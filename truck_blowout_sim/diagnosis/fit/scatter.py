@@ -91,7 +91,7 @@ class Chance:
         scatter: of the case; ``independent``: how many independent hypotheses were tried.
         rate: share of such searches in which anything may be named.
         questions: what was asked, each with its hypothesis.
-        further: support asked beyond chance, where something else was found already.
+        further: support asked beyond chance, beside a correction or in one log (`search.py`).
     """
 
     scatter: Scatter
