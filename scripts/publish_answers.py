@@ -1,9 +1,11 @@
 """Add the answers of scored cases to the published ones, docs/proof_<world>_answers.jsonl.xz.
 
 Use: python scripts/publish_answers.py w1=CASES,RUN w2=CASES,RUN ...
+     python scripts/publish_answers.py again=RUN again=RUN ...
 
 CASES is the folder of the cases, RUN what `truck-blowout prove -o RUN` wrote for them. Published
-answers of cases that the world's manifest no longer names are of an earlier draw and go.
+answers of cases that the world's manifest no longer names are of an earlier draw and go. The second
+form adds what later code answered to published cases, docs/proof_<world>_again.jsonl.xz.
 """
 
 from __future__ import annotations
@@ -12,8 +14,15 @@ import json
 import sys
 from pathlib import Path
 
+from proving_ground.worlds import WORLDS
 from truck_blowout_sim.errors import InputError
-from truck_blowout_sim.proof.archive import entries_of, joined, read_entries, write_entries
+from truck_blowout_sim.proof.archive import (
+    answered_again,
+    entries_of,
+    joined,
+    read_entries,
+    write_entries,
+)
 from truck_blowout_sim.proof.cases import find_cases
 from truck_blowout_sim.proof.places import Places
 from truck_blowout_sim.proof.run import RESULTS, read_lines
@@ -34,10 +43,28 @@ def publish(world: str, cases: Path, run: Path) -> str:
     return f"{path.name}: {len(every)} of {len(sealed)} sealed cases"
 
 
+def publish_again(run: Path) -> str:
+    """Add what a run answered to published cases, of all worlds; what was done, in words."""
+    lines, counts = read_lines(run / RESULTS), []
+    for world in WORLDS:
+        places = Places(ROOT, world)
+        further = answered_again(read_entries(places.answers), lines)
+        if not further:
+            continue
+        before = read_entries(places.again) if places.again.is_file() else ()
+        every = joined(before, further)
+        write_entries(places.again, every)
+        counts.append(f"{places.again.name}: {len(every)} cases")
+    return ", ".join(counts) or f"{run}: no published case"
+
+
 def main(words: list[str]) -> int:
     try:
         for word in words:
             world, _, folders = word.partition("=")
+            if world == "again":
+                print(publish_again(Path(folders)))
+                continue
             cases, run = map(Path, folders.split(","))
             print(publish(world, cases, run))
     except (ValueError, OSError, InputError) as error:

@@ -2,8 +2,9 @@
 
 Use: python scripts/write_proof_summary.py [FOLDER for all figures, out/published]
 
-Read are docs/proof_<world>_answers.jsonl.xz; written the tables, the picture, and the cases as
-docs/proof_<world>_cases.csv. The picture is drawn anew where sigma_b was measured in every world,
+Read are docs/proof_<world>_answers.jsonl.xz, and docs/proof_<world>_again.jsonl.xz for what later
+code answered. Written are the tables, the picture, and the cases as docs/proof_<world>_cases.csv.
+The picture is drawn anew where sigma_b was measured in every world,
 the table of rivals where they were tried in any; else those of an earlier draw stay.
 """
 
@@ -19,7 +20,12 @@ from truck_blowout_sim.proof.archive import read_entries, score_entries
 from truck_blowout_sim.proof.causes import causes_table
 from truck_blowout_sim.proof.places import Places
 from truck_blowout_sim.proof.prove import Figures
-from truck_blowout_sim.proof.worlds import draw_power_by_world, rivals_table, worlds_table
+from truck_blowout_sim.proof.worlds import (
+    answered_of,
+    draw_power_by_world,
+    rivals_table,
+    worlds_table,
+)
 from truck_blowout_sim.report.marked import put_on_page
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -36,6 +42,13 @@ def counted(world: str, out: Path) -> Figures:
     return figures
 
 
+def counted_again(world: str, out: Path) -> Figures:
+    """Figures of the cases of one world that were diagnosed again."""
+    places = Places(ROOT, world)
+    return score_entries(read_entries(places.again), places.manifest, out / f"{world}_again",
+                         places.again)
+
+
 def main(words: list[str]) -> int:
     if len(words) > 1:
         print(__doc__, file=sys.stderr)
@@ -43,6 +56,7 @@ def main(words: list[str]) -> int:
     out = Path(words[0] if words else ROOT / "out" / "published")
     try:
         figures = {world: counted(world, out) for world in WORLDS}
+        again = {world: counted_again(world, out) for world in WORLDS}
     except InputError as error:
         print(error, file=sys.stderr)
         return 2
@@ -53,6 +67,8 @@ def main(words: list[str]) -> int:
     for page, picture in (("README.md", f"docs/{PICTURE}"), ("docs/proof.md", PICTURE)):
         table = worlds_table(figures, short=page == "README.md")
         put_on_page(ROOT / page, "proof", f"{table}\n\n![{caption}]({picture})")
+    table = f"Cases: {answered_of(again)}.\n\n{worlds_table(again, short=True)}"
+    put_on_page(ROOT / "docs/proof.md", "again", table)
     put_on_page(ROOT / "docs/proof.md", "causes", causes_table(figures))
     if rivals := rivals_table(figures):
         put_on_page(ROOT / "docs/proof.md", "rivals", rivals)

@@ -15,6 +15,7 @@ import pytest
 from proving_ground.worlds import WORLDS
 from truck_blowout_sim.errors import InputError
 from truck_blowout_sim.proof.archive import (
+    answered_again,
     entries_of,
     joined,
     read_entries,
@@ -26,7 +27,7 @@ from truck_blowout_sim.proof.causes import causes_table
 from truck_blowout_sim.proof.places import Places
 from truck_blowout_sim.proof.prove import score_run
 from truck_blowout_sim.proof.seal import folder_hash
-from truck_blowout_sim.proof.worlds import worlds_table
+from truck_blowout_sim.proof.worlds import answered_of, worlds_table
 
 Maker = Callable[..., dict[str, Any]]
 ROOT = Path(__file__).parents[2]
@@ -99,6 +100,35 @@ def test_the_pages_say_what_the_published_answers_say(tmp_path: Path) -> None:
     assert worlds_table(figures) in proof
     assert causes_table(figures) in proof
     assert worlds_table(figures, short=True) in readme
+
+
+def test_the_page_says_what_later_code_answers_to_the_published_cases(tmp_path: Path) -> None:
+    figures = {}
+    for world in WORLDS:
+        places, path = Places(ROOT, world), Places(ROOT, world).again
+        every = {entry.case: entry for entry in read_entries(places.answers)}
+        again = read_entries(path)
+        assert all(entry.truth == every[entry.case].truth for entry in again)
+        figures[world] = score_entries(again, places.manifest, tmp_path / world, path)
+        assert not figures[world]["seals"]["remade"]
+    proof, readme = ((ROOT / page).read_text(encoding="utf-8")
+                     for page in ("docs/proof.md", "README.md"))
+    assert worlds_table(figures, short=True) in proof
+    assert answered_of(figures) in proof
+    for words in ("effects beyond six spreads", "a wrong name stated"):
+        cells = [f"{row['hits']} of {row['trials']}" for one in figures.values()
+                 for row in one["rows"] if row["row"].startswith(words)]
+        assert " | ".join(cells) in readme
+
+
+def test_later_answers_take_the_place_of_published_ones(
+    tmp_path: Path, run: dict[str, dict[str, Any]]
+) -> None:
+    published = entries_of(find_cases(tmp_path), run)
+    later = {"s": {**run["s"], "cpu_s": 3.0}, "of another draw": run["s"]}
+    (found,) = answered_again(published, later)
+    assert (found.case, found.line["cpu_s"]) == ("s", 3.0)
+    assert found.truth == next(one.truth for one in published if one.case == "s")
 
 
 def test_a_case_that_ends_in_an_error_counts_as_a_miss_and_names_no_folder(

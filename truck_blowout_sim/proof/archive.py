@@ -13,7 +13,7 @@ import hashlib
 import json
 import lzma
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -47,6 +47,13 @@ def entries_of(cases: Sequence[Case], lines: Mapping[str, Mapping[str, Any]]) ->
     """Entries of all cases that have a line of results."""
     return [Entry(case.id, case.answer.read_text(encoding="utf-8"), visibility_of(case.answer),
                   _short(lines[case.id], case.folder)) for case in cases if case.id in lines]
+
+
+def answered_again(published: Iterable[Entry], lines: Mapping[str, Mapping[str, Any]]
+                   ) -> list[Entry]:
+    """Entries of the published cases that have another line of results, with that line."""
+    return [replace(entry, line=_short(lines[entry.case], Path()))
+            for entry in published if entry.case in lines]
 
 
 def joined(before: Iterable[Entry], further: Iterable[Entry]) -> list[Entry]:

@@ -32,6 +32,11 @@ class Places:
         return self.root / "docs" / f"proof_{self.world}_answers.jsonl.xz"
 
     @property
+    def again(self) -> Path:
+        """Raw answers of later code to the same cases; not all were diagnosed again."""
+        return self.root / "docs" / f"proof_{self.world}_again.jsonl.xz"
+
+    @property
     def cases(self) -> Path:
         """Table of cases and what was answered."""
         return self.root / "docs" / f"proof_{self.world}_cases.csv"

@@ -63,6 +63,12 @@ def worlds_table(figures: Mapping[str, Figures], short: bool = False) -> str:
     return "\n".join(lines)
 
 
+def answered_of(figures: Mapping[str, Figures]) -> str:
+    """How many cases of each world the figures count, in words."""
+    return ", ".join(f"{len(one['each']) + len(one['failed'])} of {world.upper()}"
+                     for world, one in figures.items())
+
+
 def _plain(name: str, values: Iterable[str]) -> str:
     """A row of which nothing is sought."""
     return f"| {name} | " + " | ".join(f" | {value}" for value in values) + " | |"
