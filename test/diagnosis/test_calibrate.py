@@ -161,7 +161,7 @@ def test_what_is_told_is_what_was_written(truck: Packed, drive_it: Drives, few: 
     assert mass.values == {name: moved.packed[name] for name in mass.values}
     assert not mass.at_prior_end
     assert "trailer mass" in said[-2]
-    assert "these runs ask for more than trucks of one kind differ" in said[-2]
+    assert "these runs ask for more than vehicles of one kind differ" in said[-2]
     if share:
         assert said[0].endswith("numbers are told by these runs:")
         assert "moved 50% of the way" in "\n".join(said)

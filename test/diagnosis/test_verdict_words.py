@@ -14,5 +14,5 @@ def test_a_sheet_that_is_off_is_told_with_its_numbers() -> None:
 def test_a_number_that_no_truck_has_is_not_told_as_one_of_the_sheet() -> None:
     sentence = verdict_sentence("miscalibrated", (), [("trailer_mass", -31.8)], None)
     assert "trailer mass (-31.8 sigma)" in sentence
-    assert "No truck is so far off its sheet" in sentence
+    assert "No vehicle is so far off its sheet" in sentence
     assert "something is missing that these recordings cannot tell" in sentence

@@ -88,7 +88,7 @@ def test_the_file_has_the_promised_keys_and_values(tmp_path: Path) -> None:
         "next_test": "Brake from 60 mph.",
         "summary": {
             "wrong": "The brake of trailer_2_left is weak.",
-            "sure": "A truck with nothing missing gives as strong evidence in 1 of 1,000 cases; "
+            "sure": "A vehicle with nothing missing gives as strong evidence in 1 of 1,000 cases; "
             "brake_imbalance trailer_2_left: gain 0.35 (90 %: from 0.31); these recordings cannot "
             "tell brake_imbalance trailer_2_left from brake_fade.",
             "changed": "No unseen run was given (--holdout); on the fitted runs the error, in "

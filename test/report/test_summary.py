@@ -49,7 +49,7 @@ def test_a_change_beyond_both_limits_is_told(diagnosis: Diagnosis, before: float
 
 def test_chance_look_alikes_and_amount_are_said(diagnosis: Diagnosis) -> None:
     said = summarize(diagnosis).sure
-    assert said.startswith("A truck with nothing missing gives as strong evidence in 1 of 10,000")
+    assert said.startswith("A vehicle with nothing missing gives as strong evidence in 1 of 10,000")
     assert "gain 0.356 (90 %: 0.331 to 0.382)" in said
     assert "cannot tell brake_imbalance trailer_2_left from brake_fade" in said
 

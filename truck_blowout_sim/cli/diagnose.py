@@ -38,7 +38,7 @@ _KEPT = ".resume"  # in the output folder, until the answer is written
 _CONTINUES = "the same command continues from here"
 _OF_SENSITIVITIES = 25.0  # as many times as long take four effects
 SETTINGS: Any = typer.Option(
-    "default", help="File in config/diagnosis: what is assumed of trucks and instruments.",
+    "default", help="File in config/diagnosis: what is assumed of vehicles and instruments.",
     autocompletion=names_of("settings"),
 )
 IMPOSE_SPEED: Any = typer.Option(
@@ -68,7 +68,7 @@ def command(
         autocompletion=names_of("recordings"),
     ),
     baseline: list[Path] = typer.Option(
-        [], "--baseline", help="Runs of the same truck without the effect."
+        [], "--baseline", help="Runs of the same vehicle without the effect."
     ),
     holdout: list[Path] = typer.Option(
         [], "--holdout", help="Runs that are predicted only, never fitted."

@@ -316,8 +316,8 @@ def _notes(study: Study, amounts: Floats, share: float, lockup: Lockup | None) -
     ends = [n.name.replace("_", " ") for n, amount in sheet
             if abs(amount) >= FURTHEST and not n.of_the_place]
     if ends:
-        notes.append(f"{', '.join(ends)}: these runs ask for more than trucks of one kind differ; "
-                     "the sheet is of another vehicle, or physics is missing (diagnose)")
+        notes.append(f"{', '.join(ends)}: these runs ask for more than vehicles of one kind "
+                     "differ; the sheet is of another vehicle, or physics is missing (diagnose)")
     return (*notes, *parting_notes(study.runs))
 
 

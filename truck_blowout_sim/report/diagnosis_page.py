@@ -25,7 +25,7 @@ from truck_blowout_sim.vehicle import Vehicle
 _VERDICTS = {
     "consistent": ("consistent", "good"),
     "miscalibrated": ("miscalibrated: the spec sheet's numbers are off", "bad"),
-    "sensor_artefact": ("an instrument, not the truck", "bad"),
+    "sensor_artefact": ("an instrument, not the vehicle", "bad"),
     "missing_physics": ("missing physics", "bad"),
     "unknown": ("unknown cause", "bad"),
 }

@@ -115,7 +115,7 @@ def _truck(diagnosis: Diagnosis, vehicle: Vehicle) -> Picture | None:
         else "From above, forward to the right."
     )
     figure = draw_truck(vehicle, diagnosis)
-    return Picture("truck", "The truck", caption, figure)
+    return Picture("truck", "The vehicle", caption, figure)
 
 
 def _maps(maps: tuple[ChannelTimeMap, ...], briefly: bool) -> tuple[ChannelTimeMap, ...]:

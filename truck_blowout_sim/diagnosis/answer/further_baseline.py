@@ -21,14 +21,14 @@ ALIKE = 0.9  # likeness from which on runs ask the same of the truck
 def further_baseline(study: Study) -> str:
     """What to record, in words; empty where every training run has a baseline run like it."""
     if not study.baseline:
-        return ("Record runs of the same truck with nothing missing, driven as these were: without "
-                "such baseline runs only large effects show.")
+        return ("Record runs of the same vehicle with nothing missing, driven as these were: "
+                "without such baseline runs only large effects show.")
     manners = np.array(driven(study)[:len(study.runs)])
     likeness = (manners[list(study.train)] @ manners[list(study.baseline)].T).max(axis=1)
     least = int(np.argmin(likeness))
     if likeness[least] >= ALIKE:
         return ""
     name = study.runs[study.train[least]].recording.name
-    return (f"Record a baseline run driven as {name} was: no baseline run asks of the truck what "
+    return (f"Record a baseline run driven as {name} was: no baseline run asks of the vehicle what "
             f"that one does (likeness {likeness[least]:.2f} of 1), so only larger effects show in "
             "it.")

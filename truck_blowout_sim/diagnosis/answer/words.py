@@ -27,7 +27,7 @@ _SPLITTERS = (
     ("trailer_yaw_rate_radps", "trailer yaw rate", "a force on the trailer from one ahead of it"),
     ("trailer_ay_mps2", "trailer lateral acceleration", "where on the trailer a side force acts"),
     ("tractor_roll_rad", "roll angle", "roll steer from steering compliance"),
-    ("throttle", "throttle", "driveline drag from drag of the truck"),
+    ("throttle", "throttle", "driveline drag from drag of the vehicle"),
 )
 
 
@@ -101,9 +101,9 @@ def verdict_sentence(verdict: Verdict, effects: Sequence[Effect],
 def left_untold(squares: Sequence[float]) -> str:
     """Without baseline runs: that much is left, and what it can be."""
     times = float(np.sqrt(np.exp(np.mean(np.log(squares)))))
-    return (f"The model leaves {times:.1f} times what good models of one truck differ by. Without "
-            "baseline runs it cannot be told whether the instruments drift, the sheet belongs to "
-            "another truck, or physics is missing.")
+    return (f"The model leaves {times:.1f} times what good models of one vehicle differ by. "
+            "Without baseline runs it cannot be told whether the instruments drift, the sheet "
+            "belongs to another vehicle, or physics is missing.")
 
 
 def left_beside_names(run: str, times: float) -> str:
@@ -115,12 +115,12 @@ def left_beside_names(run: str, times: float) -> str:
 def _verdict(verdict: Verdict, effects: Sequence[Effect], pulled: Sequence[tuple[str, float]],
              law: Law | None, signs: Sequence[Sign]) -> str:
     if verdict == "consistent":
-        return ("The model explains these recordings within what instruments and trucks of one "
+        return ("The model explains these recordings within what instruments and vehicles of one "
                 "kind differ; nothing is missing that they could show.")
     if verdict == "miscalibrated":
         names = ", ".join(f"{n.replace('_', ' ')} ({a:+.1f} sigma)" for n, a in pulled[:3])
         return (f"No missing physics shows, but the sheet is off{': ' if names else ''}{names}."
-                + _beyond_trucks(pulled))
+                + _beyond_vehicles(pulled))
     said = [] if verdict == "unknown" else [effect.sentence for effect in effects]
     if law is not None:
         said.append(f"Something acts on the {law.body} that no known effect explains; its plainest "
@@ -129,12 +129,12 @@ def _verdict(verdict: Verdict, effects: Sequence[Effect], pulled: Sequence[tuple
     return " ".join((*said, *(sign.sentence for sign in signs)))
 
 
-def _beyond_trucks(pulled: Sequence[tuple[str, float]]) -> str:
-    """What to say of numbers that no truck has, not even one whose sheet is wrong."""
+def _beyond_vehicles(pulled: Sequence[tuple[str, float]]) -> str:
+    """What to say of numbers that no vehicle has, not even one whose sheet is wrong."""
     if all(abs(pull) <= WRONG_SHEET * FURTHEST for _, pull in pulled):
         return ""
-    return (" No truck is so far off its sheet: the model has another form there, or something is "
-            "missing that these recordings cannot tell.")
+    return (" No vehicle is so far off its sheet: the model has another form there, or something "
+            "is missing that these recordings cannot tell.")
 
 
 def _unseen(law: Law) -> str:
@@ -185,9 +185,9 @@ def _names(pair: Sequence[Hypothesis]) -> str:
 
 def assumptions(study: Study) -> tuple[str, ...]:
     """Everything that was taken for granted."""
-    base = ["All recordings are of one truck with one set of instruments.",
+    base = ["All recordings are of one vehicle with one set of instruments.",
             "Hand wheel, throttle and brake pressures are as recorded.",
-            "Sheet numbers stray from truck to truck as config/diagnosis states.",
+            "Sheet numbers stray from vehicle to vehicle as config/diagnosis states.",
             f"Model differences last about {study.settings.correlation_s:g} s."]
     if study.baseline:
         base.append("What is missing is not at work in the baseline recordings.")

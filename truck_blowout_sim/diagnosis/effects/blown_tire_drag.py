@@ -18,7 +18,7 @@ EFFECT = Effect(
     values=lambda packed, place, a: scaled(packed, [f"tire.{place.tire}.flat_drag_scale"], a),
     applies="blowout",
     sentence="The blown tire {where} drags {value} times as much as modelled: carcass and rim rub "
-             "the road and pull the truck to that side.",
+             "the road and pull the vehicle to that side.",
     equation="D_flat = {value} * f_flat * F_z  (rolling moment M = D_flat * R_e)",
     splits="the wheel speed of the blown tire, or the loss of speed against the yaw moment",
     absorbs="flat_drag",

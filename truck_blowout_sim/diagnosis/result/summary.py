@@ -111,7 +111,7 @@ def _chance(diagnosis: Diagnosis) -> str:
     p_value = diagnosis.null_p_value
     if p_value is None:
         return ""
-    said = f"a truck with nothing missing gives as strong evidence in {_one_in(p_value)} cases"
+    said = f"a vehicle with nothing missing gives as strong evidence in {_one_in(p_value)} cases"
     return f"{said}, so nothing can be claimed" if p_value >= _COMMON else said
 
 

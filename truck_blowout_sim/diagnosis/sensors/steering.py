@@ -119,8 +119,8 @@ def _judge(
     moved = _stance_change(runs)
     if moved > _SAME_STANCE_RAD:
         return None, (
-            f"the hand wheel is held {np.degrees(offset):.1f} deg off, but the truck also stands "
-            f"{np.degrees(moved):.2f} deg differently on the straight: not the sensor",
+            f"the hand wheel is held {np.degrees(offset):.1f} deg off, but the vehicle also "
+            f"stands {np.degrees(moved):.2f} deg differently on the straight: not the sensor",
         )
     return _finding(offset, sigma), ()
 
