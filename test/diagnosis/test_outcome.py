@@ -11,6 +11,7 @@ from typing import cast
 import numpy as np
 import pytest
 
+from truck_blowout_sim.diagnosis.answer import words
 from truck_blowout_sim.diagnosis.answer.cautions import cautions
 from truck_blowout_sim.diagnosis.answer.location import locate
 from truck_blowout_sim.diagnosis.answer.material import Material
@@ -200,6 +201,20 @@ def test_a_sheet_number_far_off_is_a_miscalibration_and_named(
     name, amount = one.pulled[0]
     assert name == "trailer_mass"
     assert amount == pytest.approx(7.0, rel=0.3)
+
+
+def test_a_name_from_the_parts_of_one_log_asks_for_a_baseline_run(
+    calm: Study, truck: Packed
+) -> None:
+    named = (ranked(truck, "road_bank", 0.03),)
+    log = replace(calm, runs=tuple(calm.runs[i] for i in calm.train[:1]))
+    parts = replace(log, settings=replace(log.settings, episode_s=2.0))
+    assert not log.parts_of_one_log
+    assert parts.parts_of_one_log
+    assert words.ONE_LOG not in cautions(material(calm, named))
+    assert words.ONE_LOG not in cautions(material(log, named))
+    assert words.ONE_LOG in cautions(material(parts, named))
+    assert words.ONE_LOG not in cautions(material(parts))
 
 
 def test_chance_falls_with_evidence_and_stays_a_probability(calm: Study, truck: Packed) -> None:

@@ -15,10 +15,14 @@ from truck_blowout_sim.diagnosis.locate.left_over import expected_squares
 
 def cautions(material: Material) -> tuple[str, ...]:
     """Sentences beside the verdict, whatever it is."""
-    said = () if material.lockup is None else (material.lockup.sentence,)
+    said = [] if material.lockup is None else [material.lockup.sentence]
     if untold(material):
-        return (*said, words.left_untold(material.squares))
-    return (*said, _left_beside_names(material)) if _more_beside_names(material) else said
+        said.append(words.left_untold(material.squares))
+    elif _more_beside_names(material):
+        said.append(_left_beside_names(material))
+    if material.study.parts_of_one_log and decide(material) == "missing_physics":
+        said.append(words.ONE_LOG)
+    return tuple(said)
 
 
 def _more_beside_names(material: Material) -> bool:
@@ -35,5 +39,3 @@ def _left_beside_names(material: Material) -> str:
     run = [*study.runs, *study.holdout][worst]
     return words.left_beside_names(
         run.recording.name, float(np.sqrt(squares[worst] / expected_squares(study, squares))))
-
-

@@ -98,6 +98,10 @@ def verdict_sentence(verdict: Verdict, effects: Sequence[Effect],
     return " ".join((_verdict(verdict, effects, pulled, law, signs), *cautions))
 
 
+ONE_LOG = ("This rests on parts of one log, which share what the model's form lacks: confirm it "
+           "with a baseline run.")
+
+
 def left_untold(squares: Sequence[float]) -> str:
     """Without baseline runs: that much is left, and what it can be."""
     times = float(np.sqrt(np.exp(np.mean(np.log(squares)))))

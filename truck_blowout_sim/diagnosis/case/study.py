@@ -102,6 +102,17 @@ class Study:
         """Positions of the baseline runs in ``runs``."""
         return tuple(i for i, run in enumerate(self.runs) if run.role == "baseline")
 
+    @property
+    def parts_of_one_log(self) -> bool:
+        """Whether all that tells are the episodes of one long log, with no baseline run beside it.
+
+        They share what the model's form lacks as they share what the truck lacks.
+        """
+        if self.baseline or len(self.train) != 1:
+            return False
+        log = self.runs[self.train[0]]
+        return len(log.episodes(0, self.settings.episode_s)) > 1
+
     def expected(self, name: str) -> float:
         """Amount of a nuisance that the baseline runs show; without such runs that of the sheet."""
         return self.amounts.get(name, 0.0) if self.baseline else 0.0

@@ -93,15 +93,7 @@ def _further(study: Study, sound: bool) -> float:
     """
     if not sound:
         return ODDS
-    return POSITIVE if _parts_alone(study) else 0.0
-
-
-def _parts_alone(study: Study) -> bool:
-    """Whether all evidence is from parts of one log, with no baseline run beside it."""
-    if study.baseline or len(study.train) != 1:
-        return False
-    log = study.runs[study.train[0]]
-    return len(log.episodes(0, study.settings.episode_s)) > 1
+    return POSITIVE if study.parts_of_one_log else 0.0
 
 
 @dataclass(frozen=True, eq=False)
