@@ -33,20 +33,9 @@ PICTURE = "proof_power.png"
 CAPTION = "Share of concealed effects that were named, against what an ideal detector sees"
 
 
-def counted(world: str, out: Path) -> Figures:
-    """Figures of one world."""
-    places = Places(ROOT, world)
-    figures = score_entries(read_entries(places.answers), places.manifest, out / world,
-                            places.answers)
-    shutil.copy(out / world / "cases.csv", places.cases)
-    return figures
-
-
-def counted_again(world: str, out: Path) -> Figures:
-    """Figures of the cases of one world that were diagnosed again."""
-    places = Places(ROOT, world)
-    return score_entries(read_entries(places.again), places.manifest, out / f"{world}_again",
-                         places.again)
+def counted(places: Places, answers: Path, out: Path) -> Figures:
+    """Figures of some answers to one world's cases, all files of them in ``out``."""
+    return score_entries(read_entries(answers), places.manifest, out, answers)
 
 
 def main(words: list[str]) -> int:
@@ -55,8 +44,12 @@ def main(words: list[str]) -> int:
         return 2
     out = Path(words[0] if words else ROOT / "out" / "published")
     try:
-        figures = {world: counted(world, out) for world in WORLDS}
-        again = {world: counted_again(world, out) for world in WORLDS}
+        figures, again = {}, {}
+        for world in WORLDS:
+            places = Places(ROOT, world)
+            figures[world] = counted(places, places.answers, out / world)
+            again[world] = counted(places, places.again, out / f"{world}_again")
+            shutil.copy(out / world / "cases.csv", places.cases)
     except InputError as error:
         print(error, file=sys.stderr)
         return 2
