@@ -15,20 +15,15 @@ from truck_blowout_sim.diagnosis.locate.left_over import expected_squares
 
 def cautions(material: Material) -> tuple[str, ...]:
     """Sentences beside the verdict, whatever it is."""
+    study, names = material.study, decide(material) == "missing_physics"
     said = [] if material.lockup is None else [material.lockup.sentence]
     if untold(material):
         said.append(words.left_untold(material.squares))
-    elif _more_beside_names(material):
+    elif names and study.baseline and material.keeps_more:
         said.append(_left_beside_names(material))
-    if material.study.parts_of_one_log and decide(material) == "missing_physics":
+    if names and study.parts_of_one_log:
         said.append(words.ONE_LOG)
     return tuple(said)
-
-
-def _more_beside_names(material: Material) -> bool:
-    """Whether training keeps more than baseline though a name stands, which explains most of it."""
-    return (bool(material.study.baseline) and decide(material) == "missing_physics"
-            and material.keeps_more)
 
 
 def _left_beside_names(material: Material) -> str:

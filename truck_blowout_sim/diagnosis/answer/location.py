@@ -46,5 +46,3 @@ def locate(material: Material) -> Location:
         line_of_action_ci90_m=(best.x_m - wide, best.x_m + wide) if known else None,
         wrench=Wrench(float(history.fx_n[a:b].mean()), float(history.fy_n[a:b].mean()),
                       float(history.mz_nm[a:b].mean())))
-
-

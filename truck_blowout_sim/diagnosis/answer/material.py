@@ -134,4 +134,3 @@ class Material:
         total = {n.name: own.get(n.name, 0.0) for n in self.study.settings.nuisances}
         return sorted(((n, a) for n, a in total.items() if abs(a) > FAR),
                       key=lambda p: -abs(p[1]))
-

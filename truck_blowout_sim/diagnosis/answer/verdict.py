@@ -98,5 +98,3 @@ def chance_of_all(material: Material, verdict: Verdict) -> float:
     if verdict in ("unknown", "sensor_artefact"):
         every.append(1.0)
     return min(min(every) * settings.false_alarms, 1.0)
-
-

@@ -42,4 +42,3 @@ def bins_between(effect: Effect, run: Run, bin_s: float) -> range:
         return range(1)
     apart = spacing_s(run) / bin_s
     return range(0, round(_DELAYED_OVER * apart), max(round(apart / PARTS), 1))
-

@@ -72,4 +72,3 @@ def _taken(study: Study, before: Sequence[float], usual: float, one: Ranked) -> 
     after = mean_squares(replace(study, models=models_with(study, effects)), effects)
     more = excess(study, before, usual)
     return 1.0 - excess(study, after, usual) / more if more > 0.0 else 0.0
-

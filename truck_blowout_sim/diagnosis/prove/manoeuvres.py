@@ -72,4 +72,3 @@ def _prepared(study: Study, words: str, drive: Drive, blowouts: tuple[Blowout, .
     base = run.bins_of(out)
     noise = np.broadcast_to(np.nanmedian(like.noise, axis=0), base.shape)
     return replace(run, measured=base, noise=noise).weighed(base, rules)
-
