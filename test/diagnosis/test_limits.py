@@ -5,7 +5,11 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from truck_blowout_sim.diagnosis.answer.limits import limit_sentence
+from truck_blowout_sim.diagnosis.answer.limits import (
+    limit_of_search,
+    limit_sentence,
+    open_at_limit,
+)
 from truck_blowout_sim.diagnosis.answer.told import alias_set
 from truck_blowout_sim.diagnosis.effects import LIBRARY
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
@@ -24,6 +28,23 @@ def test_a_dead_brake_is_called_dead(truck: Packed) -> None:
     assert said.startswith("The brake at steer_left is dead")
     assert "at most 4 percent" in said
     assert limit_sentence(hypothesis("brake_imbalance", truck, -0.6), (0.3, 0.5)) == ""
+
+
+def test_an_amount_at_the_end_of_the_search_is_a_limit_on_that_side(truck: Packed) -> None:
+    longest = hypothesis("tire_relaxation", truck, 8.0)
+    assert "a limit, not a measurement" in limit_of_search(longest)
+    assert open_at_limit(longest, 6.9, 8.0) == (6.9, np.inf)
+    backwards = hypothesis("roll_steer", truck, -1.0)
+    assert open_at_limit(backwards, -1.0, -0.8) == (-np.inf, -0.8)
+
+
+@pytest.mark.parametrize(("name", "amount"), [("tire_relaxation", 6.0), ("brake_imbalance", -1.0)])
+def test_an_amount_inside_the_search_or_at_a_limit_of_nature_is_a_measurement(
+    truck: Packed, name: str, amount: float
+) -> None:
+    inside = hypothesis(name, truck, amount)
+    assert limit_of_search(inside) == ""
+    assert open_at_limit(inside, amount, amount + 0.2) == (amount, amount + 0.2)
 
 
 @pytest.mark.parametrize(("recorded", "names"), [

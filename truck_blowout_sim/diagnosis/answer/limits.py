@@ -1,11 +1,17 @@
-"""Amounts at a limit that nature reaches, in words: a brake that is dead has a gain of zero.
+"""Amounts at a limit, in words: one that nature reaches, as a dead brake, or the end of the search.
+
+An amount that is fitted alone must stay clear of the end of the search to be named. Fitted again
+beside what was named later, it may still run there: the name stays, and the amount is a limit.
 
 Validated with: test/diagnosis/test_outcome.py.
 """
 
 from __future__ import annotations
 
+import numpy as np
+
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
+from truck_blowout_sim.diagnosis.name.judging import at_bound
 from truck_blowout_sim.diagnosis.result.parts import Interval
 
 _NEAR = 0.05  # of the distance from the neutral amount to the limit
@@ -22,3 +28,17 @@ def limit_sentence(hypothesis: Hypothesis, ends: Interval) -> str:
     if not amount.at_low or abs(at - amount.low) > _NEAR * abs(amount.low):
         return ""
     return amount.at_low.format(where=str(hypothesis.place), percent=f"{100.0 * max(ends):.0f}")
+
+
+def limit_of_search(hypothesis: Hypothesis) -> str:
+    """What to say of an amount at the end of the search; empty where it is not there."""
+    return (" The amount ran to the end of what was searched: it is a limit, not a measurement."
+            if at_bound(hypothesis) else "")
+
+
+def open_at_limit(hypothesis: Hypothesis, low: float, high: float) -> Interval:
+    """An interval of the amount, without the end at which the search ended."""
+    if not at_bound(hypothesis):
+        return low, high
+    amount, at = hypothesis.effect.amount, hypothesis.amount
+    return (-np.inf, high) if at - amount.low < amount.high - at else (low, np.inf)

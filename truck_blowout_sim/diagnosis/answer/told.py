@@ -12,7 +12,11 @@ import numpy as np
 
 from truck_blowout_sim.diagnosis.algebra.quantiles import NINETY
 from truck_blowout_sim.diagnosis.answer import words
-from truck_blowout_sim.diagnosis.answer.limits import limit_sentence
+from truck_blowout_sim.diagnosis.answer.limits import (
+    limit_of_search,
+    limit_sentence,
+    open_at_limit,
+)
 from truck_blowout_sim.diagnosis.case.study import Study
 from truck_blowout_sim.diagnosis.effects.base import Amount
 from truck_blowout_sim.diagnosis.fit.ranked import Ranked
@@ -43,7 +47,7 @@ def physics_effect(ranked: Ranked, study: Study, timings: Mapping[str, Timing] |
     wide = NINETY * float(np.hypot(ranked.sigma, form))
     below, above = arms.wider(form) if arms else (wide, wide)
     value = amount.report(h.amount)
-    ends = reported(amount, h.amount - below, h.amount + above)
+    ends = reported(amount, *open_at_limit(h, h.amount - below, h.amount + above))
     first = min(h.times, key=lambda run: h.times[run][0], default="")
     onset = h.times[first][0] if first else None
     timings = timings or {}
@@ -55,7 +59,7 @@ def physics_effect(ranked: Ranked, study: Study, timings: Mapping[str, Timing] |
             parameters[f"duration_s in {run}"] = Parameter(end - start, "s", known or _OPEN)
     sentence, _ = words.fill(h, value, onset)
     sentence = limit_sentence(h, ends) or sentence + words.open_ends(ends)
-    sentence += words.unseen_before(onset, interval)
+    sentence += limit_of_search(h) + words.unseen_before(onset, interval)
     return Effect(name=h.effect.name, kind=h.effect.kind, where=h.place, parameters=parameters,
                   equation=words.equation_of(h, study.packed), sentence=sentence,
                   onset_s=onset, onset_ci90_s=interval)
