@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import json
 import sys
+from collections.abc import Sequence
 from pathlib import Path
 
 from proving_ground.worlds import WORLDS
@@ -43,9 +44,13 @@ def publish(world: str, cases: Path, run: Path) -> str:
     return f"{path.name}: {len(every)} of {len(sealed)} sealed cases"
 
 
-def publish_again(run: Path) -> str:
-    """Add what a run answered to published cases, of all worlds; what was done, in words."""
-    lines, counts = read_lines(run / RESULTS), []
+def publish_again(runs: Sequence[Path]) -> str:
+    """Add what runs answered to published cases, of all worlds; what was done, in words.
+
+    Of a case that several runs have, the answer of the last one counts.
+    """
+    lines = dict(pair for run in runs for pair in read_lines(run / RESULTS).items())
+    counts = []
     for world in WORLDS:
         places = Places(ROOT, world)
         further = answered_again(read_entries(places.answers), lines)
@@ -55,18 +60,21 @@ def publish_again(run: Path) -> str:
         every = joined(before, further)
         write_entries(places.again, every)
         counts.append(f"{places.again.name}: {len(every)} cases")
-    return ", ".join(counts) or f"{run}: no published case"
+    return ", ".join(counts) or "no published case"
 
 
 def main(words: list[str]) -> int:
     try:
+        again = []
         for word in words:
             world, _, folders = word.partition("=")
             if world == "again":
-                print(publish_again(Path(folders)))
+                again.append(Path(folders))
                 continue
             cases, run = map(Path, folders.split(","))
             print(publish(world, cases, run))
+        if again:
+            print(publish_again(again))
     except (ValueError, OSError, InputError) as error:
         print(f"{error}\n{__doc__}", file=sys.stderr)
         return 2

@@ -10,12 +10,11 @@ import pytest
 
 from truck_blowout_sim.diagnosis.answer.words import unseen_before
 from truck_blowout_sim.diagnosis.case.study import Study
-from truck_blowout_sim.diagnosis.case.trust import grip_mps2
+from truck_blowout_sim.diagnosis.case.trust import asked_for_mps2, grip_mps2
 from truck_blowout_sim.diagnosis.effects import friction_change, secondary_blowout
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.fit.ranked import Ranked
 from truck_blowout_sim.diagnosis.prove.hidden import (
-    asked_for_mps2,
     earliest_s,
     emptying,
     leak_shift_s,

@@ -91,7 +91,7 @@ def chance_of_all(material: Material, verdict: Verdict) -> float:
     out below ``false_alarms``. Of a sign beside a force only that it passed is known.
     """
     settings, baseline = material.study.settings, bool(material.study.baseline)
-    every = [material.found.p_value / settings.alarms_by_name(baseline)]
+    every = [material.found.p_value / material.study.alarms_by_name]
     if not material.gate.findings and baseline:
         every += [material.unrest.chance / settings.alarms_by_rest,
                   chance_of_more(material.study, material.squares) / settings.alarms_by_rest]

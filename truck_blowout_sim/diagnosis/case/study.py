@@ -103,6 +103,11 @@ class Study:
         return tuple(i for i, run in enumerate(self.runs) if run.role == "baseline")
 
     @property
+    def alarms_by_name(self) -> float:
+        """False alarms that the search for names may raise."""
+        return self.settings.alarms_by_name(bool(self.baseline))
+
+    @property
     def parts_of_one_log(self) -> bool:
         """Whether all that tells are the episodes of one long log, with no baseline run beside it.
 

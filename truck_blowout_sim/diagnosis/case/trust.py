@@ -69,6 +69,18 @@ def grip_used(study: Study) -> GripUsed:
     return GripUsed(*np.minimum(hardest / max(grip_mps2(study.packed), 1e-9), 1.0).tolist())
 
 
+def asked_for_mps2(study: Study, run: Run) -> Floats:
+    """[n] side and forward acceleration together that each bin of a recording asks for."""
+    unit = study.packed.vehicle.units[0]
+    middles = run.middles_s
+    rate, speed = (np.interp(middles, run.recording[name].time_s, run.recording[name].value)
+                   if name in run.recording else np.zeros(middles.size)
+                   for name in (f"{unit}_yaw_rate_radps", f"{unit}_vx_mps"))
+    bin_s = study.settings.bin_s
+    forward = np.gradient(lasting(speed, bin_s), bin_s)
+    return np.hypot(lasting(speed * rate, bin_s), lasting(forward, bin_s))
+
+
 def lasting(values: Floats, bin_s: float) -> Floats:
     """[n] running mean over half a second; what is not measured is 0."""
     return np.asarray(uniform_filter1d(np.nan_to_num(values), max(round(_LASTS_S / bin_s), 1)))

@@ -119,6 +119,8 @@ class Effect:
         far_from_limit: by so much models of equal slope and peak seem to differ in the amount, 1
             sigma, in runs far from the limit of grip; the less, the nearer.
         near_limit: the same of runs at the limit of grip; the less, the farther.
+        pushes_back: what moves pushes the vehicle back meanwhile, by a course that nobody knows.
+        cuts_grip: the tires give out earlier: of their grip, what the amount reports is left.
         any_direction: this limit is that of side and forward force together, not of side force.
     """
 
@@ -140,6 +142,8 @@ class Effect:
     whole_range: bool = False
     far_from_limit: float = 0.0
     near_limit: float = 0.0
+    pushes_back: bool = False
+    cuts_grip: bool = False
     any_direction: bool = False
     onset_form_s: float = 0.0
     hides: Literal["nothing", "leak", "grip"] = "nothing"

@@ -33,5 +33,6 @@ EFFECT = Effect(
     splits="hard braking: both axes feel it, and only near the limit",
     absorbs="peak_friction",
     far_from_limit=TIRE_FORMS_DIFFER,
+    cuts_grip=True,
     any_direction=True,
 )

@@ -40,6 +40,7 @@ def _shift_of(block: int | None, what: str) -> Effect:
         values=_shifted(block),
         onset_form_s=0.15,
         met=True,
+        pushes_back=True,
         variant=block is not None,
         timing="ramp",
         ramp_s=_MOVES_FOR_S,

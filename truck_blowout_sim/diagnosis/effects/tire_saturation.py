@@ -62,4 +62,5 @@ EFFECT = Effect(
     splits="a maneuver at high lateral acceleration",
     of_file=True,
     far_from_limit=TIRE_FORMS_DIFFER,
+    cuts_grip=True,
 )

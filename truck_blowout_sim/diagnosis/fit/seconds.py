@@ -25,6 +25,7 @@ from truck_blowout_sim.diagnosis.fit.instants import (
 )
 from truck_blowout_sim.diagnosis.fit.run_weights import run_weights, weighed
 from truck_blowout_sim.diagnosis.fit.stretches import of_stretches, parts_of, stretches
+from truck_blowout_sim.diagnosis.fit.telling import tells_of_forces
 from truck_blowout_sim.diagnosis.fit.windows import Windows
 from truck_blowout_sim.diagnosis.result.parts import Place
 
@@ -58,7 +59,8 @@ def windows_of(study: Study, projector: Projector, effect: Effect, place: Place,
     asked_of = [*study.train, *study.baseline, *range(fitted, len(every))]
     found = {i: quiet[i] if i in quiet else _seconds(study, effect, every[i], study.models[i], [
         trained[i, k] for k in range(grid_of(every[i], effect).size)]) for i in asked_of}
-    columns = {i: np.stack([column for _, column in found[i]], axis=1) for i in asked_of}
+    columns = {i: _told(study, i, beside)[:, None]
+               * np.stack([column for _, column in found[i]], axis=1) for i in asked_of}
     acting = [i for i in asked_of if i not in study.baseline]
     projector, size = _weighed(study, effect.timing, projector, residual,
                                {i: (rows[i], columns[i]) for i in acting})
@@ -74,6 +76,16 @@ def windows_of(study: Study, projector: Projector, effect: Effect, place: Place,
         np.isin(owner, study.train), owner >= fitted, effect.timing,
         (effect.amount.low, effect.amount.high), effect.strays(study.packed)[0],
         _WIDE * effect.amount.high)
+
+
+def _told(study: Study, i: int, beside: Beside | None) -> Floats:
+    """[rows] 1 where a run, or an unseen one behind these, tells of forces from outside."""
+    fitted = len(study.runs)
+    run = (*study.runs, *study.holdout)[i]
+    if beside is None or i in study.baseline:
+        return np.ones(run.measured.size)
+    named = beside.named if i < fitted else beside.placed[i - fitted]
+    return tells_of_forces(study, run, named)
 
 
 def _weighed(study: Study, timing: Timing, projector: Projector, residual: Floats,

@@ -17,10 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from truck_blowout_sim.diagnosis.algebra.linear import Projector
-from truck_blowout_sim.diagnosis.case.runs import Run
 from truck_blowout_sim.diagnosis.case.study import Study, row_ranges
-from truck_blowout_sim.diagnosis.case.trust import comparable_rows
-from truck_blowout_sim.diagnosis.effects.base import axles_at
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.fit.begun import log_choices
 from truck_blowout_sim.diagnosis.fit.beside import Beside, unseen_models
@@ -29,6 +26,7 @@ from truck_blowout_sim.diagnosis.fit.ranked import Ranked
 from truck_blowout_sim.diagnosis.fit.run_weights import run_weights, weighed
 from truck_blowout_sim.diagnosis.fit.scatter import Chance
 from truck_blowout_sim.diagnosis.fit.shown import Part, Shown, parts_of
+from truck_blowout_sim.diagnosis.fit.telling import tells_of
 from truck_blowout_sim.diagnosis.fit.width_error import degrees_of, most_supported
 
 Floats = NDArray[np.float64]
@@ -114,7 +112,7 @@ def _asked(study: Study, h: Hypothesis, beside: Beside, away: float) -> _Asked:
             [(study.runs[i], h.apply(study.packed, "")) for i in study.baseline]), strict=True))
     columns = {i: study.runs[i].change(model, models[i]) / away for i, model in changed.items()}
     parts = tuple(part for i, column in columns.items() for part in parts_of(
-        study.runs[i], rows[i].start, column * _telling(study, study.runs[i], h),
+        study.runs[i], rows[i].start, column * tells_of(study, study.runs[i], h, beside.named),
         i in study.train, study.settings.episode_s, None if h.effect.timed else beside.driven[i]))
     seen = _Asked(study.projector([*beside.named, h]), study.residual(dict(enumerate(models))),
                   study.stack({i: c for i, c in columns.items() if i in study.train}), parts)
@@ -128,36 +126,17 @@ def asks_unseen(h: Hypothesis, beside: Beside) -> bool:
     return bool(beside.unseen) and not (h.effect.timed or h.effect.met)
 
 
-def _telling(study: Study, run: Run, h: Hypothesis) -> Floats:
-    """[rows] 1 where a run can tell of the hypothesis, else 0.
-
-    Not from where only training lost a tire of the axle at which it acts, unless it is about the
-    lost tire: what that tire does differs among good models, and acts at the same place.
-    """
-    if h.effect.timed or h.effect.applies == "blowout" or not _at_lost_tire(study, run, h):
-        return np.ones(run.measured.size)
-    return comparable_rows(study, run)
-
-
-def _at_lost_tire(study: Study, run: Run, h: Hypothesis) -> bool:
-    """Whether the hypothesis acts at an axle, or a hub of it, that loses a tire in the run."""
-    vehicle = study.packed.vehicle
-    own = axles_at(vehicle, h.place) if h.place.axle else ()
-    lost = {vehicle.axle_of_hub(vehicle.hub_of_tire(tire))
-            for event in run.recording.blowouts for tire in event.tires}
-    return bool(lost & set(own))
-
-
 def _with_unseen(study: Study, seen: _Asked, h: Hypothesis, beside: Beside, away: float) -> _Asked:
     """The same with the unseen runs behind the fitted ones."""
     kept = seen.projector.kept.tolist()
     residuals, changes, parts = [seen.residual], [seen.column], list(seen.parts)
     first = seen.residual.size
     models = unseen_models(study, [(*one, h) for one in beside.placed])
-    for run, base, model, manner in zip(study.holdout, beside.unseen, models,
-                                        beside.driven[len(study.runs):], strict=True):
+    for run, base, model, manner, named in zip(
+            study.holdout, beside.unseen, models, beside.driven[len(study.runs):], beside.placed,
+            strict=True):
         change = run.change(model, base) / away
-        parts += parts_of(run, first, change * _telling(study, run, h), True,
+        parts += parts_of(run, first, change * tells_of(study, run, h, named), True,
                           study.settings.episode_s, manner)
         changes.append(change)
         residuals.append(run.residual(base))

@@ -46,8 +46,8 @@ def shortlist(study: Study, named: Sequence[Hypothesis], progress: Progress | No
     steady = [h for h in steady_candidates(study) if h.key not in taken]
     ranking = rank_steady(study, steady, named, progress)
     ranked, beside = ranking.ranked, Beside.of(study, named, study.models, placed)
-    rate = study.settings.alarms_by_name(bool(study.baseline))
-    chance = Chance(ranking.scatter, ranking.independent, rate, ranking.questions, further)
+    chance = Chance(ranking.scatter, ranking.independent, study.alarms_by_name, ranking.questions,
+                    further)
     places = event_places(study, named, ranked, chance)
     events = {(effect.name, str(place)) for effect, place in places}
     chance = replace(chance, independent=ranking.independent + len(events))

@@ -24,7 +24,7 @@ from numpy.typing import NDArray
 from truck_blowout_sim.diagnosis.algebra.quantiles import NINETY
 from truck_blowout_sim.diagnosis.case.runs import Run
 from truck_blowout_sim.diagnosis.case.study import Study
-from truck_blowout_sim.diagnosis.case.trust import grip_mps2, lasting
+from truck_blowout_sim.diagnosis.case.trust import asked_for_mps2, grip_mps2
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.fit.ranked import Ranked
 from truck_blowout_sim.physics.tires.gas import pressure_rate_paps
@@ -76,18 +76,6 @@ def rim_pressure_pa(packed: Packed, tire: str) -> float:
     stiff = value("reference_load_n") / way - value("stiffness_npm")
     highest = value("pressure_valid") * value("reference_pressure_pa")
     return float(np.clip(stiff / value("stiffness_npmppa"), _FLAT * highest, highest))
-
-
-def asked_for_mps2(study: Study, run: Run) -> Floats:
-    """[n] side and forward acceleration together that each bin of a recording asks for."""
-    unit = study.packed.vehicle.units[0]
-    middles = run.middles_s
-    rate, speed = (np.interp(middles, run.recording[name].time_s, run.recording[name].value)
-                   if name in run.recording else np.zeros(middles.size)
-                   for name in (f"{unit}_yaw_rate_radps", f"{unit}_vx_mps"))
-    bin_s = study.settings.bin_s
-    forward = np.gradient(lasting(speed, bin_s), bin_s)
-    return np.hypot(lasting(speed * rate, bin_s), lasting(forward, bin_s))
 
 
 def earliest_s(study: Study, run: Run, found: Ranked, low_s: float) -> float:
