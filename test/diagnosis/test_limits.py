@@ -30,6 +30,17 @@ def test_a_dead_brake_is_called_dead(truck: Packed) -> None:
     assert limit_sentence(hypothesis("brake_imbalance", truck, -0.6), (0.3, 0.5)) == ""
 
 
+def test_a_flat_tire_that_drags_with_all_grip_is_at_a_limit_of_nature(truck: Packed) -> None:
+    locked = hypothesis("blown_tire_drag", truck, 6.0)
+    said = limit_sentence(locked, (5.2, 7.0))
+    assert "hardly turns" in said
+    assert "at least 520 percent" in said
+    assert limit_of_search(locked) == ""
+    assert limit_sentence(hypothesis("blown_tire_drag", truck, 4.0), (4.2, 5.8)) == ""
+    flat = truck[f"tire.{locked.place.tire}.flat_rolling"]
+    assert (1.0 + locked.amount) * flat > truck[f"tire.{locked.place.tire}.peak_y"]
+
+
 def test_an_amount_at_the_end_of_the_search_is_a_limit_on_that_side(truck: Packed) -> None:
     longest = hypothesis("tire_relaxation", truck, 8.0)
     assert "a limit, not a measurement" in limit_of_search(longest)

@@ -24,10 +24,12 @@ def limit_sentence(hypothesis: Hypothesis, ends: Interval) -> str:
         hypothesis: the effect with its amount.
         ends: of its 90 % interval, as reported.
     """
-    amount, at = hypothesis.effect.amount, hypothesis.amount
-    if not amount.at_low or abs(at - amount.low) > _NEAR * abs(amount.low):
-        return ""
-    return amount.at_low.format(where=str(hypothesis.place), percent=f"{100.0 * max(ends):.0f}")
+    amount, at, where = hypothesis.effect.amount, hypothesis.amount, str(hypothesis.place)
+    if amount.at_low and abs(at - amount.low) <= _NEAR * abs(amount.low):
+        return amount.at_low.format(where=where, percent=f"{100.0 * max(ends):.0f}")
+    if amount.at_high and abs(at - amount.high) <= _NEAR * abs(amount.high):
+        return amount.at_high.format(where=where, percent=f"{100.0 * min(ends):.0f}")
+    return ""
 
 
 def limit_of_search(hypothesis: Hypothesis) -> str:

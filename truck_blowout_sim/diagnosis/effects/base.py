@@ -51,7 +51,8 @@ class Amount:
         file_share: 1 sigma, a share, by which the number of the vehicle's file may be off that
             turns the amount into a force.
         at_low: what to say at the lower bound, where nature reaches it; ``{percent}`` is the end
-            of the 90 % interval. Empty where the bound is only the end of the search.
+            of the 90 % interval. Empty where the bound is only the end of the search. ``at_high``:
+            the same of the upper bound.
     """
 
     name: str
@@ -65,6 +66,7 @@ class Amount:
     grid: tuple[float, ...] = ()
     file_share: float = 0.0
     at_low: str = ""
+    at_high: str = ""
 
 
 @dataclass(frozen=True)

@@ -137,7 +137,8 @@ def at_bound(h: Hypothesis) -> bool:
     """Whether the amount ran to the end of the search, and not to a limit that nature reaches."""
     low, high = h.effect.amount.low, h.effect.amount.high
     above = np.inf if h.effect.amount.at_low else h.amount - low
-    return bool(min(above, high - h.amount) < _AT_BOUND * (high - low))
+    below = np.inf if h.effect.amount.at_high else high - h.amount
+    return bool(min(above, below) < _AT_BOUND * (high - low))
 
 
 def imitates(one: Ranked, ranked: Sequence[Ranked], chance: Chance) -> bool:
