@@ -141,3 +141,21 @@ def test_an_unseen_run_that_nothing_explains_does_not_set_the_numbers_of_the_she
     assert found > CHANCE.asked
     assert found > 0.5 * support_of(study_of(weak_brake(truck), baseline=True),
                                     "brake_imbalance", -0.5, HUB)
+
+
+def test_what_shows_only_while_a_load_moves_is_not_supported_beside_it(
+    study_of: Studies, truck: Packed
+) -> None:
+    """The weak brake is applied at 4.8 s, while the load moves or seconds after it came to rest."""
+    study = study_of(weak_brake(truck), baseline=True)
+    effect = next(e for e in LIBRARY if e.name == "payload_shift" and not e.variant)
+    place = next(p for p in effect.places(truck.vehicle) if p.body == "trailer")
+    one = hypothesis(study, "brake_imbalance", -0.5, HUB)
+    alone = supported(study, one, Beside.of(study, (), study.models), CHANCE).support
+
+    def beside(start_s: float, end_s: float) -> float:
+        load = Hypothesis(effect, place, 1e-6, {"run 1": (start_s, end_s)})
+        return supported(study, one, Beside.of(study, (load,), study.models), CHANCE).support
+
+    assert beside(4.5, 7.0) < 0.1 * alone
+    assert CHANCE.asked < beside(0.6, 1.2) <= alone + 1e-6

@@ -35,7 +35,8 @@ _DIM = 1e-9  # of the information that the clearest stretch shows: less is nothi
 
 
 def windows_of(study: Study, projector: Projector, effect: Effect, place: Place,
-               trained: Mapping[tuple[int, int], Floats], beside: Beside | None = None) -> Windows:
+               trained: Mapping[tuple[int, int], Floats], beside: Beside | None = None,
+               telling: bool = False) -> Windows:
     """The seconds of all runs.
 
     Args:
@@ -46,6 +47,7 @@ def windows_of(study: Study, projector: Projector, effect: Effect, place: Place,
         trained: bin means of training runs with the event begun at each instant tried, by run
             and instant.
         beside: what is in force, with the unseen runs if these are asked.
+        telling: only where that hides no force from outside; see `telling.py`.
     """
     fitted = len(study.runs)
     asked = beside is not None and bool(beside.unseen)
@@ -59,8 +61,9 @@ def windows_of(study: Study, projector: Projector, effect: Effect, place: Place,
     asked_of = [*study.train, *study.baseline, *range(fitted, len(every))]
     found = {i: quiet[i] if i in quiet else _seconds(study, effect, every[i], study.models[i], [
         trained[i, k] for k in range(grid_of(every[i], effect).size)]) for i in asked_of}
-    columns = {i: _told(study, i, beside)[:, None]
-               * np.stack([column for _, column in found[i]], axis=1) for i in asked_of}
+    columns = {i: np.stack([column for _, column in found[i]], axis=1) for i in asked_of}
+    if beside is not None and telling:
+        columns = {i: one * _told(study, i, beside)[:, None] for i, one in columns.items()}
     acting = [i for i in asked_of if i not in study.baseline]
     projector, size = _weighed(study, effect.timing, projector, residual,
                                {i: (rows[i], columns[i]) for i in acting})
@@ -78,11 +81,11 @@ def windows_of(study: Study, projector: Projector, effect: Effect, place: Place,
         _WIDE * effect.amount.high)
 
 
-def _told(study: Study, i: int, beside: Beside | None) -> Floats:
+def _told(study: Study, i: int, beside: Beside) -> Floats:
     """[rows] 1 where a run, or an unseen one behind these, tells of forces from outside."""
     fitted = len(study.runs)
     run = (*study.runs, *study.holdout)[i]
-    if beside is None or i in study.baseline:
+    if i in study.baseline:
         return np.ones(run.measured.size)
     named = beside.named if i < fitted else beside.placed[i - fitted]
     return tells_of_forces(study, run, named)

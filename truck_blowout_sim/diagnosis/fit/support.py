@@ -11,6 +11,7 @@ Validated with: test/diagnosis/test_support.py.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -74,24 +75,35 @@ class _Asked:
 def supported(study: Study, one: Ranked, beside: Beside, chance: Chance) -> Ranked:
     """The same with its support, for amounts up to the one that was fitted.
 
-    No more than what it explains supports where widths are estimates; see `width_error.py`.
+    No more than what it explains supports where widths are estimates; see `width_error.py`. Beside
+    a load that moves it must be supported at all times and at those that tell; see `telling.py`.
     """
     h = one.hypothesis
     away = h.amount - h.effect.neutral(study.packed)
     if away == 0.0 or (one.refitted and one.delta <= 0.0):
         return replace(one, support=0.0)
-    asked = _asked(study, h, beside, away)
-    left = asked.left(away)
-    shown = asked.weighed(study, away).shown(h.effect.strays(study.packed, study.grip_used), away)
-    if shown is None:
-        return replace(one, support=0.0)
-    change = away * asked.column[:study.columns.shape[0]]
-    scatter = chance.beside(h.key, change, study.columns.T @ change, left)
-    support = scatter.support(shown, log_choices(study, h, beside.named))
+    support = _support(study, h, beside, chance)
+    moving = tuple(other for other in beside.named if other.effect.pushes_back)
+    if moving and support > 0.0:
+        support = min(support, _support(study, h, beside, chance, moving))
     if one.refitted:
         runs = len(study.baseline or study.train)
         support = min(support, most_supported(one.evidence, degrees_of(runs)))
     return replace(one, support=support)
+
+
+def _support(study: Study, h: Hypothesis, beside: Beside, chance: Chance,
+             moving: Sequence[Hypothesis] = ()) -> float:
+    """Of a hypothesis at its amount; what is ``moving`` hides it meanwhile."""
+    away = h.amount - h.effect.neutral(study.packed)
+    asked = _asked(study, h, beside, away, moving)
+    left = asked.left(away)
+    shown = asked.weighed(study, away).shown(h.effect.strays(study.packed, study.grip_used), away)
+    if shown is None:
+        return 0.0
+    change = away * asked.column[:study.columns.shape[0]]
+    scatter = chance.beside(h.key, change, study.columns.T @ change, left)
+    return scatter.support(shown, log_choices(study, h, beside.named))
 
 
 def support_of_unseen(study: Study, one: Ranked, beside: Beside, chance: Chance) -> float:
@@ -103,7 +115,8 @@ def support_of_unseen(study: Study, one: Ranked, beside: Beside, chance: Chance)
     return one.support - fitted.support
 
 
-def _asked(study: Study, h: Hypothesis, beside: Beside, away: float) -> _Asked:
+def _asked(study: Study, h: Hypothesis, beside: Beside, away: float,
+           moving: Sequence[Hypothesis]) -> _Asked:
     """What the fitted runs hold of a hypothesis, and the unseen ones where these are asked."""
     models, rows = beside.models, row_ranges(study)
     changed = models_at(study, [h], beside.named)[0]
@@ -112,12 +125,12 @@ def _asked(study: Study, h: Hypothesis, beside: Beside, away: float) -> _Asked:
             [(study.runs[i], h.apply(study.packed, "")) for i in study.baseline]), strict=True))
     columns = {i: study.runs[i].change(model, models[i]) / away for i, model in changed.items()}
     parts = tuple(part for i, column in columns.items() for part in parts_of(
-        study.runs[i], rows[i].start, column * tells_of(study, study.runs[i], h, beside.named),
+        study.runs[i], rows[i].start, column * tells_of(study, study.runs[i], h, moving),
         i in study.train, study.settings.episode_s, None if h.effect.timed else beside.driven[i]))
     seen = _Asked(study.projector([*beside.named, h]), study.residual(dict(enumerate(models))),
                   study.stack({i: c for i, c in columns.items() if i in study.train}), parts)
     if asks_unseen(h, beside):
-        return _with_unseen(study, seen, h, beside, away)
+        return _with_unseen(study, seen, h, beside, away, moving)
     return seen
 
 
@@ -126,8 +139,10 @@ def asks_unseen(h: Hypothesis, beside: Beside) -> bool:
     return bool(beside.unseen) and not (h.effect.timed or h.effect.met)
 
 
-def _with_unseen(study: Study, seen: _Asked, h: Hypothesis, beside: Beside, away: float) -> _Asked:
+def _with_unseen(study: Study, seen: _Asked, h: Hypothesis, beside: Beside, away: float,
+                 moving: Sequence[Hypothesis]) -> _Asked:
     """The same with the unseen runs behind the fitted ones."""
+    keys = {other.key for other in moving}
     kept = seen.projector.kept.tolist()
     residuals, changes, parts = [seen.residual], [seen.column], list(seen.parts)
     first = seen.residual.size
@@ -136,7 +151,8 @@ def _with_unseen(study: Study, seen: _Asked, h: Hypothesis, beside: Beside, away
             study.holdout, beside.unseen, models, beside.driven[len(study.runs):], beside.placed,
             strict=True):
         change = run.change(model, base) / away
-        parts += parts_of(run, first, change * tells_of(study, run, h, named), True,
+        there = tuple(other for other in named if other.key in keys)
+        parts += parts_of(run, first, change * tells_of(study, run, h, there), True,
                           study.settings.episode_s, manner)
         changes.append(change)
         residuals.append(run.residual(base))

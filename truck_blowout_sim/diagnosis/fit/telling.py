@@ -45,6 +45,11 @@ def tells_of(study: Study, run: Run, h: Hypothesis, named: Sequence[Hypothesis] 
     return tells
 
 
+def hides_forces(h: Hypothesis) -> bool:
+    """Whether a named cause has times that tell of no force from outside."""
+    return h.effect.cuts_grip or h.effect.applies == "blowout"
+
+
 def tells_of_forces(study: Study, run: Run, named: Sequence[Hypothesis]) -> Floats:
     """[rows] 1 where a run tells of forces from outside: of a wind, a slope, a load that moves.
 

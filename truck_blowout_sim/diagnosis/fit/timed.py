@@ -27,6 +27,7 @@ from truck_blowout_sim.diagnosis.fit.ranked import Ranked
 from truck_blowout_sim.diagnosis.fit.refit import chi2_of, chi2_with_each
 from truck_blowout_sim.diagnosis.fit.seconds import responses, windows_of
 from truck_blowout_sim.diagnosis.fit.stretches import of_stretches, parts_of, stretches
+from truck_blowout_sim.diagnosis.fit.telling import hides_forces
 from truck_blowout_sim.diagnosis.result.parts import Place
 
 Floats = NDArray[np.float64]
@@ -54,6 +55,11 @@ def scan(study: Study, projector: Projector, effect: Effect, place: Place, begun
     if effect.adds_up:
         windows = windows_of(study, projector, effect, place, begun, beside)
         support = windows.support()
+        if support > 0.0 and beside is not None and any(map(hides_forces, beside.named)):
+            # both: where fewer seconds tell, those that do may agree by chance
+            telling = windows_of(study, projector, effect, place, begun, beside, telling=True)
+            windows, support = min(((one, one.support()) for one in (windows, telling)),
+                                   key=lambda pair: pair[1])
         if support > 0.0 and windows.unseen.any():
             unseen = support - windows.without_unseen.support()
     shown = {i: _Shown.of(study, projector, effect, i, begun, removed) for i in study.train}
