@@ -14,6 +14,7 @@ import json
 import sys
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 from proving_ground.worlds import WORLDS
 from truck_blowout_sim.errors import InputError
@@ -49,8 +50,13 @@ def publish_again(runs: Sequence[Path]) -> str:
 
     Of a case that several runs have, the answer of the last one counts.
     """
-    lines = dict(pair for run in runs for pair in read_lines(run / RESULTS).items())
+    lines: dict[str, Any] = {}
     counts = []
+    for run in runs:
+        found = read_lines(run / RESULTS)
+        lines |= found
+        if not found:
+            counts.append(f"{run}: no results")
     for world in WORLDS:
         places = Places(ROOT, world)
         further = answered_again(read_entries(places.answers), lines)

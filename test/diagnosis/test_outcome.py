@@ -214,7 +214,7 @@ def test_a_name_from_the_parts_of_one_log_asks_for_a_baseline_run(
 
 
 def test_chance_falls_with_evidence_and_stays_a_probability(calm: Study, truck: Packed) -> None:
-    rate = calm.settings.alarms_by_name(bool(calm.baseline))
+    rate = calm.alarms_by_name
     chance = Chance(Scatter(np.eye(SCATTERS.size)[0]), 20.0, rate)
 
     def p_value(support: float) -> float:

@@ -19,7 +19,7 @@ from truck_blowout_sim.diagnosis.effects import (
     tire_saturation,
 )
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
-from truck_blowout_sim.diagnosis.fit.telling import tells_of, tells_of_forces
+from truck_blowout_sim.diagnosis.fit.telling import tells_of_forces, while_loads_rest
 from truck_blowout_sim.diagnosis.result.parts import Place
 from truck_blowout_sim.recordings import Blowout
 from truck_blowout_sim.vehicle import Packed
@@ -38,11 +38,11 @@ def test_a_load_that_moves_hides_what_else_there_is_for_a_swing(study_of: Studie
     study = study_of()
     run, swing_s = study.runs[0], study.settings.swing_s
     moved = Hypothesis(payload_shift.EFFECT, Place(body="trailer"), 0.2, {"run 1": (2.0, 2.6)})
-    tells = per_bin(study, tells_of(study, run, LAG, [moved]))
+    tells = per_bin(study, while_loads_rest(study, run, [moved]))
     hidden = (run.middles_s > 2.0) & (run.middles_s < 2.6 + swing_s)
     assert 0.0 < hidden.mean() < 1.0
     assert (tells == ~hidden).all()
-    assert tells_of(study, run, LAG).all()
+    assert while_loads_rest(study, run, []).all()
 
 
 @pytest.mark.parametrize("other", [
@@ -51,7 +51,7 @@ def test_a_load_that_moves_hides_what_else_there_is_for_a_swing(study_of: Studie
 ], ids=["a load that moves in another run", "a slope, which begins slowly"])
 def test_other_events_hide_nothing(study_of: Studies, other: Hypothesis) -> None:
     study = study_of()
-    assert tells_of(study, study.runs[0], LAG, [other]).all()
+    assert while_loads_rest(study, study.runs[0], [other]).all()
 
 
 def test_tires_that_slide_tell_of_no_wind(study_of: Studies, truck: Packed) -> None:

@@ -11,7 +11,7 @@ from __future__ import annotations
 import numpy as np
 
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
-from truck_blowout_sim.diagnosis.name.judging import at_bound
+from truck_blowout_sim.diagnosis.name.judging import at_bound, nearer_bound
 from truck_blowout_sim.diagnosis.result.parts import Interval
 
 _NEAR = 0.05  # of the distance from the neutral amount to the limit
@@ -42,5 +42,5 @@ def open_at_limit(hypothesis: Hypothesis, low: float, high: float) -> Interval:
     """An interval of the amount, without the end at which the search ended."""
     if not at_bound(hypothesis):
         return low, high
-    amount, at = hypothesis.effect.amount, hypothesis.amount
-    return (-np.inf, high) if at - amount.low < amount.high - at else (low, np.inf)
+    lower = nearer_bound(hypothesis) == hypothesis.effect.amount.low
+    return (-np.inf, high) if lower else (low, np.inf)

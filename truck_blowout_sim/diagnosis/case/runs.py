@@ -90,6 +90,11 @@ class Run:
         return bool(self.recording.blowouts)
 
     @property
+    def lost_s(self) -> float:
+        """When the first tire is blown on command; infinite: none is."""
+        return min((event.time_s for event in self.recording.blowouts), default=np.inf)
+
+    @property
     def braked(self) -> NDArray[np.bool_]:
         """[steps, circuits] whether a brake is applied."""
         return np.asarray(self.drive.inputs[:, _BRAKES] > BRAKES_ON_PA)

@@ -35,7 +35,7 @@ def comparable_until_s(study: Study, run: Run) -> float:
     """
     if not study.baseline or any(study.runs[k].has_blowout for k in study.baseline):
         return float("inf")
-    return min((event.time_s for event in run.recording.blowouts), default=float("inf"))
+    return run.lost_s
 
 
 def comparable_rows(study: Study, run: Run) -> Floats:

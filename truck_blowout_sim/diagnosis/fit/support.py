@@ -11,7 +11,6 @@ Validated with: test/diagnosis/test_support.py.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -27,7 +26,7 @@ from truck_blowout_sim.diagnosis.fit.ranked import Ranked
 from truck_blowout_sim.diagnosis.fit.run_weights import run_weights, weighed
 from truck_blowout_sim.diagnosis.fit.scatter import Chance
 from truck_blowout_sim.diagnosis.fit.shown import Part, Shown, parts_of
-from truck_blowout_sim.diagnosis.fit.telling import tells_of
+from truck_blowout_sim.diagnosis.fit.telling import tells_of, while_loads_rest
 from truck_blowout_sim.diagnosis.fit.width_error import degrees_of, most_supported
 
 Floats = NDArray[np.float64]
@@ -57,10 +56,13 @@ class _Asked:
         if not (weights < 1.0).any():
             return self
         size = np.sqrt(weights)
-        return _Asked(weighed(study, self.projector, weights), self.residual * size,
-                      self.column * size,
-                      tuple(replace(part, column=part.column * size[part.rows])
-                            for part in self.parts))
+        return replace(self.times(size), projector=weighed(study, self.projector, weights),
+                       residual=self.residual * size, column=self.column * size)
+
+    def times(self, factors: Floats) -> _Asked:
+        """What the runs show of it, each row times its factor."""
+        return replace(self, parts=tuple(
+            replace(part, column=part.column * factors[part.rows]) for part in self.parts))
 
     def left(self, away: float) -> Floats:
         """What remains of the rows with the hypothesis ``away`` from neutral."""
@@ -82,28 +84,29 @@ def supported(study: Study, one: Ranked, beside: Beside, chance: Chance) -> Rank
     away = h.amount - h.effect.neutral(study.packed)
     if away == 0.0 or (one.refitted and one.delta <= 0.0):
         return replace(one, support=0.0)
-    support = _support(study, h, beside, chance)
-    moving = tuple(other for other in beside.named if other.effect.pushes_back)
-    if moving and support > 0.0:
-        support = min(support, _support(study, h, beside, chance, moving))
+    asked, strays = _asked(study, h, beside, away), h.effect.strays(study.packed, study.grip_used)
+    weighed_runs = asked.weighed(study, away)
+    shown = weighed_runs.shown(strays, away)
+    if shown is None:
+        return replace(one, support=0.0)
+    change = away * asked.column[:study.columns.shape[0]]
+    scatter = chance.beside(h.key, change, study.columns.T @ change, asked.left(away))
+    choices = log_choices(study, h, beside.named)
+    support = scatter.support(shown, choices)
+    if support > 0.0 and any(other.effect.pushes_back for other in beside.named):
+        still = weighed_runs.times(_still(study, beside)).shown(strays, away)
+        support = 0.0 if still is None else min(support, scatter.support(still, choices))
     if one.refitted:
         runs = len(study.baseline or study.train)
         support = min(support, most_supported(one.evidence, degrees_of(runs)))
     return replace(one, support=support)
 
 
-def _support(study: Study, h: Hypothesis, beside: Beside, chance: Chance,
-             moving: Sequence[Hypothesis] = ()) -> float:
-    """Of a hypothesis at its amount; what is ``moving`` hides it meanwhile."""
-    away = h.amount - h.effect.neutral(study.packed)
-    asked = _asked(study, h, beside, away, moving)
-    left = asked.left(away)
-    shown = asked.weighed(study, away).shown(h.effect.strays(study.packed, study.grip_used), away)
-    if shown is None:
-        return 0.0
-    change = away * asked.column[:study.columns.shape[0]]
-    scatter = chance.beside(h.key, change, study.columns.T @ change, left)
-    return scatter.support(shown, log_choices(study, h, beside.named))
+def _still(study: Study, beside: Beside) -> Floats:
+    """[rows] 1 of all runs, unseen ones last, while no named load moves in them."""
+    runs = [(run, beside.named) for run in study.runs]
+    runs += list(zip(study.holdout, beside.placed, strict=False))  # none where instants are open
+    return np.concatenate([while_loads_rest(study, run, named) for run, named in runs])
 
 
 def support_of_unseen(study: Study, one: Ranked, beside: Beside, chance: Chance) -> float:
@@ -115,8 +118,7 @@ def support_of_unseen(study: Study, one: Ranked, beside: Beside, chance: Chance)
     return one.support - fitted.support
 
 
-def _asked(study: Study, h: Hypothesis, beside: Beside, away: float,
-           moving: Sequence[Hypothesis]) -> _Asked:
+def _asked(study: Study, h: Hypothesis, beside: Beside, away: float) -> _Asked:
     """What the fitted runs hold of a hypothesis, and the unseen ones where these are asked."""
     models, rows = beside.models, row_ranges(study)
     changed = models_at(study, [h], beside.named)[0]
@@ -125,12 +127,12 @@ def _asked(study: Study, h: Hypothesis, beside: Beside, away: float,
             [(study.runs[i], h.apply(study.packed, "")) for i in study.baseline]), strict=True))
     columns = {i: study.runs[i].change(model, models[i]) / away for i, model in changed.items()}
     parts = tuple(part for i, column in columns.items() for part in parts_of(
-        study.runs[i], rows[i].start, column * tells_of(study, study.runs[i], h, moving),
+        study.runs[i], rows[i].start, column * tells_of(study, study.runs[i], h),
         i in study.train, study.settings.episode_s, None if h.effect.timed else beside.driven[i]))
     seen = _Asked(study.projector([*beside.named, h]), study.residual(dict(enumerate(models))),
                   study.stack({i: c for i, c in columns.items() if i in study.train}), parts)
     if asks_unseen(h, beside):
-        return _with_unseen(study, seen, h, beside, away, moving)
+        return _with_unseen(study, seen, h, beside, away)
     return seen
 
 
@@ -139,20 +141,16 @@ def asks_unseen(h: Hypothesis, beside: Beside) -> bool:
     return bool(beside.unseen) and not (h.effect.timed or h.effect.met)
 
 
-def _with_unseen(study: Study, seen: _Asked, h: Hypothesis, beside: Beside, away: float,
-                 moving: Sequence[Hypothesis]) -> _Asked:
+def _with_unseen(study: Study, seen: _Asked, h: Hypothesis, beside: Beside, away: float) -> _Asked:
     """The same with the unseen runs behind the fitted ones."""
-    keys = {other.key for other in moving}
     kept = seen.projector.kept.tolist()
     residuals, changes, parts = [seen.residual], [seen.column], list(seen.parts)
     first = seen.residual.size
     models = unseen_models(study, [(*one, h) for one in beside.placed])
-    for run, base, model, manner, named in zip(
-            study.holdout, beside.unseen, models, beside.driven[len(study.runs):], beside.placed,
-            strict=True):
+    for run, base, model, manner in zip(study.holdout, beside.unseen, models,
+                                        beside.driven[len(study.runs):], strict=True):
         change = run.change(model, base) / away
-        there = tuple(other for other in named if other.key in keys)
-        parts += parts_of(run, first, change * tells_of(study, run, h, there), True,
+        parts += parts_of(run, first, change * tells_of(study, run, h), True,
                           study.settings.episode_s, manner)
         changes.append(change)
         residuals.append(run.residual(base))

@@ -29,20 +29,26 @@ Floats = NDArray[np.float64]
 _FORMS_AGREE = 0.6  # of the peak, as above
 
 
-def tells_of(study: Study, run: Run, h: Hypothesis, named: Sequence[Hypothesis] = ()) -> Floats:
+def tells_of(study: Study, run: Run, h: Hypothesis) -> Floats:
     """[rows] 1 where a run can tell of the hypothesis, else 0.
 
     Not from where only training lost a tire of the axle at which it acts, unless it is about the
-    lost tire. Not while a load that is ``named`` moves in the run, nor for a swing afterwards.
+    lost tire.
     """
-    lost = not h.effect.timed and h.effect.applies != "blowout" and _at_lost_tire(study, run, h)
-    tells = comparable_rows(study, run) if lost else np.ones(run.measured.size)
+    if h.effect.timed or h.effect.applies == "blowout" or not _at_lost_tire(study, run, h):
+        return np.ones(run.measured.size)
+    return comparable_rows(study, run)
+
+
+def while_loads_rest(study: Study, run: Run, named: Sequence[Hypothesis]) -> Floats:
+    """[rows] 0 while a load that is named moves in the run, and for a swing afterwards, else 1."""
+    rest = np.ones(run.middles_s.size)
     for one in named:
         if one.effect.pushes_back and run.recording.name in one.times:
             start, end = one.times[run.recording.name]
-            moves = (run.edges_s[1:] > start) & (run.edges_s[:-1] < end + study.settings.swing_s)
-            tells[np.repeat(moves, len(run.channels))] = 0.0
-    return tells
+            over = end + study.settings.swing_s
+            rest[(run.edges_s[1:] > start) & (run.edges_s[:-1] < over)] = 0.0
+    return np.repeat(rest, len(run.channels))
 
 
 def hides_forces(h: Hypothesis) -> bool:
@@ -60,10 +66,9 @@ def tells_of_forces(study: Study, run: Run, named: Sequence[Hypothesis]) -> Floa
         named: what is in force, with the instants that the run has.
     """
     tells, ends = np.ones(run.middles_s.size), run.edges_s[1:]
-    lost_s = min((event.time_s for event in run.recording.blowouts), default=np.inf)
     for h in named:
         if h.effect.applies == "blowout":
-            tells[ends > lost_s] = 0.0
+            tells[ends > run.lost_s] = 0.0
         if h.effect.cuts_grip and (not h.effect.timed or run.recording.name in h.times):
             since = h.times[run.recording.name][0] if h.effect.timed else -np.inf
             left = h.effect.amount.report(h.amount) * grip_mps2(study.packed)

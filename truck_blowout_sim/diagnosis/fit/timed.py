@@ -58,8 +58,9 @@ def scan(study: Study, projector: Projector, effect: Effect, place: Place, begun
         if support > 0.0 and beside is not None and any(map(hides_forces, beside.named)):
             # both: where fewer seconds tell, those that do may agree by chance
             telling = windows_of(study, projector, effect, place, begun, beside, telling=True)
-            windows, support = min(((one, one.support()) for one in (windows, telling)),
-                                   key=lambda pair: pair[1])
+            told = telling.support()
+            if told < support:
+                windows, support = telling, told
         if support > 0.0 and windows.unseen.any():
             unseen = support - windows.without_unseen.support()
     shown = {i: _Shown.of(study, projector, effect, i, begun, removed) for i in study.train}

@@ -106,7 +106,7 @@ def measured_less_model(run: Run, truck: Packed) -> Signals:
     """What the model leaves of each fast channel, up to the first tire blown on command."""
     recording, names = run.recording, names_of(truck.vehicle)
     start = float(run.edges_s[0])
-    end = min([b.time_s for b in recording.blowouts] + [float(run.edges_s[-1])])
+    end = min(run.lost_s, float(run.edges_s[-1]))
     out, found = run_drive(truck, run.drive), {}
     fast = [n for n in names if n.endswith((*_SHAKEN, *_SWUNG)) and n in recording]
     noise = believable(channel_noise(recording.only_channels(fast)))

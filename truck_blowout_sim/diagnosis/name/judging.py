@@ -128,9 +128,14 @@ def weakness(one: Ranked, chance: Chance, left: float = 0.0) -> Fate | None:
     if one.support < chance.asked:
         return Fate("instant" if event else "support", one.support, chance.asked)
     if at_bound(h):
-        low, high = h.effect.amount.low, h.effect.amount.high
-        return Fate("bound", h.amount, low if h.amount - low < high - h.amount else high)
+        return Fate("bound", h.amount, nearer_bound(h))
     return Fate("remainder", one.evidence, left) if one.evidence < left else None
+
+
+def nearer_bound(h: Hypothesis) -> float:
+    """The end of the search that the amount is nearer to."""
+    low, high = h.effect.amount.low, h.effect.amount.high
+    return low if h.amount - low < high - h.amount else high
 
 
 def at_bound(h: Hypothesis) -> bool:
