@@ -11,15 +11,17 @@ import pytest
 from truck_blowout_sim.diagnosis.case.study import Study
 from truck_blowout_sim.diagnosis.case.trust import asked_for_mps2, grip_mps2
 from truck_blowout_sim.diagnosis.effects import (
+    aerodynamic_drag,
     blown_tire_drag,
     friction_change,
     payload_shift,
     road_grade,
     tire_relaxation,
     tire_saturation,
+    yaw_moment,
 )
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
-from truck_blowout_sim.diagnosis.fit.telling import tells_of_forces, while_loads_rest
+from truck_blowout_sim.diagnosis.fit.telling import tells_of, tells_of_forces, while_loads_rest
 from truck_blowout_sim.diagnosis.result.parts import Place
 from truck_blowout_sim.recordings import Blowout
 from truck_blowout_sim.vehicle import Packed
@@ -86,3 +88,19 @@ def test_a_lost_tire_whose_law_is_named_tells_of_no_wind_from_then_on(study_of: 
     assert (tells == (run.edges_s[1:] <= 3.0)).all()
     assert tells_of_forces(study, run, [LAG]).all()
     assert tells_of_forces(study, study.runs[0], [dragging]).all()
+
+
+def test_a_lost_tire_turns_its_unit_and_no_other(study_of: Studies) -> None:
+    """So a moment without a name on that unit is no finding, where baseline runs lost no tire."""
+    study = study_of(baseline=True)
+    at = study.train[0]
+    lost = replace(study.runs[at].recording, blowouts=(Blowout(3.0, ("steer_left",)),))
+    run = replace(study.runs[at], recording=lost)
+    turned, other = (Hypothesis(yaw_moment.WITH_ROLL, Place(body=unit), 0.1)
+                     for unit in ("tractor", "trailer"))
+    drag = Hypothesis(aerodynamic_drag.EFFECT, Place(body="tractor"), 2.0)
+    assert (per_bin(study, tells_of(study, run, turned)) == (run.edges_s[1:] <= 3.0)).all()
+    assert tells_of(study, run, other).all()
+    assert tells_of(study, run, drag).all()
+    assert tells_of(study, study.runs[at], turned).all()
+    assert tells_of(study_of(), run, turned).all()  # no baseline run to be compared with

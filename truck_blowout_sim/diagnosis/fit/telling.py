@@ -1,7 +1,8 @@
 """Which rows of a run can tell of a hypothesis, beside what is named already.
 
 Three times something else may look like it. What a lost tire does differs among good models: it
-tells of nothing at its own axle and, where a law of lost tires is named, of no force from outside.
+tells of nothing at its own axle, of no moment or drag without a name on its unit and, where a law
+of lost tires is named, of no force from outside.
 A load that moves pushes its unit back by a course that nobody knows; what the fitted course leaves
 rings for a swing. Up to 0.6 of the peak, forms of tires of equal slope and peak differ in slip by
 the square of how much of the peak they use, but beyond, each bends in its own way
@@ -77,9 +78,14 @@ def tells_of_forces(study: Study, run: Run, named: Sequence[Hypothesis]) -> Floa
 
 
 def _at_lost_tire(study: Study, run: Run, h: Hypothesis) -> bool:
-    """Whether the hypothesis acts at an axle, or a hub of it, that loses a tire in the run."""
-    vehicle = study.packed.vehicle
-    own = axles_at(vehicle, h.place) if h.place.axle else ()
+    """Whether the hypothesis acts at an axle, or a hub of it, that loses a tire in the run.
+
+    A moment or drag without a name acts at every axle of its unit: a flat tire turns the unit, and
+    drags, as the body rolls onto it.
+    """
+    vehicle, place = study.packed.vehicle, h.place
+    own = axles_at(vehicle, place) if place.axle else () if h.effect.listed else tuple(
+        name for name, axle in vehicle.spec.axles.items() if axle.unit == place.body)
     lost = {vehicle.axle_of_hub(vehicle.hub_of_tire(tire))
             for event in run.recording.blowouts for tire in event.tires}
     return bool(lost & set(own))
