@@ -28,6 +28,7 @@ from truck_blowout_sim.diagnosis.name.judging import (
 from truck_blowout_sim.diagnosis.name.search import _Believed, _Tried, search
 from truck_blowout_sim.diagnosis.name.shortlist import Round, shortlist
 from truck_blowout_sim.diagnosis.sensors import GateResult
+from truck_blowout_sim.diagnosis.settings import Settings
 from truck_blowout_sim.vehicle import Packed
 
 Studies = Callable[..., Study]
@@ -173,6 +174,29 @@ def test_a_lost_tire_that_explains_more_is_named_instead_of_what_was_asked_among
             (replace(lost, support=0.5 * chance.alone.asked), bank, 0.0, False),
             (replace(lost, delta=1000.0, evidence=1000.0), bank, 0.0, False)):
         this = cast(Round, SimpleNamespace(ranked=(other, passing), chance=chance))
-        more = naming._explaining_more(cast(Study, None), Found(), this,
-                                       [_Believed(passing, passing.delta, [], ())], aside)
+        more = naming._explaining_more(cast(Study, None), Found(), this, [passing], aside)
         assert [one.ranked for one in more] == ([other] if named else [])
+
+
+@pytest.mark.parametrize(("support", "named"), [(8.0, True), (2.0, False)])
+def test_what_ran_to_the_end_of_the_search_shows_that_something_is_missing(
+    truck: Packed, few: Settings, monkeypatch: pytest.MonkeyPatch, support: float, named: bool
+) -> None:
+    """So a cause that explains more is asked as a single question."""
+    def ranked(name: str, amount: float, delta: float, support: float) -> Ranked:
+        effect = next(e for e in LIBRARY if e.name == name and not e.timed)
+        return Ranked(Hypothesis(effect, effect.places(truck.vehicle)[0], amount), delta, 1.0,
+                      refitted=True, evidence=delta, support=support)
+
+    monkeypatch.setattr(naming, "_believed",
+                        lambda _study, _found, _this, one: _Believed(one, one.delta, [], ()))
+    monkeypatch.setattr(naming, "_named", lambda _study, _found, best, _fate: best.ranked)
+    monkeypatch.setattr(naming, "excess_of", lambda _study, _found: 0.0)
+    chance = Chance(Scatter(np.ones(1)), 40.0, 0.01)
+    assert chance.alone.asked < 8.0 < chance.asked < 30.0
+    end = ranked("yaw_moment", -1.0, 11000.0, 30.0)
+    soft = ranked("steering_compliance", 8.0, 15000.0, support)
+    this = cast(Round, SimpleNamespace(ranked=(soft, end), chance=chance))
+    study = cast(Study, SimpleNamespace(settings=few))
+    best, _ = naming._accept(study, Found(), this, [soft.hypothesis])
+    assert best is (soft if named else None)

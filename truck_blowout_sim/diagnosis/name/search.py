@@ -141,6 +141,7 @@ def _accept(study: Study, found: Found, this: Round, named: Sequence[Hypothesis]
         It, and those that fell only because they do not predict the holdout better.
     """
     disbelieved: list[Ranked] = []
+    ended: list[Ranked] = []  # beyond chance, but at the end of the search
     left = study.settings.law_leaves * max((r.evidence for r in found.named), default=0.0)
     excess = excess_of(study, found)
     passing: list[_Believed] = []
@@ -149,6 +150,8 @@ def _accept(study: Study, found: Found, this: Round, named: Sequence[Hypothesis]
         # what explains most of the rest is no leftover of a stronger effect's inexactness
         fate = weakness(one, this.chance, left if one.delta < _MOST * excess else 0.0)
         most = max((worth(p.ranked) for p in passing), default=0.0)
+        if fate is not None and fate.rule == "bound":
+            ended.append(one)
         if fate is None and imitates(one, this.ranked, this.chance):
             fate, aside = Fate("imitates"), max(aside, worth(one))
         elif fate is None and passing and worth(one) < most - slack(passing[0].ranked):
@@ -163,9 +166,11 @@ def _accept(study: Study, found: Found, this: Round, named: Sequence[Hypothesis]
                 fate = Fate("predicts", believed.worth)
         if not named:  # beside what is named, its look-alikes explain nothing more
             note(found, one, fate)
+    beyond = [p.ranked for p in passing] or ended
+    if beyond:
+        passing += _explaining_more(study, found, this, beyond, aside)
     if not passing:
         return None, disbelieved
-    passing += _explaining_more(study, found, this, passing, aside)
     best = max(passing, key=lambda p: p.worth)
     fate = Fate("accepted", best.ranked.support, this.chance.asked)
     return _named(study, found, best, fate), disbelieved
@@ -193,17 +198,18 @@ def _named(study: Study, found: Found, best: _Believed, fate: Fate) -> Ranked:
 
 
 def _explaining_more(study: Study, found: Found, this: Round,
-                     passing: Sequence[_Believed], aside: float) -> list[_Believed]:
-    """Causes that explain more than all that passed, beyond chance as single questions.
+                     beyond: Sequence[Ranked], aside: float) -> list[_Believed]:
+    """Causes that explain more than all that are beyond chance, as single questions.
 
     And more than ``aside``, what a wind explains that was set aside: else they may only be traces
     of it, and it is asked again beside what is named.
 
-    That something is missing is shown by then; what explains less shall not be named only because
-    another cause was asked among many. A wind, a slope or a load that moves explains more by the
-    instants that it chose; a lost tire and a loss of grip have paid for theirs.
+    That something is missing is shown by then, also where all of them ran to the end of the search;
+    what explains less shall not be named only because another cause was asked among many. A wind, a
+    slope or a load that moves explains more by the instants that it chose; a lost tire and a loss
+    of grip have paid for theirs.
     """
-    most = max(aside, *(worth(p.ranked) for p in passing))
+    most = max(aside, *(worth(one) for one in beyond))
     more = [one for one in this.ranked if worth(one) > most
             and not (one.hypothesis.times and one.hypothesis.effect.adds_up)
             and weakness(one, this.chance.alone) is None]
