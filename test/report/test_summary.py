@@ -54,6 +54,23 @@ def test_chance_look_alikes_and_amount_are_said(diagnosis: Diagnosis) -> None:
     assert "cannot tell brake_imbalance trailer_2_left from brake_fade" in said
 
 
+@pytest.mark.parametrize(("rule", "because"), [
+    ("holdout", "but unseen runs are predicted worse with it"),
+    ("bound", "but its amount ran to the end of what was searched")])
+def test_what_stood_out_and_was_refused_is_said_where_nothing_is_named(
+    diagnosis: Diagnosis, rule: str, because: str
+) -> None:
+    """Else little chance would stand beside a verdict that nothing is missing."""
+    refused = replace(diagnosis.evidence.candidates[0], rule=rule, p_value=1e-5)
+    evidence = replace(diagnosis.evidence, candidates=(refused,))
+    calm = replace(diagnosis, verdict="consistent", effects=(), alias_sets=(), evidence=evidence)
+    said = summarize(replace(calm, null_p_value=2e-5)).sure
+    assert f": {refused.name} {refused.where} stands out in training, {because}" in said
+    assert said.endswith("so it is not named.")
+    assert "stands out" not in summarize(replace(calm, null_p_value=0.5)).sure
+    assert "stands out" not in summarize(replace(diagnosis, evidence=evidence)).sure
+
+
 @pytest.mark.parametrize(
     ("name", "parameter", "text"),
     [

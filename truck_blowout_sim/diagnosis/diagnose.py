@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from truck_blowout_sim.diagnosis.algebra.threads import one_blas_thread
 from truck_blowout_sim.diagnosis.answer.material import Material
 from truck_blowout_sim.diagnosis.answer.outcome import answer
-from truck_blowout_sim.diagnosis.answer.verdict import as_told, decide, unexplained
+from truck_blowout_sim.diagnosis.answer.verdict import as_told, decide, shows_force
 from truck_blowout_sim.diagnosis.case.antilock import MODE, as_braked
 from truck_blowout_sim.diagnosis.case.calibration import calibrate
 from truck_blowout_sim.diagnosis.case.fingerprints import case_parts
@@ -141,7 +141,7 @@ def _material(study: Study, found: Found, gate: GateResult, vehicle: str,
                         unrest(study, named) if sound else Unrest())
     if decide(material) in ("consistent", "miscalibrated"):
         material = replace(material, would_show=would_show(study, found.chance))
-    if unexplained(material):
+    if shows_force(material):
         told = as_told(material)
         material = replace(material, law=checked(told.study, _law(study, told.unnamed)))
     return material
@@ -190,7 +190,7 @@ def _separation(study: Study, found: Found, progress: Progress | None) -> Separa
 def _diagnosed(material: Material, given: Packed) -> tuple[DiagnosedTruck, DiagnosedTruck]:
     """The calibrated truck without what was named, and with it."""
     told, law = as_told(material), None
-    if unexplained(material) and material.law.helps:
+    if shows_force(material) and material.law.helps:
         law = material.law.values
     study, found = told.study, told.found
     return (diagnosed_truck(study, given, found.models_null, ()),

@@ -9,7 +9,7 @@ import numpy as np
 
 from truck_blowout_sim.diagnosis.answer import words
 from truck_blowout_sim.diagnosis.answer.material import Material
-from truck_blowout_sim.diagnosis.answer.verdict import decide, untold
+from truck_blowout_sim.diagnosis.answer.verdict import decide, only_unseen, untold
 from truck_blowout_sim.diagnosis.locate.left_over import expected_squares
 
 
@@ -19,18 +19,19 @@ def cautions(material: Material) -> tuple[str, ...]:
     said = [] if material.lockup is None else [material.lockup.sentence]
     if untold(material):
         said.append(words.left_untold(material.squares))
+    elif only_unseen(material):
+        said.append(words.only_unseen(*worst_run(material)))
     elif names and study.baseline and material.keeps_more:
-        said.append(_left_beside_names(material))
+        said.append(words.left_beside_names(*worst_run(material)))
     if names and study.parts_of_one_log:
         said.append(words.ONE_LOG)
     return tuple(said)
 
 
-def _left_beside_names(material: Material) -> str:
-    """Which run keeps most, and how much more than baseline runs do."""
+def worst_run(material: Material) -> tuple[str, float]:
+    """Which run that was to be explained keeps most, and how much more than baseline runs do."""
     study, squares = material.study, material.squares
     asked = [*study.train, *range(len(study.runs), len(squares))]
     worst = max(asked, key=lambda i: squares[i])
     run = [*study.runs, *study.holdout][worst]
-    return words.left_beside_names(
-        run.recording.name, float(np.sqrt(squares[worst] / expected_squares(study, squares))))
+    return run.recording.name, float(np.sqrt(squares[worst] / expected_squares(study, squares)))

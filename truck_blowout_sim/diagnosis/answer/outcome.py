@@ -3,15 +3,22 @@
 from __future__ import annotations
 
 from truck_blowout_sim.diagnosis.answer import evidence, words
-from truck_blowout_sim.diagnosis.answer.cautions import cautions
+from truck_blowout_sim.diagnosis.answer.cautions import cautions, worst_run
 from truck_blowout_sim.diagnosis.answer.further_baseline import further_baseline
 from truck_blowout_sim.diagnosis.answer.location import locate
 from truck_blowout_sim.diagnosis.answer.material import Material
 from truck_blowout_sim.diagnosis.answer.told import alias_set, physics_effect, sensor_effects
 from truck_blowout_sim.diagnosis.answer.unlisted import listed
-from truck_blowout_sim.diagnosis.answer.verdict import as_told, chance_of_all, decide, unexplained
+from truck_blowout_sim.diagnosis.answer.verdict import (
+    as_told,
+    chance_of_all,
+    decide,
+    only_unseen,
+    shows_force,
+)
 from truck_blowout_sim.diagnosis.case.runs import parting_notes
-from truck_blowout_sim.diagnosis.result import AliasSet, Diagnosis, Evidence, Fit
+from truck_blowout_sim.diagnosis.name.judging import Found
+from truck_blowout_sim.diagnosis.result import AliasSet, Diagnosis, Evidence, Fit, Verdict
 from truck_blowout_sim.simulation.flat import flat_notes
 from truck_blowout_sim.simulation.silences import silences
 
@@ -28,17 +35,25 @@ def answer(material: Material) -> Diagnosis:
     aliases = [AliasSet(f.aliases or (f.name,), splits=f.next_test) for f in gate.findings]
     recorded = {c for run in material.study.runs for c in run.recording.channels}
     aliases += [alias_set(rivals, recorded) for _, rivals in named]
-    next_test = (words.next_look(material.law, material.signs) if verdict == "unknown"
-                 else words.next_test(found, gate, material.separation,
-                                      further_baseline(material.study)))
     return Diagnosis(
         verdict=verdict, sentence=words.verdict_sentence(
-            verdict, effects, material.pulled, material.law if unexplained(material) else None,
+            verdict, effects, material.pulled, material.law if shows_force(material) else None,
             material.signs, cautions(material)),
         effects=tuple(effects), alias_sets=tuple(aliases), location=locate(material),
         train=fit(told, "train"), holdout=fit(told, "holdout"),
-        null_p_value=chance_of_all(material, verdict), next_test=next_test,
+        null_p_value=chance_of_all(material, verdict),
+        next_test=_next_test(material, verdict, found),
         evidence=gather(material, told))
+
+
+def _next_test(material: Material, verdict: Verdict, found: Found) -> str:
+    """What to record next, or to diagnose."""
+    if verdict != "unknown":
+        return words.next_test(found, material.gate, material.separation,
+                               further_baseline(material.study))
+    if only_unseen(material) and not material.signs:
+        return words.train_on(worst_run(material)[0])
+    return words.next_look(material.law, material.signs)
 
 
 def fit(material: Material, role: str) -> Fit:
@@ -59,7 +74,7 @@ def gather(material: Material, told: Material) -> Evidence:
     """What stands behind the answer; ``told``: the material as it is told."""
     study, found = told.study, told.found
     rows = study.columns.shape[0]
-    law = (material.law.equation,) if unexplained(material) else ()
+    law = (material.law.equation,) if shows_force(material) else ()
     signs = tuple(one.equation for one in material.signs)
     old = (material.beat.ordinary,) if material.beat and not material.new_beat else ()
     about = _told_of(material)

@@ -50,12 +50,25 @@ def unexplained(material: Material) -> bool:
     if not material.study.baseline or not material.keeps_more:
         return False
     study, squares, bought = material.study, material.squares, material.bought
+    if not material.found.named:  # also where unseen runs alone keep more
+        return True
     usual = expected_squares(study, squares)
     if bought >= NAMING_SHARE * (excess(study, squares, usual) + bought):
         return False
-    left = excess_of_all(study, squares, usual)
-    return not material.found.named or left > (1.0 - NAMING_SHARE) * excess_of_all(
+    return excess_of_all(study, squares, usual) > (1.0 - NAMING_SHARE) * excess_of_all(
         study, material.squares_unnamed, usual)
+
+
+def only_unseen(material: Material) -> bool:
+    """Whether nothing is named, and only unseen runs keep more: training shows no force."""
+    study, squares = material.study, material.squares
+    return not material.found.named and unexplained(material) and (
+        excess(study, squares, expected_squares(study, squares)) <= 0.0)
+
+
+def shows_force(material: Material) -> bool:
+    """Whether training shows a force that nothing named explains."""
+    return unexplained(material) and not only_unseen(material)
 
 
 def untold(material: Material) -> bool:

@@ -19,6 +19,7 @@ from truck_blowout_sim.diagnosis.result.parts import Interval
 from truck_blowout_sim.diagnosis.sensors import GateResult
 from truck_blowout_sim.vehicle import Packed
 
+_HARDLY = 0.1  # of a force's history: a law that left-out windows confirm less is none; judgement
 _LONG_S = 0.5  # by so much more may an event have been there before it was found than after
 _SPLITTERS = (
     ("hub_speed_", "wheel speeds", "which wheel drags, brakes or slips"),
@@ -95,7 +96,8 @@ def verdict_sentence(verdict: Verdict, effects: Sequence[Effect],
     ``law``: of a force left unexplained, ``signs``: what else shows; ``cautions``: sentences that
     hold whatever else is wrong.
     """
-    return " ".join((_verdict(verdict, effects, pulled, law, signs), *cautions))
+    said = _verdict(verdict, effects, pulled, law, signs)
+    return " ".join(one for one in (said, *cautions) if one)
 
 
 ONE_LOG = ("This rests on parts of one log, which share what the model's form lacks: confirm it "
@@ -116,6 +118,17 @@ def left_beside_names(run: str, times: float) -> str:
             "so something smaller is missing, too, or what is named has another form.")
 
 
+def only_unseen(run: str, times: float) -> str:
+    """Where training shows nothing, and an unseen run does."""
+    return (f"Training shows nothing unusual, but {run}, which was not fitted, differs {times:.1f} "
+            "times as much as baseline runs do.")
+
+
+def train_on(run: str) -> str:
+    """What to do then."""
+    return f"Diagnose again with {run} among the training runs."
+
+
 def _verdict(verdict: Verdict, effects: Sequence[Effect], pulled: Sequence[tuple[str, float]],
              law: Law | None, signs: Sequence[Sign]) -> str:
     if verdict == "consistent":
@@ -127,9 +140,11 @@ def _verdict(verdict: Verdict, effects: Sequence[Effect], pulled: Sequence[tuple
                 + _beyond_vehicles(pulled))
     said = [] if verdict == "unknown" else [effect.sentence for effect in effects]
     if law is not None:
-        said.append(f"Something acts on the {law.body} that no known effect explains; its plainest "
-                    f"law is {law.equation}, which left-out windows confirm to "
-                    f"{100.0 * law.explained:.0f} percent{_unseen(law)}.")
+        said.append(f"Something acts on the {law.body} that no known effect explains; "
+                    + (f"its plainest law is {law.equation}, which left-out windows confirm to "
+                       f"{100.0 * law.explained:.0f} percent{_unseen(law)}."
+                       if law.explained > _HARDLY else
+                       "no plain law of speed, turn, roll or command describes it."))
     return " ".join((*said, *(sign.sentence for sign in signs)))
 
 

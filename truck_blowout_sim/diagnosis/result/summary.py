@@ -19,6 +19,8 @@ Label = Callable[[str], str]
 _NOISES, _SHARE = 0.5, 0.05  # of the channel's noise, of the error before
 _MOST = 3
 _COMMON = 0.1  # a chance that no one would act on
+_REFUSED = {"holdout": "unseen runs are predicted worse with it",
+            "bound": "its amount ran to the end of what was searched"}
 _SHOWN = {"rad/s": (180.0 / math.pi, " deg/s"), "rad": (180.0 / math.pi, " deg"),
           "s": (1.0, " s"), "m": (1.0, " m"), "1": (1.0, "")}  # fmt: skip
 _SHARES = ("scale_error", "roll_leak")
@@ -112,7 +114,20 @@ def _chance(diagnosis: Diagnosis) -> str:
     if p_value is None:
         return ""
     said = f"a vehicle with nothing missing gives as strong evidence in {_one_in(p_value)} cases"
-    return f"{said}, so nothing can be claimed" if p_value >= _COMMON else said
+    if p_value >= _COMMON:
+        return f"{said}, so nothing can be claimed"
+    return said + _refused(diagnosis)
+
+
+def _refused(diagnosis: Diagnosis) -> str:
+    """Where nothing is named: what stood out in training, and why it is not named."""
+    refused = [c for c in diagnosis.evidence.candidates
+               if c.rule in _REFUSED and c.p_value is not None and c.p_value < _COMMON]
+    if diagnosis.effects or diagnosis.verdict == "unknown" or not refused:
+        return ""
+    first = min(refused, key=lambda c: c.p_value or 0.0)
+    what = f"{first.name} {first.where}".strip()
+    return f": {what} stands out in training, but {_REFUSED[first.rule]}, so it is not named"
 
 
 def _one_in(p_value: float) -> str:
