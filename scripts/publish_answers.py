@@ -1,11 +1,13 @@
 """Add the answers of scored cases to the published ones, docs/proof_<world>_answers.jsonl.xz.
 
 Use: python scripts/publish_answers.py w1=CASES,RUN w2=CASES,RUN ...
+     python scripts/publish_answers.py later-w1=CASES,RUN ...
      python scripts/publish_answers.py again=RUN again=RUN ...
 
 CASES is the folder of the cases, RUN what `truck-blowout prove -o RUN` wrote for them. Published
 answers of cases that the world's manifest no longer names are of an earlier draw and go. The second
-form adds what later code answered to published cases, docs/proof_<world>_again.jsonl.xz.
+form does the same for the draw that was sealed for later code, docs/proof_<world>_later.jsonl.xz.
+The third adds what later code answered to published cases, docs/proof_<world>_again.jsonl.xz.
 """
 
 from __future__ import annotations
@@ -32,10 +34,15 @@ from truck_blowout_sim.proof.run import RESULTS, read_lines
 ROOT = Path(__file__).resolve().parents[1]
 
 
-def publish(world: str, cases: Path, run: Path) -> str:
-    """Add one world's answers; what was done, in words."""
-    places = Places(ROOT, world)
-    sealed, path = json.loads(places.manifest.read_text(encoding="utf-8"))["cases"], places.answers
+LATER = "later-"
+
+
+def publish(name: str, cases: Path, run: Path) -> str:
+    """Add one world's answers, of the draw that ``name`` says; what was done, in words."""
+    places = Places(ROOT, name.removeprefix(LATER))
+    manifest, path = ((places.later_manifest, places.later) if name.startswith(LATER)
+                      else (places.manifest, places.answers))
+    sealed = json.loads(manifest.read_text(encoding="utf-8"))["cases"]
     before = [entry for entry in (read_entries(path) if path.is_file() else ())
               if entry.case in sealed]
     further = [entry for entry in entries_of(find_cases(cases), read_lines(run / RESULTS))
@@ -73,12 +80,12 @@ def main(words: list[str]) -> int:
     try:
         again = []
         for word in words:
-            world, _, folders = word.partition("=")
-            if world == "again":
+            name, _, folders = word.partition("=")
+            if name == "again":
                 again.append(Path(folders))
                 continue
             cases, run = map(Path, folders.split(","))
-            print(publish(world, cases, run))
+            print(publish(name, cases, run))
         if again:
             print(publish_again(again))
     except (ValueError, OSError, InputError) as error:

@@ -2,8 +2,9 @@
 
 Use: python scripts/write_proof_summary.py [FOLDER for all figures, out/published]
 
-Read are docs/proof_<world>_answers.jsonl.xz, and docs/proof_<world>_again.jsonl.xz for what later
-code answered. Written are the tables, the picture, and the cases as docs/proof_<world>_cases.csv.
+Read are docs/proof_<world>_answers.jsonl.xz, docs/proof_<world>_again.jsonl.xz for what later code
+answered to the same cases, and docs/proof_<world>_later.jsonl.xz for the draw sealed for that code.
+Written are the tables, the picture, and the cases as docs/proof_<world>_cases.csv.
 The picture is drawn anew where sigma_b was measured in every world,
 the table of rivals where they were tried in any; else those of an earlier draw stay.
 """
@@ -33,9 +34,9 @@ PICTURE = "proof_power.png"
 CAPTION = "Share of concealed effects that were named, against what an ideal detector sees"
 
 
-def counted(places: Places, answers: Path, out: Path) -> Figures:
+def counted(manifest: Path, answers: Path, out: Path) -> Figures:
     """Figures of some answers to one world's cases, all files of them in ``out``."""
-    return score_entries(read_entries(answers), places.manifest, out, answers)
+    return score_entries(read_entries(answers), manifest, out, answers)
 
 
 def main(words: list[str]) -> int:
@@ -44,11 +45,12 @@ def main(words: list[str]) -> int:
         return 2
     out = Path(words[0] if words else ROOT / "out" / "published")
     try:
-        figures, again = {}, {}
+        figures, again, later = {}, {}, {}
         for world in WORLDS:
             places = Places(ROOT, world)
-            figures[world] = counted(places, places.answers, out / world)
-            again[world] = counted(places, places.again, out / f"{world}_again")
+            figures[world] = counted(places.manifest, places.answers, out / world)
+            again[world] = counted(places.manifest, places.again, out / f"{world}_again")
+            later[world] = counted(places.later_manifest, places.later, out / f"{world}_later")
             shutil.copy(out / world / "cases.csv", places.cases)
     except InputError as error:
         print(error, file=sys.stderr)
@@ -60,8 +62,9 @@ def main(words: list[str]) -> int:
     for page, picture in (("README.md", f"docs/{PICTURE}"), ("docs/proof.md", PICTURE)):
         table = worlds_table(figures, short=page == "README.md")
         put_on_page(ROOT / page, "proof", f"{table}\n\n![{caption}]({picture})")
-    table = f"Cases: {answered_of(again)}.\n\n{worlds_table(again, short=True)}"
-    put_on_page(ROOT / "docs/proof.md", "again", table)
+    for name, found in (("again", again), ("later", later)):
+        table = f"Cases: {answered_of(found)}.\n\n{worlds_table(found, short=True)}"
+        put_on_page(ROOT / "docs/proof.md", name, table)
     put_on_page(ROOT / "docs/proof.md", "causes", causes_table(figures))
     if rivals := rivals_table(figures):
         put_on_page(ROOT / "docs/proof.md", "rivals", rivals)

@@ -121,6 +121,20 @@ def test_the_page_says_what_later_code_answers_to_the_published_cases(tmp_path: 
         assert " | ".join(cells) in readme
 
 
+def test_the_page_says_what_was_answered_to_the_later_draw(tmp_path: Path) -> None:
+    """Every case of it is counted, none is of the draw before, and all seals hold."""
+    figures = {}
+    for world in WORLDS:
+        places = Places(ROOT, world)
+        entries, manifest = read_entries(places.later), places.later_manifest
+        assert {one.case for one in entries} == set(json.loads(manifest.read_text())["cases"])
+        assert not {one.case for one in entries} & {one.case for one in read_entries(places.again)}
+        figures[world] = score_entries(entries, manifest, tmp_path / world, places.later)
+        assert not figures[world]["seals"]["broken"]
+    proof = (ROOT / "docs/proof.md").read_text(encoding="utf-8")
+    assert f"Cases: {answered_of(figures)}.\n\n{worlds_table(figures, short=True)}" in proof
+
+
 def test_later_answers_take_the_place_of_published_ones(
     tmp_path: Path, run: dict[str, dict[str, Any]]
 ) -> None:

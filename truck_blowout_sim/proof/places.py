@@ -37,6 +37,16 @@ class Places:
         return self.root / "docs" / f"proof_{self.world}_again.jsonl.xz"
 
     @property
+    def later_manifest(self) -> Path:
+        """Seals of a smaller draw, made for later code."""
+        return self.root / "proving_ground" / "sealed" / f"later_{self.world}.json"
+
+    @property
+    def later(self) -> Path:
+        """Raw answers of that code to that draw."""
+        return self.root / "docs" / f"proof_{self.world}_later.jsonl.xz"
+
+    @property
     def cases(self) -> Path:
         """Table of cases and what was answered."""
         return self.root / "docs" / f"proof_{self.world}_cases.csv"
