@@ -7,6 +7,7 @@ from dataclasses import replace
 from types import SimpleNamespace
 from typing import cast
 
+import numpy as np
 import pytest
 
 from truck_blowout_sim.diagnosis.answer.cautions import worst_run
@@ -17,6 +18,7 @@ from truck_blowout_sim.diagnosis.case.study import Study
 from truck_blowout_sim.diagnosis.locate.wrench import Wrenches
 from truck_blowout_sim.diagnosis.model.law import Law
 from truck_blowout_sim.diagnosis.name.judging import Found, predict_with
+from truck_blowout_sim.diagnosis.result.evidence import ForceHistory
 from truck_blowout_sim.diagnosis.sensors import GateResult
 
 NO_LAW = Law("trailer", (("1", 0.0),), "F_y = 0", 0.0, {})
@@ -31,7 +33,10 @@ def calm(study_of: Callable[..., Study]) -> Material:
     found = Found(models_null=list(study.models), chi2_null=chi2, chi2_after=chi2,
                   before=predicted, after=predicted)
     gate = cast(GateResult, SimpleNamespace(findings=(), notes=()))
-    left = cast(tuple[Wrenches, ...], ())
+    one = np.ones(6)
+    force = ForceHistory("run 1", "trailer", np.arange(6.0), 0.0 * one, 5e3 * one, 0.0 * one,
+                         200.0 * one, 200.0 * one, 1e3 * one)
+    left = (Wrenches(force, 1.0, 1e3, 18, 3.0, 0.2),)
     return Material(study, found, gate, left, left, NO_LAW, {}, "a truck")
 
 
@@ -65,4 +70,6 @@ def test_it_is_said_with_the_run_that_shows_it_and_no_law_of_a_force(calm: Mater
     assert "100.0 times as much" in told.sentence
     assert "F_y" not in told.sentence
     assert told.evidence.equations == ()
+    assert told.location.wrench is None
+    assert answer(keeping(calm, 30.0, 1e4)).location.wrench is not None
     assert told.next_test == f"Diagnose again with {unseen.recording.name} among the training runs."

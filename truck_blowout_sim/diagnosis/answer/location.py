@@ -11,6 +11,7 @@ from scipy.stats import chi2
 from truck_blowout_sim.diagnosis.algebra.quantiles import NINETY
 from truck_blowout_sim.diagnosis.answer import evidence
 from truck_blowout_sim.diagnosis.answer.material import Material
+from truck_blowout_sim.diagnosis.answer.verdict import only_unseen
 from truck_blowout_sim.diagnosis.result import ChannelSigma, Location, Wrench
 
 
@@ -20,7 +21,7 @@ def locate(material: Material) -> Location:
     before = evidence.pooled(evidence.left_before(study, material.found, "train"))
     channels = tuple(ChannelSigma(n, s) for n, s in sorted(before.items(), key=lambda p: -p[1])
                      if s > 1.5)
-    if not material.wrenches:
+    if not material.wrenches or only_unseen(material):
         return Location(channels=channels)
     # along the course both bodies move as one: what turns or beats says which it is, or what was
     # named, by its wheels
