@@ -135,9 +135,8 @@ def _verdict(verdict: Verdict, effects: Sequence[Effect], pulled: Sequence[tuple
         return ("The model explains these recordings within what instruments and vehicles of one "
                 "kind differ; nothing is missing that they could show.")
     if verdict == "miscalibrated":
-        names = ", ".join(f"{n.replace('_', ' ')} ({a:+.1f} sigma)" for n, a in pulled[:3])
-        return (f"No missing physics shows, but the sheet is off{': ' if names else ''}{names}."
-                + _beyond_vehicles(pulled))
+        return ("No missing physics shows, but the sheet is off"
+                f"{': ' if pulled else ''}{_pulls(pulled)}." + _beyond_vehicles(pulled))
     said = [] if verdict == "unknown" else [effect.sentence for effect in effects]
     if law is not None:
         said.append(f"Something acts on the {law.body} that no known effect explains; "
@@ -145,12 +144,25 @@ def _verdict(verdict: Verdict, effects: Sequence[Effect], pulled: Sequence[tuple
                        f"{100.0 * law.explained:.0f} percent{_unseen(law)}."
                        if law.explained > _HARDLY else
                        "no plain law of speed, turn, roll or command describes it."))
-    return " ".join((*said, *(sign.sentence for sign in signs)))
+    said += [sign.sentence for sign in signs]
+    if verdict == "unknown" and (impossible := _impossible(pulled)):
+        said.append(f"No vehicle is so far off its sheet: {_pulls(impossible)}.")
+    return " ".join(said)
+
+
+def _pulls(pulled: Sequence[tuple[str, float]]) -> str:
+    """The first sheet numbers, with how far they are off."""
+    return ", ".join(f"{name.replace('_', ' ')} ({pull:+.1f} sigma)" for name, pull in pulled[:3])
+
+
+def _impossible(pulled: Sequence[tuple[str, float]]) -> Sequence[tuple[str, float]]:
+    """Sheet numbers that no vehicle has, not even one whose sheet is wrong."""
+    return [(name, pull) for name, pull in pulled if abs(pull) > WRONG_SHEET * FURTHEST]
 
 
 def _beyond_vehicles(pulled: Sequence[tuple[str, float]]) -> str:
-    """What to say of numbers that no vehicle has, not even one whose sheet is wrong."""
-    if all(abs(pull) <= WRONG_SHEET * FURTHEST for _, pull in pulled):
+    """What to say of numbers that no vehicle has."""
+    if not _impossible(pulled):
         return ""
     return (" No vehicle is so far off its sheet: the model has another form there, or something "
             "is missing that these recordings cannot tell.")
