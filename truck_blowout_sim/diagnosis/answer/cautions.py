@@ -30,8 +30,6 @@ def cautions(material: Material) -> tuple[str, ...]:
 
 def worst_run(material: Material) -> tuple[str, float]:
     """Which run that was to be explained keeps most, and how much more than baseline runs do."""
-    study, squares = material.study, material.squares
-    asked = [*study.train, *range(len(study.runs), len(squares))]
-    worst = max(asked, key=lambda i: squares[i])
+    study, squares, worst = material.study, material.squares, material.worst
     run = [*study.runs, *study.holdout][worst]
     return run.recording.name, float(np.sqrt(squares[worst] / expected_squares(study, squares)))

@@ -80,6 +80,12 @@ class Material:
         return mean_squares(unnamed, unseen=unnamed.holdout_models)[:len(self.squares)]
 
     @property
+    def worst(self) -> int:
+        """Index in `squares` of the run that was to be explained and keeps most."""
+        asked = (*self.study.train, *range(len(self.study.runs), len(self.squares)))
+        return max(asked, key=lambda i: self.squares[i])
+
+    @property
     def keeps_more(self) -> bool:
         """Whether training keeps more than chance lets it.
 

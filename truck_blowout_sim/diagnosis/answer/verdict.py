@@ -62,8 +62,9 @@ def unexplained(material: Material) -> bool:
 def only_unseen(material: Material) -> bool:
     """Whether nothing is named, and only unseen runs keep more: training shows no force."""
     study, squares = material.study, material.squares
-    return not material.found.named and unexplained(material) and (
-        excess(study, squares, expected_squares(study, squares)) <= 0.0)
+    return (not material.found.named and unexplained(material)
+            and material.worst >= len(study.runs)
+            and excess(study, squares, expected_squares(study, squares)) <= 0.0)
 
 
 def shows_force(material: Material) -> bool:
