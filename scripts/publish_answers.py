@@ -32,8 +32,6 @@ from truck_blowout_sim.proof.places import Places
 from truck_blowout_sim.proof.run import RESULTS, read_lines
 
 ROOT = Path(__file__).resolve().parents[1]
-
-
 LATER = "later-"
 
 
