@@ -1,7 +1,7 @@
 """What parts of the diagnosis are worth.
 
     python -m benchmarks.ablation run CASES OUT WITHOUT [WORKERS]
-    python -m benchmarks.ablation table whole=FOLDER WITHOUT=FOLDER … [-o docs/proof.md]
+    python -m benchmarks.ablation table whole=FOLDER WITHOUT=FOLDER … [-o docs/proof_studies.md]
 
 WITHOUT is `forms` (numbers by which good models differ in form), `noise` (widths as stated, not as
 the runs show them) or `laws` (one law an effect). OUT gets the lines that `truck-blowout prove

@@ -3,7 +3,7 @@
     python -m benchmarks.judgments list [-o docs/diagnosis.md]
     python -m benchmarks.judgments run CASES OUT [--draw 1] [--workers 1]
     truck-blowout prove --cases CASES -o OUT --no-baselines
-    python -m benchmarks.judgments table w1=WHOLE,OUT w2=WHOLE,OUT … [-o docs/proof.md]
+    python -m benchmarks.judgments table w1=WHOLE,OUT w2=WHOLE,OUT … [-o docs/proof_studies.md]
 
 No publication gives these numbers, and they decide between explanations: what a free instant costs,
 when an explanation is no rival. `run` multiplies each by a factor of its own, drawn evenly on a log

@@ -1,7 +1,7 @@
 """What no search could find: the diagnosis told the very motion that an effect makes.
 
     python -m benchmarks.motion tell CASES -o TOLD.jsonl [--case NAME …]
-    python -m benchmarks.motion table w1=PROOF,TOLD.jsonl … [-o docs/proof.md]
+    python -m benchmarks.motion table w1=PROOF,TOLD.jsonl … [-o docs/proof_studies.md]
 
 Each case is driven again with and without its effects, on the same commands and the same road. The
 difference in all recorded channels is one hypothesis of unknown amount, asked by the rule of

@@ -2,7 +2,7 @@
 
     python -m benchmarks.oracle make CASES OUT
     truck-blowout prove --cases OUT -o TOLD --no-baselines
-    python -m benchmarks.oracle table w1=WHOLE,TOLD w3=WHOLE,TOLD … [-o docs/proof.md]
+    python -m benchmarks.oracle table w1=WHOLE,TOLD w3=WHOLE,TOLD … [-o docs/proof_studies.md]
 
 `make` copies the cases with an effect of the library that the table counts; in each, every other
 name is excluded, as by `--without`. Place, amount, instant, and the chance that nothing is missing

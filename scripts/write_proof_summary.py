@@ -1,4 +1,4 @@
-"""Count the published answers, and put the proof's tables into README.md and docs/proof.md.
+"""Count the published answers, and put the proof's tables into README.md and docs/proof*.md.
 
 Use: python scripts/write_proof_summary.py [FOLDER for all figures, out/published]
 
@@ -25,12 +25,15 @@ from truck_blowout_sim.proof.worlds import (
     answered_of,
     draw_power_by_world,
     rivals_table,
+    sets_table,
     worlds_table,
 )
 from truck_blowout_sim.report.marked import put_on_page
 
 ROOT = Path(__file__).resolve().parents[1]
 PICTURE = "proof_power.png"
+FROZEN, AGAIN, LATER = ("sealed, diagnosed once", "the same cases, corrected code",
+                        "a later draw, sealed for the corrected code, diagnosed once")
 CAPTION = "Share of concealed effects that were named, against what an ideal detector sees"
 
 
@@ -65,9 +68,11 @@ def main(words: list[str]) -> int:
     for name, found in (("again", again), ("later", later)):
         table = f"Cases: {answered_of(found)}.\n\n{worlds_table(found, short=True)}"
         put_on_page(ROOT / "docs/proof.md", name, table)
+    put_on_page(ROOT / "docs/proof.md", "short",
+                sets_table({FROZEN: figures, AGAIN: again, LATER: later}))
     put_on_page(ROOT / "docs/proof.md", "causes", causes_table(figures))
     if rivals := rivals_table(figures):
-        put_on_page(ROOT / "docs/proof.md", "rivals", rivals)
+        put_on_page(ROOT / "docs/proof_studies.md", "rivals", rivals)
     return 0
 
 

@@ -1,6 +1,6 @@
 """The diagnosis of a real car: what it finds, and the fit before and after.
 
-    python -m benchmarks.cars.driven FIRST_HALF SECOND_HALF [-o docs/proof.md]
+    python -m benchmarks.cars.driven FIRST_HALF SECOND_HALF [-o docs/proof_cars.md]
 
 Both files are the public recordings of Stanford's Ferrari 250LM. One half trains, the other is only
 predicted. Then each vehicle file alone is driven with the recorded hand wheel and speed.

@@ -1,7 +1,7 @@
 """Faults put into real recordings, and what the diagnosis says of each.
 
     python -m benchmarks.cars.faults NAME TRAIN HOLDOUT VEHICLE [--settings NAME]
-        [--baseline FILE] [--map FILE] [-o docs/proof.md]
+        [--baseline FILE] [--map FILE] [-o docs/proof_cars.md]
 
 TRAIN and HOLDOUT get the same fault; the baseline run, if there is one, stays as it was recorded.
 NAME is that of the marks on the page, ``faults_NAME``.

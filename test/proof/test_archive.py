@@ -27,7 +27,7 @@ from truck_blowout_sim.proof.causes import causes_table
 from truck_blowout_sim.proof.places import Places
 from truck_blowout_sim.proof.prove import score_run
 from truck_blowout_sim.proof.seal import folder_hash
-from truck_blowout_sim.proof.worlds import answered_of, worlds_table
+from truck_blowout_sim.proof.worlds import Figures, answered_of, sets_table, worlds_table
 
 Maker = Callable[..., dict[str, Any]]
 ROOT = Path(__file__).parents[2]
@@ -87,52 +87,77 @@ def test_a_damaged_file_is_refused_in_one_line(tmp_path: Path, content: bytes) -
     assert "\n" not in str(error.value)
 
 
-def test_the_pages_say_what_the_published_answers_say(tmp_path: Path) -> None:
-    figures = {}
+@pytest.fixture(scope="module")
+def counted(tmp_path_factory: pytest.TempPathFactory) -> dict[str, dict[str, Figures]]:
+    """Figures by world of the published answers, of later code to the same, of the later draw."""
+    found: dict[str, dict[str, Figures]] = {"answers": {}, "again": {}, "later": {}}
     for world in WORLDS:
-        places, path = Places(ROOT, world), Places(ROOT, world).answers
-        figures[world] = score_entries(read_entries(path), places.manifest, tmp_path / world, path)
-        assert not figures[world]["seals"]["broken"]
-        assert not figures[world]["seals"]["remade"]
-        assert (tmp_path / world / "cases.csv").read_text() == places.cases.read_text()
-    proof, readme = ((ROOT / page).read_text(encoding="utf-8")
-                     for page in ("docs/proof.md", "README.md"))
-    assert worlds_table(figures) in proof
-    assert causes_table(figures) in proof
-    assert worlds_table(figures, short=True) in readme
+        places = Places(ROOT, world)
+        manifests = {"later": places.later_manifest}
+        for name, figures in found.items():
+            path, out = getattr(places, name), tmp_path_factory.mktemp(name)
+            figures[world] = score_entries(
+                read_entries(path), manifests.get(name, places.manifest), out, path)
+            if name == "answers":
+                assert (out / "cases.csv").read_text() == places.cases.read_text()
+    return found
 
 
-def test_the_page_says_what_later_code_answers_to_the_published_cases(tmp_path: Path) -> None:
-    figures = {}
+def page(name: str) -> str:
+    """The text of a page."""
+    return (ROOT / name).read_text(encoding="utf-8")
+
+
+def test_no_seal_is_broken(counted: dict[str, dict[str, Figures]]) -> None:
+    for name, every in counted.items():
+        assert not any(figures["seals"]["broken"] for figures in every.values()), name
+    assert not any(figures["seals"]["remade"] for figures in counted["answers"].values())
+
+
+def test_the_pages_say_what_the_published_answers_say(
+    counted: dict[str, dict[str, Figures]]
+) -> None:
+    figures = counted["answers"]
+    assert worlds_table(figures) in page("docs/proof.md")
+    assert causes_table(figures) in page("docs/proof.md")
+    assert worlds_table(figures, short=True) in page("README.md")
+
+
+def test_the_page_begins_with_all_sets_side_by_side(
+    counted: dict[str, dict[str, Figures]]
+) -> None:
+    rows = sets_table(counted).splitlines()[2:]
+    assert "\n".join(rows) in page("docs/proof.md")
+    assert all(row.count("|") == 5 for row in rows)
+
+
+def test_the_page_says_what_later_code_answers_to_the_published_cases(
+    counted: dict[str, dict[str, Figures]]
+) -> None:
     for world in WORLDS:
-        places, path = Places(ROOT, world), Places(ROOT, world).again
+        places = Places(ROOT, world)
         every = {entry.case: entry for entry in read_entries(places.answers)}
-        again = read_entries(path)
-        assert all(entry.truth == every[entry.case].truth for entry in again)
-        figures[world] = score_entries(again, places.manifest, tmp_path / world, path)
-        assert not figures[world]["seals"]["broken"]
-    proof, readme = ((ROOT / page).read_text(encoding="utf-8")
-                     for page in ("docs/proof.md", "README.md"))
-    assert worlds_table(figures, short=True) in proof
-    assert answered_of(figures) in proof
+        assert all(entry.truth == every[entry.case].truth for entry in read_entries(places.again))
+    figures = counted["again"]
+    assert worlds_table(figures, short=True) in page("docs/proof.md")
+    assert answered_of(figures) in page("docs/proof.md")
     for words in ("effects beyond six spreads", "a wrong name stated"):
         cells = [f"{row['hits']} of {row['trials']}" for one in figures.values()
                  for row in one["rows"] if row["row"].startswith(words)]
-        assert " | ".join(cells) in readme
+        assert " | ".join(cells) in page("README.md")
 
 
-def test_the_page_says_what_was_answered_to_the_later_draw(tmp_path: Path) -> None:
-    """Every case of it is counted, none is of the draw before, and all seals hold."""
-    figures = {}
+def test_the_page_says_what_was_answered_to_the_later_draw(
+    counted: dict[str, dict[str, Figures]]
+) -> None:
+    """Every case of it is counted, and none is of the draw before."""
     for world in WORLDS:
         places = Places(ROOT, world)
-        entries, manifest = read_entries(places.later), places.later_manifest
-        assert {one.case for one in entries} == set(json.loads(manifest.read_text())["cases"])
-        assert not {one.case for one in entries} & {one.case for one in read_entries(places.again)}
-        figures[world] = score_entries(entries, manifest, tmp_path / world, places.later)
-        assert not figures[world]["seals"]["broken"]
-    proof = (ROOT / "docs/proof.md").read_text(encoding="utf-8")
-    assert f"Cases: {answered_of(figures)}.\n\n{worlds_table(figures, short=True)}" in proof
+        cases = {one.case for one in read_entries(places.later)}
+        assert cases == set(json.loads(places.later_manifest.read_text())["cases"])
+        assert not cases & {one.case for one in read_entries(places.again)}
+    table = worlds_table(counted["later"], short=True)
+    assert f"Cases: {answered_of(counted['later'])}.\n\n{table}" in page("docs/proof.md")
 
 
 def test_later_answers_take_the_place_of_published_ones(

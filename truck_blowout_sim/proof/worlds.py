@@ -63,6 +63,23 @@ def worlds_table(figures: Mapping[str, Figures], short: bool = False) -> str:
     return "\n".join(lines)
 
 
+def sets_table(sets: Mapping[str, Mapping[str, Figures]]) -> str:
+    """What was reached over all worlds in each of several sets of answers, a Markdown row each.
+
+    Args:
+        sets: figures of ``proof.json`` by world, by what the set is called. Rows are those in which
+            something is sought.
+    """
+    lines = ["| all worlds | " + " | ".join(sets) + " |", "|---" * (1 + len(sets)) + "|"]
+    for row in SOUGHT:
+        entries = [[one for world in every.values() for one in world["rows"] if one["row"] == row]
+                   for every in sets.values()]
+        cells = [str(Proportion(*(sum(one[key] for one in found) for key in ("hits", "trials"))))
+                 for found in entries]
+        lines.append(f"| {row} | " + " | ".join(cells) + " |")
+    return "\n".join(lines)
+
+
 def answered_of(figures: Mapping[str, Figures]) -> str:
     """How many cases of each world the figures count, in words."""
     return ", ".join(f"{len(one['each']) + len(one['failed'])} of {world.upper()}"
