@@ -83,7 +83,7 @@ JUDGMENTS = (
     Judgment("fit.seconds", "_WIDE", "1 sigma of an event's amount, of the largest possible"),
     Judgment("fit.shown", "_ANEW", "variance of a truck's numbers that is new each day, of that "
              "between trucks"),
-    Judgment("fit.shown", "_WRONG_SHEETS", "numbers of a sheet that are wrong beyond what trucks "
+    Judgment("fit.shown", "WRONG_SHEETS", "numbers of a sheet that are wrong beyond what trucks "
              "differ by, of all"),
     Judgment("fit.width_error", "RUN_SCATTER", "1 sigma from run to run of the logarithm of the "
              "mean square that a model leaves", share=False),

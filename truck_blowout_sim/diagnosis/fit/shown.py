@@ -27,7 +27,7 @@ _SHARES: Floats = np.array([0.0, 0.5, 0.9])  # of tau^2 that runs have in common
 SCATTERS: Floats = np.repeat(_SIZES, _SHARES.size)
 _SHARED: Floats = np.tile(_SHARES, _SIZES.size)
 _ANEW = 0.25  # of the variance of single trucks: of wear, warmth and load, which change by the day
-_WRONG_SHEETS = 0.1  # of the numbers: see `Shown.strays`
+WRONG_SHEETS = 0.1  # of the numbers: see `Shown.strays`
 _DIM = 1e-4  # of what the clearest training run shows of an effect: less is nothing
 
 
@@ -110,7 +110,7 @@ class Shown:
     @cached_property
     def likelihoods(self) -> tuple[Floats, Floats]:
         """Log-likelihoods [k] for each scatter, without the effect and at its best amount."""
-        chance = np.log([1.0 - _WRONG_SHEETS, _WRONG_SHEETS] if len(self.strays) > 1 else [1.0])
+        chance = np.log([1.0 - WRONG_SHEETS, WRONG_SHEETS] if len(self.strays) > 1 else [1.0])
         both = [[more + part for part in self._likelihood(stray)]
                 for more, stray in zip(chance, self.strays, strict=True)]
         without, best = np.logaddexp.reduce(np.array(both), axis=0)
