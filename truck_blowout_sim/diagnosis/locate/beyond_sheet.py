@@ -7,7 +7,7 @@ the baseline runs leave them: a vehicle has the same numbers in all its runs.
 References: none beyond `fit/shown.py`, which has the same mixture: one number in ten of a sheet is
 wrong, and strays four times as far.
 Known limits: linear in the numbers; says nothing without baseline runs.
-Validated with: test/diagnosis/test_beyond_sheet.py (a Gaussian's tails; a truck that slides).
+Validated with: test/diagnosis/test_beyond_sheet.py (drawn numbers; an askew axle).
 """
 
 from __future__ import annotations
