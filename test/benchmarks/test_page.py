@@ -15,8 +15,8 @@ BEGIN, END = marks("core")
 TEXT = f"above\n{BEGIN}\nold\n{END}\nbelow\n"
 PLACES = (
     ("performance", "core"), ("performance", "peer"), ("many_runs", "studies"),
-    ("proof_studies", "ablation"), ("ros", "step"), ("ros", "fast"), ("ros", "pace"), ("ros", "soak"),
-    ("ros", "losses"),
+    ("proof_studies", "ablation"), ("ros", "step"), ("ros", "fast"), ("ros", "pace"),
+    ("ros", "soak"), ("ros", "losses"),
 )  # fmt: skip
 
 
