@@ -30,6 +30,7 @@ from truck_blowout_sim.proof.seal import folder_hash
 from truck_blowout_sim.proof.worlds import Figures, answered_of, sets_table, worlds_table
 
 Maker = Callable[..., dict[str, Any]]
+Counted = dict[str, dict[str, Figures]]
 ROOT = Path(__file__).parents[2]
 
 
@@ -88,9 +89,9 @@ def test_a_damaged_file_is_refused_in_one_line(tmp_path: Path, content: bytes) -
 
 
 @pytest.fixture(scope="module")
-def counted(tmp_path_factory: pytest.TempPathFactory) -> dict[str, dict[str, Figures]]:
+def counted(tmp_path_factory: pytest.TempPathFactory) -> Counted:
     """Figures by world of the published answers, of later code to the same, of the later draw."""
-    found: dict[str, dict[str, Figures]] = {"answers": {}, "again": {}, "later": {}}
+    found: Counted = {"answers": {}, "again": {}, "later": {}}
     for world in WORLDS:
         places = Places(ROOT, world)
         manifests = {"later": places.later_manifest}
@@ -108,32 +109,26 @@ def page(name: str) -> str:
     return (ROOT / name).read_text(encoding="utf-8")
 
 
-def test_no_seal_is_broken(counted: dict[str, dict[str, Figures]]) -> None:
+def test_no_seal_is_broken(counted: Counted) -> None:
     for name, every in counted.items():
         assert not any(figures["seals"]["broken"] for figures in every.values()), name
     assert not any(figures["seals"]["remade"] for figures in counted["answers"].values())
 
 
-def test_the_pages_say_what_the_published_answers_say(
-    counted: dict[str, dict[str, Figures]]
-) -> None:
+def test_the_pages_say_what_the_published_answers_say(counted: Counted) -> None:
     figures = counted["answers"]
     assert worlds_table(figures) in page("docs/proof.md")
     assert causes_table(figures) in page("docs/proof.md")
     assert worlds_table(figures, short=True) in page("README.md")
 
 
-def test_the_page_begins_with_all_sets_side_by_side(
-    counted: dict[str, dict[str, Figures]]
-) -> None:
+def test_the_page_begins_with_all_sets_side_by_side(counted: Counted) -> None:
     rows = sets_table(counted).splitlines()[2:]
     assert "\n".join(rows) in page("docs/proof.md")
     assert all(row.count("|") == 5 for row in rows)
 
 
-def test_the_page_says_what_later_code_answers_to_the_published_cases(
-    counted: dict[str, dict[str, Figures]]
-) -> None:
+def test_the_page_says_what_later_code_answers_to_the_published_cases(counted: Counted) -> None:
     for world in WORLDS:
         places = Places(ROOT, world)
         every = {entry.case: entry for entry in read_entries(places.answers)}
@@ -147,9 +142,7 @@ def test_the_page_says_what_later_code_answers_to_the_published_cases(
         assert " | ".join(cells) in page("README.md")
 
 
-def test_the_page_says_what_was_answered_to_the_later_draw(
-    counted: dict[str, dict[str, Figures]]
-) -> None:
+def test_the_page_says_what_was_answered_to_the_later_draw(counted: Counted) -> None:
     """Every case of it is counted, and none is of the draw before."""
     for world in WORLDS:
         places = Places(ROOT, world)

@@ -53,8 +53,7 @@ def worlds_table(figures: Mapping[str, Figures], short: bool = False) -> str:
             continue
         cells = [f"{SOUGHT.get(row, ('',) * 4)[int(world[1]) - 1]} | {counted(entry)}"
                  for world, entry in zip(names, entries, strict=True)]
-        whole = Proportion(*(sum(one[key] for one in entries) for key in ("hits", "trials")))
-        lines.append(f"| {row} | " + " | ".join(cells) + f" | {whole} |")
+        lines.append(f"| {row} | " + " | ".join(cells) + f" | {_whole(entries)} |")
     if not short:
         every = figures.values()
         lines += [_plain(_UNIFORM, (number(one["null_p_values_uniform"], digits=2)
@@ -74,10 +73,13 @@ def sets_table(sets: Mapping[str, Mapping[str, Figures]]) -> str:
     for row in SOUGHT:
         entries = [[one for world in every.values() for one in world["rows"] if one["row"] == row]
                    for every in sets.values()]
-        cells = [str(Proportion(*(sum(one[key] for one in found) for key in ("hits", "trials"))))
-                 for found in entries]
-        lines.append(f"| {row} | " + " | ".join(cells) + " |")
+        lines.append(f"| {row} | " + " | ".join(map(str, map(_whole, entries))) + " |")
     return "\n".join(lines)
+
+
+def _whole(entries: Sequence[Figures]) -> Proportion:
+    """One row of several worlds, counted together."""
+    return Proportion(*(sum(one[key] for one in entries) for key in ("hits", "trials")))
 
 
 def answered_of(figures: Mapping[str, Figures]) -> str:

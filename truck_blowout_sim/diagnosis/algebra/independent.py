@@ -1,4 +1,4 @@
-"""How many independent questions correlated ones are.
+"""How many independent questions correlated ones are, and what chance reaches in any of them.
 
 Reference: Li and Ji, Heredity 95 (2005) 221-227.
 Validated with: test/diagnosis/test_scatter.py.
@@ -21,3 +21,8 @@ def independent_among(shared: Floats) -> float:
     alike = shared[np.ix_(seen, seen)] / np.outer(size[seen], size[seen])
     found = np.abs(np.linalg.eigvalsh(alike))
     return max(float(np.sum((found >= 1.0) + (found - np.floor(found)))), 1.0)
+
+
+def in_any(alone: float, questions: float) -> float:
+    """Chance of something in any of independent questions that has the chance ``alone`` in one."""
+    return float(-np.expm1(questions * np.log1p(-min(alone, 1.0 - 1e-15))))

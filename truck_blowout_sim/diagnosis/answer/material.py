@@ -129,9 +129,7 @@ class Material:
     @property
     def joint_amounts(self) -> Mapping[str, float]:
         """Each nuisance in the joint fit, in prior sigmas, the named effects in force."""
-        study, named = self.study, [r.hypothesis for r in self.found.named]
-        amounts = study.projector(named).amounts(study.residual())
-        return {study.names[k]: float(a) for k, a in zip(study.kept(named), amounts, strict=True)}
+        return self.study.joint_amounts([r.hypothesis for r in self.found.named])
 
     @property
     def pulled(self) -> Sequence[tuple[str, float]]:

@@ -167,6 +167,14 @@ class Study:
         return self.projector(hypotheses).amounts_within(residual, usual - FURTHEST,
                                                          usual + FURTHEST)
 
+    def joint_amounts(self, named: Sequence[Hypothesis] = ()) -> Mapping[str, float]:
+        """Each nuisance in the joint fit, in prior sigmas, with ``named`` in force in the models.
+
+        Those of the sheet are measured from the sheet.
+        """
+        amounts = self.projector(named).amounts(self.residual())
+        return {self.names[k]: float(a) for k, a in zip(self.kept(named), amounts, strict=True)}
+
     def forget(self) -> None:
         """Drop what was made of columns that are no longer these."""
         self._projectors.clear()

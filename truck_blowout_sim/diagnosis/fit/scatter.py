@@ -34,7 +34,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.stats import chi2
 
-from truck_blowout_sim.diagnosis.algebra.independent import independent_among
+from truck_blowout_sim.diagnosis.algebra.independent import in_any, independent_among
 from truck_blowout_sim.diagnosis.algebra.linear import Projector
 from truck_blowout_sim.diagnosis.effects.hypothesis import Hypothesis
 from truck_blowout_sim.diagnosis.fit.shown import SCATTERS, Question, Shown
@@ -135,7 +135,7 @@ class Chance:
     def p_value(self, support: float) -> float:
         """Chance that the best of a search is supported so much where nothing is missing."""
         alone = float(chi2.sf(max(support, 0.0), 1))
-        return float(-np.expm1(self._questions * np.log1p(-min(alone, 1.0 - 1e-15))))
+        return in_any(alone, self._questions)
 
 
 def independent(columns: Floats, projector: Projector) -> float:

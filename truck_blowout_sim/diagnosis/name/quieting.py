@@ -54,12 +54,14 @@ def quieting(study: Study, ranked: Sequence[Ranked]) -> list[Quieting]:
     Nothing where training keeps no more and needs no numbers that vehicles of the kind do not have.
     Nothing is named yet.
     """
-    squares = mean_squares(study, unseen=study.holdout_models)
-    usual = expected_squares(study, squares)
     strong = [r for r in ranked if r.refitted and not at_bound(r.hypothesis)]
-    chance = min(chance_of_more(study, squares), chance_of_numbers(study))
-    if not study.baseline or not strong or chance > study.settings.alarms_by_rest:
+    if not study.baseline or not strong:
         return []
+    squares = mean_squares(study, unseen=study.holdout_models)
+    chance = min(chance_of_more(study, squares), chance_of_numbers(study))
+    if chance > study.settings.alarms_by_rest:
+        return []
+    usual = expected_squares(study, squares)
     found = [Quieting(one, _taken(study, squares, usual, one), chance)
              for one in sorted(strong, key=lambda r: -r.delta)[:_TRIED] if _stands_out(one)]
     return [one for one in found if one.share >= NAMING_SHARE]
