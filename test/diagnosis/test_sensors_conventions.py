@@ -41,7 +41,7 @@ def gravity(r: Recording) -> Recording:
 
 
 def names(*runs: Recording) -> list[tuple[str, tuple[str, ...]]]:
-    found = find_conventions([read_signals(r) for r in runs], [False] * len(runs), runs,
+    found = find_conventions([read_signals(r) for r in runs], [False] * len(runs),
                              stated_geometry(runs))  # fmt: skip
     return [(f.convention.name, f.convention.channels) for f in found]
 
@@ -227,7 +227,7 @@ def test_an_angle_that_is_mounted_askew_is_not_of_the_other_sign() -> None:
     """The side speed that it adds falls with the speed; another sign would take it away as well."""
     runs = [braking_askew(seed) for seed in range(4)]
     truck = vehicle_geometry(load_vehicle("international_9400i_trailmobile"))
-    assert find_conventions([read_signals(r) for r in runs], [False] * 4, runs, truck) == ()
+    assert find_conventions([read_signals(r) for r in runs], [False] * 4, truck) == ()
 
 
 def share(change: Callable[[Recording], Recording], channel: str) -> float:

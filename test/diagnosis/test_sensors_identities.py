@@ -6,6 +6,7 @@ from trial_drive import make_run
 
 from truck_blowout_sim.diagnosis.sensors import sensor_gate, stated_geometry
 from truck_blowout_sim.diagnosis.sensors.case import make_case
+from truck_blowout_sim.diagnosis.sensors.geometry import Geometry
 from truck_blowout_sim.diagnosis.sensors.hubs import free_rolling
 from truck_blowout_sim.diagnosis.sensors.identities import (
     Identity,
@@ -74,7 +75,7 @@ def test_gravity_that_was_removed_is_not_looked_for() -> None:
 def test_braked_and_blown_wheels_are_not_asked() -> None:
     pressure = Series(SIGNALS.time_s, np.where(SIGNALS.time_s > 6.0, 2e5, 0.0))
     braked = EXACT.with_channels({"brake_pressure_trailer_pa": pressure})
-    free = free_rolling(read_signals(braked), "trailer")
+    free = free_rolling(read_signals(braked), "trailer", Geometry())
     assert free[SIGNALS.time_s < 5.9].all()
     assert not free[SIGNALS.time_s > 6.1].any()
     blown = EXACT.__class__(
@@ -87,6 +88,21 @@ def test_braked_and_blown_wheels_are_not_asked() -> None:
              for unit in ("tractor", "trailer")}
     assert 2.0 < asked["tractor"].max() < 3.0
     assert asked["trailer"].max() > 5.0
+
+
+def test_a_steered_wheel_is_asked_only_while_it_points_nearly_ahead() -> None:
+    """Sliding straight on, a wheel steered by delta rolls at v cos(delta): v delta^2 / 2 slower."""
+    speed_mps, ratio, radius_varies_mps = 20.0, 20.0, 0.01
+    time_s = SIGNALS.time_s
+    straight = {"tractor_vx_mps": Series(time_s, np.full_like(time_s, speed_mps)),
+                "tractor_yaw_rate_radps": Series(time_s, np.zeros_like(time_s))}
+    just_rad = np.sqrt(2.0 * radius_varies_mps / speed_mps)
+    for share, asked in ((0.9, True), (1.1, False)):
+        wheel = Series(time_s, np.full_like(time_s, -share * just_rad * ratio))
+        turned = read_signals(EXACT.with_channels({**straight, "steering_wheel_angle_rad": wheel}))
+        free = free_rolling(turned, "tractor", Geometry(steering_ratio=ratio))
+        assert free.all() if asked else not free.any()
+        assert free_rolling(turned, "trailer", Geometry(steering_ratio=ratio)).all()
 
 
 def test_missing_channels_drop_their_identities_only() -> None:

@@ -31,8 +31,7 @@ from truck_blowout_sim.diagnosis.sensors.gravity import look_alikes
 from truck_blowout_sim.diagnosis.sensors.hubs import axle_pairs
 from truck_blowout_sim.diagnosis.sensors.identities import channel_names
 from truck_blowout_sim.diagnosis.sensors.reading import Reading
-from truck_blowout_sim.diagnosis.sensors.signals import WHEEL, Signals, read_wheel
-from truck_blowout_sim.recordings import Recording
+from truck_blowout_sim.diagnosis.sensors.signals import WHEEL, Signals
 from truck_blowout_sim.recordings.channels import UNITS, hub_of
 from truck_blowout_sim.recordings.gravity import ACCELERATIONS
 
@@ -79,19 +78,16 @@ class FoundConvention:
 
 
 def find_conventions(
-    signals: Sequence[Signals], is_baseline: Sequence[bool], recordings: Sequence[Recording],
-    geometry: Geometry,
-) -> tuple[FoundConvention, ...]:  # fmt: skip
+    signals: Sequence[Signals], is_baseline: Sequence[bool], geometry: Geometry
+) -> tuple[FoundConvention, ...]:
     """Signs, exchanges and gravity that are not as stated, the clearest first.
 
     Args:
         signals: of each recording, as measured.
         is_baseline: flag of each.
-        recordings: the same, for the hand wheel.
         geometry: lengths, for what both units share.
     """
-    logs = [Reading.of(_with_wheel(s, r), geometry)
-            for s, r in zip(signals, recordings, strict=True)]  # fmt: skip
+    logs = [Reading.of(_with_wheel(s), geometry) for s in signals]
     flags = np.array(is_baseline)
     found: list[FoundConvention] = []
     while len(found) < _MOST:
@@ -220,6 +216,6 @@ def _unlike(found: Sequence[Convention]) -> list[Convention]:
     return list(seen.values())
 
 
-def _with_wheel(signals: Signals, recording: Recording) -> Signals:
-    wheel = read_wheel(signals, recording)
+def _with_wheel(signals: Signals) -> Signals:
+    wheel = signals.wheel_rad
     return signals if wheel is None else signals.with_values({WHEEL: wheel})

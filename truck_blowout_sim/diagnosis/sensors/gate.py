@@ -70,10 +70,8 @@ def sensor_gate(
         undone(s, applied(result.found), baseline=b)
         for s, b in zip(case.signals, case.is_baseline, strict=True)
     ]
-    zero, wheel, notes = steering_zero(
-        signals, case.is_baseline, [*recordings, *baseline], case.geometry.steering_ratio
-    )
-    late = late_hand_wheel(signals, case.is_baseline, [*recordings, *baseline])
+    zero, wheel, notes = steering_zero(signals, case.is_baseline, case.geometry.steering_ratio)
+    late = late_hand_wheel(signals, case.is_baseline)
     findings += [one for one in (late, wheel) if one is not None]
     residuals = identity_residuals(result)
     return GateResult(
@@ -96,7 +94,7 @@ def _as_meant(
     """Signs, axes and gravity that are not as stated, and the recordings read as they are meant."""
     everything = [*recordings, *baseline]
     flags = [False] * len(recordings) + [True] * len(baseline)
-    found = find_conventions([read_signals(r) for r in everything], flags, everything,
+    found = find_conventions([read_signals(r) for r in everything], flags,
                              stated_geometry(everything, geometry))  # fmt: skip
     runs, sound = list(recordings), list(baseline)
     for one in found:

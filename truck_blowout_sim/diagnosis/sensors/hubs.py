@@ -3,7 +3,9 @@
 A braked or driven wheel slips, and physics may explain that; so only hubs that neither brake nor
 drive are asked, and all hubs of a unit are averaged: a speed sensor's gain moves them together, a
 tire's radius moves one. Once a tire of the unit is blown, its load is on the others, whose radii
-shrink: from then on nothing is asked.
+shrink: from then on nothing is asked. A wheel that is steered by delta rolls at v cos(delta) where
+the vehicle slides on straight ahead, and at v / cos(delta) where it does not slide: about v delta^2
+/ 2 from v either way, so it is asked only where that is less than what the radii vary by.
 
 Known limits: without a baseline the rolling radius is unknown to 5 %, so the mean
 level says nothing about a gain; only changes against the baseline do.
@@ -44,10 +46,10 @@ def hub_channels(signals: Signals, unit: str, geometry: Geometry) -> tuple[str, 
     return tuple(n for n in mine if not geometry.drives(hub_of(n)))
 
 
-def free_rolling(signals: Signals, unit: str) -> BoolArray:
-    """Samples at which the unit's undriven hubs roll: neither braked nor in a hard turn.
+def free_rolling(signals: Signals, unit: str, geometry: Geometry) -> BoolArray:
+    """Samples at which the unit's undriven hubs roll straight: not braked, nor in a hard turn.
 
-    There steered wheels point elsewhere, and load makes one radius smaller than the other.
+    There load makes one radius smaller than the other. Nor steered: the wheels point elsewhere.
     """
     circuit, names = "trailer" if unit == "trailer" else "steer", channel_names(unit)
     speed = signals[names["vx"]]
@@ -55,6 +57,9 @@ def free_rolling(signals: Signals, unit: str) -> BoolArray:
     if names["r"] in signals:
         turning = smoothed(signals[names["r"]], _TURN_S / signals.period_s) * speed
         free &= ~(np.abs(turning) > _HARD_TURN_MPS2)
+    if unit == "tractor" and signals.wheel_rad is not None:
+        turned = smoothed(signals.wheel_rad, _TURN_S / signals.period_s) / geometry.steering_ratio
+        free &= ~(0.5 * speed * turned**2 > _MODEL_SIGMA_MPS)
     pressure = f"brake_pressure_{circuit}_pa"
     if pressure in signals:
         braked = ~(signals[pressure] < _BRAKE_FREE_PA)
@@ -73,7 +78,7 @@ def rolling_radii(all_signals: Sequence[Signals], geometry: Geometry) -> Mapping
             n = channel_names(unit)
             if n["vx"] not in signals:
                 continue
-            free = free_rolling(signals, unit)
+            free = free_rolling(signals, unit, geometry)
             for channel in hub_channels(signals, unit, geometry):
                 sound = free & _sound(signals, channel)
                 speed = signals[n["vx"]] - signals[n["r"]] * geometry.hub_left_m(hub_of(channel))
@@ -92,7 +97,7 @@ def hub_identity(
     hubs = tuple(c for c in hub_channels(signals, unit, geometry) if c in radii)
     if not hubs or n["vx"] not in signals:
         return None
-    masked = np.where(_asked(signals, unit), 0.0, np.nan)
+    masked = np.where(_asked(signals, unit, geometry), 0.0, np.nan)
     left = {c: geometry.hub_left_m(hub_of(c)) for c in hubs}
 
     def residual(s: Signals) -> FloatArray:
@@ -128,7 +133,7 @@ def _axle_identity(signals: Signals, pair: tuple[str, str], geometry: Geometry) 
         return None
     track_m = geometry.hub_left_m(hub_of(left)) - geometry.hub_left_m(hub_of(right))
     both = 0.5 * (signals[left] + signals[right])
-    asked = _asked(signals, unit) & (both > TURNS_RADPS) & np.isfinite(signals[n["vx"]])
+    asked = _asked(signals, unit, geometry) & (both > TURNS_RADPS) & np.isfinite(signals[n["vx"]])
     if asked.sum() <= _FEWEST:
         return None
     masked = np.where(asked, 0.0, np.nan)
@@ -143,9 +148,9 @@ def _axle_identity(signals: Signals, pair: tuple[str, str], geometry: Geometry) 
         (n["r"], left, right), (), residual, (), _MODEL_SIGMA_MPS)
 
 
-def _asked(signals: Signals, unit: str) -> BoolArray:
+def _asked(signals: Signals, unit: str, geometry: Geometry) -> BoolArray:
     """Samples at which the unit's wheels roll freely, and on sound tires."""
-    return free_rolling(signals, unit) & (signals.time_s < _blown_since(signals, unit))
+    return free_rolling(signals, unit, geometry) & (signals.time_s < _blown_since(signals, unit))
 
 
 def _blown_since(signals: Signals, unit: str) -> float:

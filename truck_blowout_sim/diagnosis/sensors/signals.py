@@ -45,6 +45,7 @@ class Signals:
         gravity: by unit, 1 if its accelerometers are said (or silently assumed) to read gravity,
             0 if it is said to be removed.
         blown_since_s: instant from which each hub rolls on a blown tire.
+        wheel_rad: hand-wheel angle on the grid; ``None`` where it was not recorded.
     """
 
     name: str
@@ -52,6 +53,7 @@ class Signals:
     values: Mapping[str, FloatArray]
     gravity: Mapping[str, float]
     blown_since_s: Mapping[str, float]
+    wheel_rad: FloatArray | None = None
     _remembered: dict[tuple[str, float, float], tuple[FloatArray | None, FloatArray]] = field(
         default_factory=dict, compare=False, repr=False)
 
@@ -152,7 +154,8 @@ def read_signals(recording: Recording) -> Signals:
     finest = min(body, key=lambda series: (series.period_s, -len(series)))
     period_s = round(finest.period_s, 9)
     start, end = float(finest.time_s[0]), float(finest.time_s[-1])
-    time_s = start + period_s * np.arange(int(np.floor((end - start) / period_s + 0.5)) + 1)
+    steps = np.arange(int(np.floor((end - start) / period_s + 0.5)) + 1)
+    time_s = np.asarray(start + period_s * steps, dtype=np.float64)
     values = {}
     for name, series in recording.channels.items():
         if len(series) < 2 or not name.startswith(_ASKED):
@@ -165,18 +168,18 @@ def read_signals(recording: Recording) -> Signals:
         values[name] = _unwrapped(found) if name.endswith("_yaw_rad") else found
     return Signals(
         name=recording.name,
-        time_s=np.asarray(time_s, dtype=np.float64),
+        time_s=time_s,
         values=values,
         gravity={unit: float(not gravity_is_removed(recording, unit)) for unit in UNITS},
         blown_since_s=_blown_hubs(recording),
+        wheel_rad=_wheel(recording, time_s),
     )
 
 
-def read_wheel(signals: Signals, recording: Recording) -> FloatArray | None:
-    """The hand-wheel angle on the grid of the signals; None where it was not recorded."""
+def _wheel(recording: Recording, time_s: FloatArray) -> FloatArray | None:
     if WHEEL not in recording or len(recording[WHEEL]) < 2:
         return None
-    return np.asarray(recording.at(WHEEL, signals.time_s), dtype=np.float64)
+    return np.asarray(recording.at(WHEEL, time_s), dtype=np.float64)
 
 
 def _unwrapped(angle: FloatArray) -> FloatArray:

@@ -26,10 +26,9 @@ from scipy.stats import norm
 from truck_blowout_sim.diagnosis.sensors.distortions import Bias
 from truck_blowout_sim.diagnosis.sensors.findings import Amount, SensorFinding, SteeringZero
 from truck_blowout_sim.diagnosis.sensors.identities import channel_names
-from truck_blowout_sim.diagnosis.sensors.signals import WHEEL, Signals, read_wheel, smoothed
+from truck_blowout_sim.diagnosis.sensors.signals import WHEEL, Signals, smoothed
 from truck_blowout_sim.diagnosis.sensors.wheel_delay import Steered, late_wheel
 from truck_blowout_sim.diagnosis.sensors.words import equation, next_test, sentence
-from truck_blowout_sim.recordings import Recording
 
 FloatArray = NDArray[np.float64]
 
@@ -58,15 +57,13 @@ class _Run:
 
 
 def steering_zero(
-    signals: Sequence[Signals], is_baseline: Sequence[bool], recordings: Sequence[Recording],
-    ratio: float = 22.0,
+    signals: Sequence[Signals], is_baseline: Sequence[bool], ratio: float = 22.0
 ) -> tuple[SteeringZero | None, SensorFinding | None, tuple[str, ...]]:
     """Estimate the hand-wheel zero and say whether its sensor is to blame.
 
     Args:
         signals: corrected for other sensor faults.
         is_baseline: flag of each.
-        recordings: the same, for the hand wheel itself.
         ratio: hand-wheel angle per road-wheel angle.
 
     Returns:
@@ -74,8 +71,8 @@ def steering_zero(
     """
     runs = [
         run
-        for s, b, r in zip(signals, is_baseline, recordings, strict=True)
-        for run in (_run(s, b, r),)
+        for s, b in zip(signals, is_baseline, strict=True)
+        for run in (_run(s, b),)
         if run is not None
     ]
     if not any(not run.is_baseline for run in runs):
@@ -145,9 +142,9 @@ def _finding(offset: float, sigma: float) -> SensorFinding:
     )
 
 
-def _run(signals: Signals, is_baseline: bool, recording: Recording) -> _Run | None:
+def _run(signals: Signals, is_baseline: bool) -> _Run | None:
     moves = _motion(signals, _SMOOTH_S)
-    if WHEEL not in recording or moves is None:
+    if signals.wheel_rad is None or moves is None:
         return None
     motion, used = moves
     stride = max(1, round(_STRIDE_S / signals.period_s))
@@ -155,7 +152,7 @@ def _run(signals: Signals, is_baseline: bool, recording: Recording) -> _Run | No
     if chosen.size < _LEAST_SAMPLES:
         return None
     width = _SMOOTH_S / signals.period_s
-    wheel = smoothed(recording.at(WHEEL, signals.time_s), width)
+    wheel = smoothed(signals.wheel_rad, width)
     n, m = channel_names("tractor"), channel_names("trailer")
     both = m["yaw"] in signals and n["yaw"] in signals
     bend = (smoothed(signals[m["yaw"]] - signals[n["yaw"]], width) if both
@@ -183,15 +180,16 @@ def _motion(signals: Signals, smooth_s: float) -> tuple[FloatArray, NDArray[np.b
 
 
 def late_hand_wheel(
-    signals: Sequence[Signals], is_baseline: Sequence[bool], recordings: Sequence[Recording]
+    signals: Sequence[Signals], is_baseline: Sequence[bool]
 ) -> SensorFinding | None:
     """The finding that the hand wheel reads late; arguments as in :func:`steering_zero`."""
     runs = []
-    for s, baseline, recording in zip(signals, is_baseline, recordings, strict=True):
-        wheel, moves = read_wheel(s, recording), _motion(s, _SMOOTH_LITTLE_S)
-        if baseline or wheel is None or moves is None:
+    for s, baseline in zip(signals, is_baseline, strict=True):
+        moves = _motion(s, _SMOOTH_LITTLE_S)
+        if baseline or s.wheel_rad is None or moves is None:
             continue
-        runs.append(Steered(smoothed(wheel, _SMOOTH_LITTLE_S / s.period_s), *moves, s.period_s))
+        wheel = smoothed(s.wheel_rad, _SMOOTH_LITTLE_S / s.period_s)
+        runs.append(Steered(wheel, *moves, s.period_s))
     return late_wheel(runs)
 
 
