@@ -4,11 +4,12 @@ A braked or driven wheel slips, and physics may explain that; so only hubs that 
 drive are asked, and all hubs of a unit are averaged: a speed sensor's gain moves them together, a
 tire's radius moves one. Once a tire of the unit is blown, its load is on the others, whose radii
 shrink: from then on nothing is asked. A wheel that is steered by delta rolls at v cos(delta) where
-the vehicle slides on straight ahead, and at v / cos(delta) where it does not slide: about v delta^2
-/ 2 from v either way, so it is asked only where that is less than what the radii vary by.
+the vehicle slides on straight ahead, and at v / cos(delta) where it does not slide. Both differ
+from v by about v delta^2 / 2. It is asked only where this is less than what the radii vary by.
 
 Known limits: without a baseline the rolling radius is unknown to 5 %, so the mean
-level says nothing about a gain; only changes against the baseline do.
+level says nothing about a gain; only changes against the baseline do. Every axle of the first unit
+counts as steered.
 Validated with: test/diagnosis/test_sensors_identities.py.
 """
 
@@ -47,9 +48,9 @@ def hub_channels(signals: Signals, unit: str, geometry: Geometry) -> tuple[str, 
 
 
 def free_rolling(signals: Signals, unit: str, geometry: Geometry) -> BoolArray:
-    """Samples at which the unit's undriven hubs roll straight: not braked, nor in a hard turn.
+    """Samples at which the unit's undriven hubs roll freely: not braked, in a hard turn or steered.
 
-    There load makes one radius smaller than the other. Nor steered: the wheels point elsewhere.
+    In a hard turn, load makes one radius smaller than the other; a steered wheel points elsewhere.
     """
     circuit, names = "trailer" if unit == "trailer" else "steer", channel_names(unit)
     speed = signals[names["vx"]]
@@ -120,20 +121,28 @@ def axle_pairs(signals: Signals) -> tuple[tuple[str, str], ...]:
 
 def axle_identities(signals: Signals, geometry: Geometry) -> tuple[Identity, ...]:
     """In a turn the outer wheel of an axle rolls faster than the inner one."""
-    found = (_axle_identity(signals, pair, geometry) for pair in axle_pairs(signals))
+    pairs = {pair: _unit_of(pair) for pair in axle_pairs(signals)}
+    asked = {unit: _asked(signals, unit, geometry) for unit in set(pairs.values())}
+    found = (_axle_identity(signals, pair, unit, asked[unit], geometry)
+             for pair, unit in pairs.items())
     return tuple(one for one in found if one)
 
 
-def _axle_identity(signals: Signals, pair: tuple[str, str], geometry: Geometry) -> Identity | None:
-    """None where the axle rolls freely in too few samples."""
+def _unit_of(pair: tuple[str, str]) -> str:
+    """Unit that an axle carries."""
+    return "trailer" if hub_of(pair[0]).startswith("trailer") else "tractor"
+
+
+def _axle_identity(signals: Signals, pair: tuple[str, str], unit: str, asked: BoolArray,
+                   geometry: Geometry) -> Identity | None:
+    """None where the axle rolls freely in too few samples; ``asked``: those of its unit."""
     (left, right), axle = pair, hub_of(pair[0]).rpartition("_")[0]
-    unit = "trailer" if axle.startswith("trailer") else "tractor"
     n = channel_names(unit)
     if n["vx"] not in signals or n["r"] not in signals:
         return None
     track_m = geometry.hub_left_m(hub_of(left)) - geometry.hub_left_m(hub_of(right))
     both = 0.5 * (signals[left] + signals[right])
-    asked = _asked(signals, unit, geometry) & (both > TURNS_RADPS) & np.isfinite(signals[n["vx"]])
+    asked = asked & (both > TURNS_RADPS) & np.isfinite(signals[n["vx"]])
     if asked.sum() <= _FEWEST:
         return None
     masked = np.where(asked, 0.0, np.nan)
